@@ -1,0 +1,413 @@
+//! Frames in the type. A [`Vec3`] carries the frame it is expressed in; a [`Rotation`] carries from which frame into which.
+//!
+//! * [`Ned`]: local tangent plane at the scenario origin, axes north, east, down. Flight and MAVLink live here.
+//! * [`Enu`]: the same plane and origin, axes east, north, up. Site, scenario and assessment live here.
+//! * [`Frd`]: body, axes forward, right, down, origin at the centre of mass.
+//!
+//! Free conversion exists only between [`Ned`] and [`Enu`]; everything else needs a [`Rotation`].
+
+use super::math;
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// Local tangent plane: x north, y east, z down.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ned;
+/// Local tangent plane: x east, y north, z up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Enu;
+/// Body: x forward, y right, z down.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Frd;
+
+/// Three components expressed in frame `F`. The quantity and its unit are in the variable's name.
+pub struct Vec3<F> {
+    v: Vector3<f64>,
+    frame: PhantomData<F>,
+}
+
+impl<F> Vec3<F> {
+    /// From the three components in the frame's axis order.
+    #[must_use]
+    pub const fn new(x: f64, y: f64, z: f64) -> Self {
+        Self { v: Vector3::new(x, y, z), frame: PhantomData }
+    }
+
+    /// The zero vector.
+    #[must_use]
+    pub const fn zero() -> Self {
+        Self::new(0.0, 0.0, 0.0)
+    }
+
+    /// Claims that raw components are expressed in `F`. Say why at the call: `// FRAME: …`.
+    #[must_use]
+    pub const fn assume(v: Vector3<f64>) -> Self {
+        Self { v, frame: PhantomData }
+    }
+
+    /// The raw components, for matrix algebra.
+    #[must_use]
+    pub const fn raw(self) -> Vector3<f64> {
+        self.v
+    }
+
+    /// The components as an array.
+    #[must_use]
+    pub fn array(self) -> [f64; 3] {
+        [self.v.x, self.v.y, self.v.z]
+    }
+
+    /// Scalar product.
+    #[must_use]
+    pub fn dot(self, other: Self) -> f64 {
+        self.v.dot(&other.v)
+    }
+
+    /// Vector product.
+    #[must_use]
+    pub fn cross(self, other: Self) -> Self {
+        Self::assume(self.v.cross(&other.v))
+    }
+
+    /// Euclidean length.
+    #[must_use]
+    pub fn norm(self) -> f64 {
+        self.v.norm()
+    }
+
+    /// Squared length.
+    #[must_use]
+    pub fn norm_squared(self) -> f64 {
+        self.v.norm_squared()
+    }
+
+    /// The unit vector of the same direction; zero for a vector shorter than 1e-300.
+    #[must_use]
+    pub fn unit(self) -> Self {
+        let norm = self.norm();
+        if norm < 1e-300 { Self::zero() } else { self / norm }
+    }
+
+    /// The vector shortened to `limit` when it is longer.
+    #[must_use]
+    pub fn limited(self, limit: f64) -> Self {
+        let norm = self.norm();
+        if norm > limit { self * (limit / norm) } else { self }
+    }
+
+    /// True when no component is NaN or infinite.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.v.iter().all(|c| c.is_finite())
+    }
+
+    /// Linear interpolation to `other`.
+    #[must_use]
+    pub fn lerp(self, other: Self, t: f64) -> Self {
+        self + (other - self) * t
+    }
+}
+
+impl Vec3<Ned> {
+    /// North component.
+    #[must_use]
+    pub fn north(self) -> f64 {
+        self.v.x
+    }
+    /// East component.
+    #[must_use]
+    pub fn east(self) -> f64 {
+        self.v.y
+    }
+    /// Down component.
+    #[must_use]
+    pub fn down(self) -> f64 {
+        self.v.z
+    }
+    /// The same vector with east, north, up components.
+    #[must_use]
+    pub fn enu(self) -> Vec3<Enu> {
+        Vec3::new(self.v.y, self.v.x, -self.v.z)
+    }
+    /// Horizontal length.
+    #[must_use]
+    pub fn horizontal_norm(self) -> f64 {
+        (self.v.x * self.v.x + self.v.y * self.v.y).sqrt()
+    }
+}
+
+impl Vec3<Enu> {
+    /// East component.
+    #[must_use]
+    pub fn east(self) -> f64 {
+        self.v.x
+    }
+    /// North component.
+    #[must_use]
+    pub fn north(self) -> f64 {
+        self.v.y
+    }
+    /// Up component.
+    #[must_use]
+    pub fn up(self) -> f64 {
+        self.v.z
+    }
+    /// The same vector with north, east, down components.
+    #[must_use]
+    pub fn ned(self) -> Vec3<Ned> {
+        Vec3::new(self.v.y, self.v.x, -self.v.z)
+    }
+    /// Horizontal length.
+    #[must_use]
+    pub fn horizontal_norm(self) -> f64 {
+        (self.v.x * self.v.x + self.v.y * self.v.y).sqrt()
+    }
+}
+
+impl Vec3<Frd> {
+    /// Forward component.
+    #[must_use]
+    pub fn forward(self) -> f64 {
+        self.v.x
+    }
+    /// Right component.
+    #[must_use]
+    pub fn right(self) -> f64 {
+        self.v.y
+    }
+    /// Down component.
+    #[must_use]
+    pub fn down(self) -> f64 {
+        self.v.z
+    }
+}
+
+impl<F> Clone for Vec3<F> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<F> Copy for Vec3<F> {}
+impl<F> PartialEq for Vec3<F> {
+    fn eq(&self, other: &Self) -> bool {
+        self.v == other.v
+    }
+}
+impl<F> Default for Vec3<F> {
+    fn default() -> Self {
+        Self::zero()
+    }
+}
+impl<F> fmt::Debug for Vec3<F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "[{}, {}, {}]", self.v.x, self.v.y, self.v.z)
+    }
+}
+impl<F> Add for Vec3<F> {
+    type Output = Self;
+    fn add(self, rhs: Self) -> Self {
+        Self::assume(self.v + rhs.v)
+    }
+}
+impl<F> Sub for Vec3<F> {
+    type Output = Self;
+    fn sub(self, rhs: Self) -> Self {
+        Self::assume(self.v - rhs.v)
+    }
+}
+impl<F> AddAssign for Vec3<F> {
+    fn add_assign(&mut self, rhs: Self) {
+        self.v += rhs.v;
+    }
+}
+impl<F> SubAssign for Vec3<F> {
+    fn sub_assign(&mut self, rhs: Self) {
+        self.v -= rhs.v;
+    }
+}
+impl<F> Neg for Vec3<F> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::assume(-self.v)
+    }
+}
+impl<F> Mul<f64> for Vec3<F> {
+    type Output = Self;
+    fn mul(self, rhs: f64) -> Self {
+        Self::assume(self.v * rhs)
+    }
+}
+impl<F> Div<f64> for Vec3<F> {
+    type Output = Self;
+    fn div(self, rhs: f64) -> Self {
+        Self::assume(self.v / rhs)
+    }
+}
+
+/// Turns a vector's components from frame `From` into frame `To` (`to_from * vector_in_from`). `Rotation<Frd, Ned>` is the
+/// attitude of the body, the quaternion that MAVLink sends.
+pub struct Rotation<From, To> {
+    q: UnitQuaternion<f64>,
+    frames: PhantomData<(From, To)>,
+}
+
+impl<A, B> Rotation<A, B> {
+    /// Both frames' axes coincide.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self::assume(UnitQuaternion::identity())
+    }
+
+    /// Claims that a raw quaternion rotates from `A` into `B`. Say why at the call: `// FRAME: …`.
+    #[must_use]
+    pub fn assume(q: UnitQuaternion<f64>) -> Self {
+        Self { q, frames: PhantomData }
+    }
+
+    /// From the components w, x, y, z, normalised; `None` when they are not finite or all near zero.
+    #[must_use]
+    pub fn from_wxyz(wxyz: [f64; 4]) -> Option<Self> {
+        let q = Quaternion::new(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+        let norm = q.norm();
+        (norm.is_finite() && norm > 1e-9).then(|| Self::assume(UnitQuaternion::new_normalize(q)))
+    }
+
+    /// The components w, x, y, z.
+    #[must_use]
+    pub fn wxyz(self) -> [f64; 4] {
+        [self.q.w, self.q.i, self.q.j, self.q.k]
+    }
+
+    /// The raw quaternion.
+    #[must_use]
+    pub fn raw(self) -> UnitQuaternion<f64> {
+        self.q
+    }
+
+    /// The rotation matrix.
+    #[must_use]
+    pub fn matrix(self) -> Matrix3<f64> {
+        *self.q.to_rotation_matrix().matrix()
+    }
+
+    /// The way back.
+    #[must_use]
+    pub fn inverse(self) -> Rotation<B, A> {
+        Rotation::assume(self.q.inverse())
+    }
+
+    /// First `self` (A to B), then `next` (B to C).
+    #[must_use]
+    pub fn then<C>(self, next: Rotation<B, C>) -> Rotation<A, C> {
+        Rotation::assume(next.q * self.q)
+    }
+
+    /// Turned further by a rotation vector (axis times angle in radians) expressed in the source frame `A`.
+    #[must_use]
+    pub fn turned_by(self, rotation_vector_rad: Vec3<A>) -> Self {
+        let v = rotation_vector_rad.raw();
+        let angle = v.norm();
+        let (s, c) = math::sin_cos(angle * 0.5);
+        // The series keeps the quotient finite where the angle vanishes.
+        let k = if angle > 1e-9 { s / angle } else { 0.5 };
+        let dq = Quaternion::new(c, v.x * k, v.y * k, v.z * k);
+        Self::assume(UnitQuaternion::new_normalize(self.q.into_inner() * dq))
+    }
+}
+
+impl Rotation<Frd, Ned> {
+    /// From roll, pitch and yaw in radians (intrinsic z-y-x, as MAVLink's ATTITUDE).
+    #[must_use]
+    pub fn from_euler(roll_rad: f64, pitch_rad: f64, yaw_rad: f64) -> Self {
+        let (sr, cr) = math::sin_cos(roll_rad * 0.5);
+        let (sp, cp) = math::sin_cos(pitch_rad * 0.5);
+        let (sy, cy) = math::sin_cos(yaw_rad * 0.5);
+        Self::assume(UnitQuaternion::new_normalize(Quaternion::new(
+            cr * cp * cy + sr * sp * sy,
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+        )))
+    }
+
+    /// Roll, pitch and yaw in radians (intrinsic z-y-x).
+    #[must_use]
+    pub fn euler(self) -> (f64, f64, f64) {
+        let [w, x, y, z] = self.wxyz();
+        let roll = math::atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y));
+        let pitch = math::asin(2.0 * (w * y - z * x));
+        let yaw = math::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z));
+        (roll, pitch, yaw)
+    }
+
+    /// Yaw in radians, clockwise from north.
+    #[must_use]
+    pub fn yaw_rad(self) -> f64 {
+        self.euler().2
+    }
+}
+
+impl<A, B> Clone for Rotation<A, B> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<A, B> Copy for Rotation<A, B> {}
+impl<A, B> PartialEq for Rotation<A, B> {
+    fn eq(&self, other: &Self) -> bool {
+        self.q == other.q
+    }
+}
+impl<A, B> fmt::Debug for Rotation<A, B> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}", self.wxyz())
+    }
+}
+impl<A, B> Mul<Vec3<A>> for Rotation<A, B> {
+    type Output = Vec3<B>;
+    fn mul(self, rhs: Vec3<A>) -> Vec3<B> {
+        Vec3::assume(self.q * rhs.raw())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of a handful of f64 operations, no unit.
+    const ROUNDING: f64 = 1e-14;
+
+    #[test]
+    fn exact_ned_and_enu_name_the_same_vector() {
+        let v: Vec3<Ned> = Vec3::new(1.0, 2.0, 3.0);
+        assert_eq!(v.enu(), Vec3::new(2.0, 1.0, -3.0));
+        assert_eq!(v.enu().ned(), v);
+    }
+
+    #[test]
+    fn exact_a_quarter_turn_to_the_right_points_the_nose_east() {
+        let attitude = Rotation::from_euler(0.0, 0.0, math::FRAC_PI_2);
+        let nose = attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
+        assert!((nose - Vec3::new(0.0, 1.0, 0.0)).norm() < ROUNDING);
+    }
+
+    #[test]
+    fn exact_nose_up_pitch_lifts_the_nose() {
+        let nose = Rotation::from_euler(0.0, 0.1, 0.0) * Vec3::<Frd>::new(1.0, 0.0, 0.0);
+        assert!(nose.down() < 0.0);
+    }
+
+    #[test]
+    fn exact_euler_angles_come_back() {
+        let (r, p, y) = Rotation::from_euler(0.3, -0.4, 2.5).euler();
+        assert!((r - 0.3).abs() < ROUNDING && (p + 0.4).abs() < ROUNDING && (y - 2.5).abs() < ROUNDING);
+    }
+
+    #[test]
+    fn exact_turned_by_yaw_rate_turns_clockwise_seen_from_above() {
+        let turned = Rotation::from_euler(0.0, 0.0, 0.0).turned_by(Vec3::new(0.0, 0.0, 0.2));
+        assert!((turned.yaw_rad() - 0.2).abs() < ROUNDING);
+    }
+}

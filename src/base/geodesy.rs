@@ -1,0 +1,125 @@
+//! WGS84 and the local tangent plane at the scenario origin. A point's local coordinates are exact ENU about the origin
+//! (through earth-centred coordinates), not a flat-earth shortcut.
+
+use super::frames::{Enu, Vec3};
+use super::math;
+
+/// WGS84 semi-major axis, m (NIMA TR8350.2).
+pub const SEMI_MAJOR_M: f64 = 6_378_137.0;
+/// WGS84 flattening (NIMA TR8350.2).
+pub const FLATTENING: f64 = 1.0 / 298.257_223_563;
+const E2: f64 = FLATTENING * (2.0 - FLATTENING);
+
+/// A geographic position: degrees and metres above the ellipsoid. The simulator takes mean sea level as the ellipsoid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Geo {
+    /// Latitude, degrees north.
+    pub latitude_deg: f64,
+    /// Longitude, degrees east.
+    pub longitude_deg: f64,
+    /// Altitude, metres.
+    pub altitude_m: f64,
+}
+
+/// The local tangent plane about an origin; made once, it converts both ways.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LocalPlane {
+    origin: Geo,
+    origin_ecef_m: [f64; 3],
+    sin_cos_lat: (f64, f64),
+    sin_cos_lon: (f64, f64),
+}
+
+impl LocalPlane {
+    /// The plane that touches the ellipsoid's parallel surface at `origin`.
+    #[must_use]
+    pub fn new(origin: Geo) -> Self {
+        Self {
+            origin,
+            origin_ecef_m: ecef_from_geo(origin),
+            sin_cos_lat: math::sin_cos(origin.latitude_deg.to_radians()),
+            sin_cos_lon: math::sin_cos(origin.longitude_deg.to_radians()),
+        }
+    }
+
+    /// The origin.
+    #[must_use]
+    pub fn origin(&self) -> Geo {
+        self.origin
+    }
+
+    /// Local position (m) of a geographic one.
+    #[must_use]
+    pub fn enu_from_geo(&self, geo: Geo) -> Vec3<Enu> {
+        let p = ecef_from_geo(geo);
+        let d = [p[0] - self.origin_ecef_m[0], p[1] - self.origin_ecef_m[1], p[2] - self.origin_ecef_m[2]];
+        let (sl, cl) = self.sin_cos_lat;
+        let (so, co) = self.sin_cos_lon;
+        Vec3::new(
+            -so * d[0] + co * d[1],
+            -sl * co * d[0] - sl * so * d[1] + cl * d[2],
+            cl * co * d[0] + cl * so * d[1] + sl * d[2],
+        )
+    }
+
+    /// Geographic position of a local one (m).
+    #[must_use]
+    pub fn geo_from_enu(&self, enu_m: Vec3<Enu>) -> Geo {
+        let (sl, cl) = self.sin_cos_lat;
+        let (so, co) = self.sin_cos_lon;
+        let [e, n, u] = enu_m.array();
+        geo_from_ecef([
+            self.origin_ecef_m[0] - so * e - sl * co * n + cl * co * u,
+            self.origin_ecef_m[1] + co * e - sl * so * n + cl * so * u,
+            self.origin_ecef_m[2] + cl * n + sl * u,
+        ])
+    }
+}
+
+fn ecef_from_geo(geo: Geo) -> [f64; 3] {
+    let (sl, cl) = math::sin_cos(geo.latitude_deg.to_radians());
+    let (so, co) = math::sin_cos(geo.longitude_deg.to_radians());
+    let n = SEMI_MAJOR_M / (1.0 - E2 * sl * sl).sqrt();
+    let h = geo.altitude_m;
+    [(n + h) * cl * co, (n + h) * cl * so, (n * (1.0 - E2) + h) * sl]
+}
+
+/// Bowring's iteration; below a nanometre after three rounds for heights within 10 km of the ellipsoid.
+fn geo_from_ecef(p: [f64; 3]) -> Geo {
+    let r = math::hypot(p[0], p[1]);
+    let mut lat = math::atan2(p[2], r * (1.0 - E2));
+    let mut n = SEMI_MAJOR_M;
+    for _ in 0..4 {
+        let s = math::sin(lat);
+        n = SEMI_MAJOR_M / (1.0 - E2 * s * s).sqrt();
+        lat = math::atan2(p[2] + E2 * n * s, r);
+    }
+    let (s, c) = math::sin_cos(lat);
+    // Valid at the poles too, unlike r / cos(lat) - n.
+    let altitude_m = r * c + p[2] * s - n * (1.0 - E2 * s * s);
+    Geo { latitude_deg: lat.to_degrees(), longitude_deg: math::atan2(p[1], p[0]).to_degrees(), altitude_m }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ORIGIN: Geo = Geo { latitude_deg: 46.5, longitude_deg: 8.25, altitude_m: 430.0 };
+    /// Metres; f64 rounding of earth-centred coordinates.
+    const ROUND_TRIP_M: f64 = 1e-8;
+
+    #[test]
+    fn exact_local_positions_come_back() {
+        let plane = LocalPlane::new(ORIGIN);
+        let p = Vec3::new(812.5, -433.25, 61.0);
+        assert!((plane.enu_from_geo(plane.geo_from_enu(p)) - p).norm() < ROUND_TRIP_M);
+    }
+
+    #[test]
+    fn val_one_minute_of_latitude_at_45_degrees_is_1852_2_metres() {
+        // 1852.2 m: the nautical mile's historic meaning, from the WGS84 meridian radius at 45 deg (6 367 382 m); to 0.1 m.
+        let plane = LocalPlane::new(Geo { latitude_deg: 45.0, longitude_deg: 0.0, altitude_m: 0.0 });
+        let north = plane.enu_from_geo(Geo { latitude_deg: 45.0 + 1.0 / 60.0, longitude_deg: 0.0, altitude_m: 0.0 }).north();
+        assert!((north - 1852.2).abs() < 0.1, "{north}");
+    }
+}

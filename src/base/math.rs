@@ -1,0 +1,96 @@
+//! The one door to transcendental functions: libm gives the same bits on every machine, the platform's own do not.
+//! Clippy bans the std methods elsewhere (`clippy.toml`). `sqrt`, `abs`, `floor` and the four operations are exact in IEEE 754.
+
+pub use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Standard gravity, m/s² (CGPM 1901).
+pub const GRAVITY_M_S2: f64 = 9.806_65;
+/// Metres per second in one mile per hour (exact by definition).
+pub const M_S_PER_MPH: f64 = 0.447_04;
+
+/// Sine of an angle in radians.
+#[must_use]
+pub fn sin(x: f64) -> f64 {
+    libm::sin(x)
+}
+/// Cosine of an angle in radians.
+#[must_use]
+pub fn cos(x: f64) -> f64 {
+    libm::cos(x)
+}
+/// Sine and cosine of an angle in radians.
+#[must_use]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}
+/// Tangent of an angle in radians.
+#[must_use]
+pub fn tan(x: f64) -> f64 {
+    libm::tan(x)
+}
+/// Arc sine in radians; the argument is clamped to [-1, 1].
+#[must_use]
+pub fn asin(x: f64) -> f64 {
+    libm::asin(x.clamp(-1.0, 1.0))
+}
+/// Arc cosine in radians; the argument is clamped to [-1, 1].
+#[must_use]
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x.clamp(-1.0, 1.0))
+}
+/// Four-quadrant arc tangent of y/x in radians.
+#[must_use]
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+/// Arc tangent in radians.
+#[must_use]
+pub fn atan(x: f64) -> f64 {
+    libm::atan(x)
+}
+/// e to the x.
+#[must_use]
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+/// Natural logarithm.
+#[must_use]
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+/// Decimal logarithm.
+#[must_use]
+pub fn log10(x: f64) -> f64 {
+    libm::log10(x)
+}
+/// x to the y.
+#[must_use]
+pub fn pow(x: f64, y: f64) -> f64 {
+    libm::pow(x, y)
+}
+/// Hyperbolic tangent.
+#[must_use]
+pub fn tanh(x: f64) -> f64 {
+    libm::tanh(x)
+}
+/// Cube root.
+#[must_use]
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+/// Length of (x, y) without undue overflow.
+#[must_use]
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
+}
+/// Angle wrapped into (-π, π].
+#[must_use]
+pub fn wrap_pi(angle_rad: f64) -> f64 {
+    let turned = angle_rad - TAU * (angle_rad / TAU).round();
+    if turned <= -PI { turned + TAU } else { turned }
+}
+/// Linear interpolation; `t` = 0 gives `a`, 1 gives `b`.
+#[must_use]
+pub fn lerp(a: f64, b: f64, t: f64) -> f64 {
+    a + (b - a) * t
+}

@@ -1,0 +1,8 @@
+//! What every room stands on and what knows nobody: integer time, typed frames, geodesy, named random streams, and the one
+//! door to transcendental functions.
+
+pub mod frames;
+pub mod geodesy;
+pub mod math;
+pub mod random;
+pub mod time;

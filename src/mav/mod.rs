@@ -1,0 +1,5 @@
+//! The common language, sans-IO: framing and codec, unit doors, router, signing. Knows base only.
+
+pub mod codec;
+
+pub use mavlink::dialects::common as dialect;

@@ -1,0 +1,214 @@
+//! What stands at the job, built from a scenario and a seed, and the questions one may ask of it. Positions are in the
+//! scenario's local frame [`Enu`], metres. All queries are pure functions of their arguments: traffic and wind take the time.
+
+use crate::base::frames::{Enu, Vec3};
+use crate::base::geodesy::LocalPlane;
+use crate::base::time::SimTime;
+use crate::scenario::bridges::{Lane, Member};
+use crate::scenario::{PlacedDefect, Scenario};
+use crate::vehicle::{Camera, Lamp};
+
+/// What something is made of for contact, clearance and the wire's `contact` code (design.md: 0 none, 1 bridge, 2 terrain,
+/// 3 water, 4 vehicle, 5 person, 6 other).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Surface {
+    /// A bridge member.
+    Bridge,
+    /// The ground.
+    Terrain,
+    /// The water.
+    Water,
+    /// A car, a truck or the crew's truck.
+    Vehicle,
+    /// A pedestrian or the inspector.
+    Person,
+    /// Anything else.
+    Other,
+    /// The take-off pad: solid, but neither a crash nor counted as clearance.
+    Pad,
+}
+
+/// Identifies what was hit or is near, for messages: an index into [`Site::members`] for bridges, else a running number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ObjectId(pub u32);
+
+/// The nearest point of the site to a query point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Distance from the query point to the surface, m; negative inside a solid.
+    pub distance_m: f64,
+    /// The surface point, m.
+    pub point_m: Vec3<Enu>,
+    /// Outward unit normal there (from the object towards the query point).
+    pub normal: Vec3<Enu>,
+    /// What it belongs to.
+    pub surface: Surface,
+    /// Which object.
+    pub object: ObjectId,
+}
+
+/// A ray's first hit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RayHit {
+    /// Distance along the ray, m.
+    pub distance_m: f64,
+    /// Outward unit normal.
+    pub normal: Vec3<Enu>,
+    /// What it belongs to.
+    pub surface: Surface,
+    /// Which object.
+    pub object: ObjectId,
+}
+
+/// A contact or near-contact between a convex part of the aircraft and one object of the site.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Point on the object's surface, m.
+    pub point_m: Vec3<Enu>,
+    /// Outward unit normal of the object, towards the aircraft.
+    pub normal: Vec3<Enu>,
+    /// Gap along the normal, m; negative when they overlap.
+    pub gap_m: f64,
+    /// Velocity of the object at that point, m/s (traffic moves).
+    pub velocity_m_s: Vec3<Enu>,
+    /// What it belongs to.
+    pub surface: Surface,
+    /// Which object.
+    pub object: ObjectId,
+}
+
+/// Convex parts that the aircraft's hull is made of, placed in site coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Probe {
+    /// A ball.
+    Ball {
+        /// Centre, m.
+        centre_m: Vec3<Enu>,
+        /// Radius, m.
+        radius_m: f64,
+    },
+    /// A capsule.
+    Capsule {
+        /// One end of the axis, m.
+        a_m: Vec3<Enu>,
+        /// Other end, m.
+        b_m: Vec3<Enu>,
+        /// Radius, m.
+        radius_m: f64,
+    },
+}
+
+/// The instant of a query: what moves is where it is at this simulation time.
+pub type At = SimTime;
+
+/// Where a camera is and how it looks at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraPose {
+    /// Lens position, m.
+    pub position_m: Vec3<Enu>,
+    /// Unit vector of the optical axis.
+    pub forward: Vec3<Enu>,
+    /// Unit vector to the image's right.
+    pub right: Vec3<Enu>,
+    /// The lamp is on (it looks where the camera looks).
+    pub lamp_on: bool,
+}
+
+/// How one defect shows in a picture: every condition on its own, so that a report can name what failed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DefectView {
+    /// [`PlacedDefect::id`].
+    pub defect_id: u32,
+    /// Inside the central 80 % of the image.
+    pub in_frame: bool,
+    /// Nothing stands between lens and defect.
+    pub unoccluded: bool,
+    /// Angle between the line of sight and the defect's normal, rad.
+    pub incidence_rad: f64,
+    /// Longest visible extent, px.
+    pub extent_px: f64,
+    /// Width across, px (only lines must pass a limit).
+    pub width_px: f64,
+    /// Light at the defect, lux (sun, sky, water, lamp).
+    pub illuminance_lux: f64,
+    /// Light needed for an exposure within the camera's limits, lux.
+    pub needed_lux: f64,
+    /// Distance, m.
+    pub distance_m: f64,
+    /// All conditions hold.
+    pub hit: bool,
+}
+
+/// The job's site: immutable once built; what moves is a function of time.
+#[derive(Debug)]
+pub struct Site {}
+
+// The interface below is what the other rooms call; each body lives in a file of its own beside this one.
+#[allow(unused_variables, missing_docs)]
+impl Site {
+    /// Builds geometry, traffic, defects and light from a scenario and the session's seed (which decides defects and traffic).
+    #[must_use]
+    pub fn build(scenario: &Scenario, seed: u64) -> Self {
+        todo!()
+    }
+    /// Every bridge member of the site.
+    #[must_use]
+    pub fn members(&self) -> &[Member] {
+        todo!()
+    }
+    /// Lanes and walkways of all bridges.
+    #[must_use]
+    pub fn lanes(&self) -> &[Lane] {
+        todo!()
+    }
+    /// The local plane of the scenario's origin.
+    #[must_use]
+    pub fn plane(&self) -> &LocalPlane {
+        todo!()
+    }
+    /// The defects of this session.
+    #[must_use]
+    pub fn defects(&self) -> &[PlacedDefect] {
+        todo!()
+    }
+    /// The nearest surface within `max_m` (bridges, terrain, water, traffic, crew, truck; never the pad).
+    #[must_use]
+    pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: At) -> Option<Nearest> {
+        todo!()
+    }
+    /// The first hit of a ray within `max_m`, everything included (the pad and the water too). `direction` is a unit vector.
+    #[must_use]
+    pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: At) -> Option<RayHit> {
+        todo!()
+    }
+    /// Appends every contact or near-contact (gap <= `margin_m`) of a convex probe with the site, the pad included.
+    pub fn contacts(&self, probe: &Probe, margin_m: f64, at: At, out: &mut Vec<Contact>) {
+        todo!()
+    }
+    /// Height of ground or pad (not water) under a point, m up.
+    #[must_use]
+    pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
+        todo!()
+    }
+    /// Share of the upper hemisphere that is open sky, 0..1 (static geometry only; deterministic rays).
+    #[must_use]
+    pub fn sky_view(&self, position_m: Vec3<Enu>) -> f64 {
+        todo!()
+    }
+    /// Ambient illuminance (sun, sky, water, ground bounce; no lamp), lux, on a surface with this outward normal, or for `None`
+    /// the mean over all directions at a point in the air.
+    #[must_use]
+    pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: At) -> f64 {
+        todo!()
+    }
+    /// How every defect within reach shows in a picture taken from `pose`; only defects within 60 m and in front are listed.
+    #[must_use]
+    pub fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: At) -> Vec<DefectView> {
+        todo!()
+    }
+    /// Name of an object for messages, e.g. `arch/rib-left/07 (144)`, `car 12`, `inspector`.
+    #[must_use]
+    pub fn object_name(&self, object: ObjectId) -> String {
+        todo!()
+    }
+}

@@ -1,0 +1,218 @@
+//! The built-in autopilot: estimator, rate, attitude, velocity, position, modes, failsafes, mission. Sees sensor readings,
+//! stick intents and requests; never the truth.
+
+use crate::base::frames::{Frd, Ned, Rotation, Vec3};
+
+/// Flight modes; the MAVLink numbers of each flavour live in the endpoint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Mode {
+    /// Sticks command roll, pitch, yaw rate and thrust.
+    Stabilized,
+    /// As stabilized, height held by the autopilot.
+    Altitude,
+    /// Sticks command velocity; let go, it stops and holds.
+    Position,
+    /// Hold position.
+    Hold,
+    /// Automatic take-off, then hold.
+    Takeoff,
+    /// Land here.
+    Land,
+    /// Return to home and land.
+    Return,
+    /// Fly the uploaded mission.
+    Mission,
+    /// Follow external set-points.
+    Offboard,
+}
+
+/// Stick intent, each in [-1, 1]: forward, right, up, clockwise positive.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sticks {
+    /// Forward (+), backward (-).
+    pub forward: f64,
+    /// Right (+), left (-).
+    pub right: f64,
+    /// Up (+), down (-).
+    pub up: f64,
+    /// Clockwise (+), counter-clockwise (-).
+    pub yaw: f64,
+}
+
+/// What the endpoint (or a failsafe) asks of the autopilot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Request {
+    /// Arm; `force` skips the checks.
+    Arm {
+        /// Skip the checks.
+        force: bool,
+    },
+    /// Disarm; `force` also in the air.
+    Disarm {
+        /// Also in the air.
+        force: bool,
+    },
+    /// Change the mode.
+    SetMode(Mode),
+    /// Take off to a height above home, m (`None`: the parameter's), arming is not implied.
+    Takeoff {
+        /// Height above home, m.
+        height_m: Option<f64>,
+    },
+    /// Land here.
+    Land,
+    /// Fly to a position and hold; `None` components keep the present value.
+    GoTo {
+        /// North, east, m.
+        north_east_m: Option<(f64, f64)>,
+        /// Height, m up about the origin.
+        up_m: Option<f64>,
+        /// Heading, rad.
+        yaw_rad: Option<f64>,
+        /// Ground speed, m/s.
+        speed_m_s: Option<f64>,
+    },
+    /// Start or go on with the mission at an item.
+    StartMission {
+        /// First item, or `None` to go on.
+        first: Option<usize>,
+    },
+    /// Cruise speed for automatic modes, m/s.
+    SetSpeed(f64),
+    /// Home position about the origin, m.
+    SetHome(Vec3<Ned>),
+}
+
+/// An offboard set-point; `None` axes are not controlled by it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OffboardSetpoint {
+    /// Position, m.
+    pub position_m: [Option<f64>; 3],
+    /// Velocity, m/s (north, east, down).
+    pub velocity_m_s: [Option<f64>; 3],
+    /// Heading, rad.
+    pub yaw_rad: Option<f64>,
+    /// Heading rate, rad/s.
+    pub yaw_rate_rad_s: Option<f64>,
+    /// Attitude and thrust (0..1) instead of position or velocity.
+    pub attitude: Option<(Rotation<Frd, Ned>, f64)>,
+}
+
+/// The answer to a [`Request`]; maps one to one to MAV_RESULT.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// Done or begun.
+    Accepted,
+    /// Not now; the reason in words.
+    TemporarilyRejected(String),
+    /// Never in this state; the reason in words.
+    Denied(String),
+    /// Tried and failed; the reason in words.
+    Failed(String),
+    /// Not a thing this vehicle does.
+    Unsupported,
+}
+
+/// What the estimator believes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Position about the origin, m.
+    pub position_m: Vec3<Ned>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Ned>,
+    /// Attitude.
+    pub attitude: Rotation<Frd, Ned>,
+    /// Angular rate with bias removed, rad/s.
+    pub rates_rad_s: Vec3<Frd>,
+    /// Horizontal position accuracy, m (1 sigma).
+    pub horizontal_m: f64,
+    /// Vertical position accuracy, m (1 sigma).
+    pub vertical_m: f64,
+    /// Horizontal position and velocity are usable for control.
+    pub position_valid: bool,
+    /// Attitude is aligned.
+    pub attitude_valid: bool,
+}
+
+/// Ground or air, as EXTENDED_SYS_STATE.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Landed {
+    /// On the ground.
+    OnGround,
+    /// Climbing away in take-off mode.
+    TakingOff,
+    /// Flying.
+    InAir,
+    /// Descending to land.
+    Landing,
+}
+
+/// What the autopilot tells the world.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Status {
+    /// Motors may turn.
+    pub armed: bool,
+    /// Mode.
+    pub mode: Mode,
+    /// Ground or air.
+    pub landed: Landed,
+    /// Why arming would be refused now; empty when it would not.
+    pub arming_reasons: Vec<String>,
+    /// A failsafe acts; its reason.
+    pub failsafe: Option<String>,
+    /// Home about the origin, m; `None` before the first fix.
+    pub home_m: Option<Vec3<Ned>>,
+    /// Present position target, if any, m.
+    pub target_m: Option<Vec3<Ned>>,
+    /// Attitude set-point.
+    pub attitude_target: Rotation<Frd, Ned>,
+    /// Collective thrust set-point 0..1.
+    pub thrust: f64,
+    /// Current mission item (0-based).
+    pub mission_current: usize,
+    /// A mission item reached since the last look, for MISSION_ITEM_REACHED.
+    pub mission_reached: Option<usize>,
+    /// The mission has been flown to its end.
+    pub mission_finished: bool,
+}
+
+/// One mission step as the autopilot flies it; the endpoint keeps the MAVLink items beside it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MissionStep {
+    /// Fly to a point.
+    Waypoint {
+        /// Target about the origin, m.
+        position_m: Vec3<Ned>,
+        /// Counts as reached within, m.
+        accept_m: f64,
+        /// Stay, s.
+        hold_s: f64,
+        /// Heading there, rad; `None`: towards the target.
+        yaw_rad: Option<f64>,
+    },
+    /// Take off to a height, m up about the origin.
+    Takeoff {
+        /// Height, m up about the origin.
+        up_m: f64,
+    },
+    /// Land at a point; `None`: here.
+    Land {
+        /// Where, m.
+        position_m: Option<Vec3<Ned>>,
+    },
+    /// Return to home and land.
+    Return,
+    /// Change the cruise speed, m/s.
+    Speed(f64),
+    /// Wait, s.
+    Delay(f64),
+    /// Go to another item a number of times.
+    Jump {
+        /// Item index.
+        to: usize,
+        /// Repetitions.
+        times: u32,
+    },
+    /// Something for the payload that the endpoint does when this item becomes current.
+    Payload,
+}

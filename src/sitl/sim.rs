@@ -1,0 +1,1 @@
+//! One simulation step, in a written order (design.md, "One simulation step").
