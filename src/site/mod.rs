@@ -1,6 +1,8 @@
 //! What stands at the job, built from a scenario and a seed, and the questions one may ask of it. Positions are in the
 //! scenario's local frame [`Enu`], metres. All queries are pure functions of their arguments: traffic and wind take the time.
 
+pub mod wind;
+
 use crate::base::frames::{Enu, Vec3};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
