@@ -1,0 +1,79 @@
+//! Ground and ceiling effect, per rotor, as a factor on thrust at a given rotor speed.
+
+use super::{MAX_ROTORS, Model, Obstacles, RigidState};
+use crate::base::frames::{Frd, Vec3};
+use crate::base::math;
+use crate::base::time::SimTime;
+
+/// Surfaces farther than this many rotor radii change thrust by less than 0.3 % (Cheeseman-Bennett at 5 R: 1.0025).
+const REACH_RADII: f64 = 5.0;
+
+/// How far surfaces matter, m.
+#[must_use]
+pub fn reach_m(model: &Model) -> f64 {
+    REACH_RADII * model.rotor.radius_m
+}
+
+/// Cheeseman and Bennett: thrust in ground effect over thrust out of it at equal power; valid for z > R/2, held there below.
+#[must_use]
+pub fn ground_factor(height_over_radius: f64) -> f64 {
+    let z = height_over_radius.max(0.5);
+    let r = 1.0 / (4.0 * z);
+    1.0 / (1.0 - r * r)
+}
+
+/// Hsiao and Chirarattananon's gamma: ratio of induced velocities without and with a ceiling at a distance; held below R/4 as the
+/// public Crazyflie firmware does.
+#[must_use]
+pub fn ceiling_gamma(distance_over_radius: f64) -> f64 {
+    let d = distance_over_radius.max(0.25);
+    0.5 + 0.5 * (1.0 + 1.0 / (8.0 * d * d)).sqrt()
+}
+
+/// Thrust at constant power under a ceiling over thrust in the open: gamma^(2/3).
+#[must_use]
+pub fn ceiling_factor(distance_over_radius: f64) -> f64 {
+    let g = math::cbrt(ceiling_gamma(distance_over_radius));
+    g * g
+}
+
+/// The factor for every rotor from what stands below and above its hub along the rotor axis.
+pub fn factors(model: &Model, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> [f64; MAX_ROTORS] {
+    let mut out = [1.0; MAX_ROTORS];
+    let down = (rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).enu();
+    let radius = model.rotor.radius_m;
+    for (i, rotor) in model.rotors.iter().enumerate() {
+        let hub = (rigid.position_m + rigid.attitude * rotor.position_m).enu();
+        if let Some(hit) = obstacles.ray(hub, down, reach_m(model), at) {
+            out[i] *= ground_factor(hit.distance_m / radius);
+        }
+        if let Some(hit) = obstacles.ray(hub, -down, reach_m(model), at) {
+            out[i] *= ceiling_factor(hit.distance_m / radius);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The printed values carry three decimals.
+    const PRINTED: f64 = 6e-4;
+
+    #[test]
+    fn val_ground_effect_passes_through_the_published_values() {
+        for (z, expected) in [(0.5, 1.333), (1.0, 1.067), (2.0, 1.016)] {
+            assert!((ground_factor(z) - expected).abs() < PRINTED, "{z}");
+        }
+        assert_eq!(ground_factor(0.1), ground_factor(0.5));
+    }
+
+    #[test]
+    fn val_ceiling_gamma_passes_through_the_published_values() {
+        for (d, expected) in [(0.25, 1.366), (0.5, 1.112)] {
+            assert!((ceiling_gamma(d) - expected).abs() < PRINTED, "{d}");
+        }
+        assert_eq!(ceiling_gamma(0.1), ceiling_gamma(0.25));
+    }
+}
