@@ -1,6 +1,9 @@
 //! What stands at the job, built from a scenario and a seed, and the questions one may ask of it. Positions are in the
 //! scenario's local frame [`Enu`], metres. All queries are pure functions of their arguments: traffic and wind take the time.
 
+pub mod light;
+pub mod look;
+pub mod sun;
 pub mod wind;
 
 use crate::base::frames::{Enu, Vec3};
@@ -137,6 +140,10 @@ pub struct DefectView {
     pub needed_lux: f64,
     /// Distance, m.
     pub distance_m: f64,
+    /// A line, whose width must pass a limit.
+    pub line: bool,
+    /// The lamp was on.
+    pub lamp_on: bool,
     /// All conditions hold.
     pub hit: bool,
 }
