@@ -1,9 +1,11 @@
 //! What stands at the job, built from a scenario and a seed, and the questions one may ask of it. Positions are in the
 //! scenario's local frame [`Enu`], metres. All queries are pure functions of their arguments: traffic and wind take the time.
 
+pub mod boxes;
 pub mod light;
 pub mod look;
 pub mod sun;
+pub mod traffic;
 pub mod wind;
 
 use crate::base::frames::{Enu, Vec3};
