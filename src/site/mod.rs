@@ -2,6 +2,9 @@
 //! scenario's local frame [`Enu`], metres. All queries are pure functions of their arguments: traffic and wind take the time.
 
 pub mod boxes;
+pub mod catalogue;
+pub mod defects;
+pub mod dynamics;
 pub mod light;
 pub mod look;
 pub mod sun;
