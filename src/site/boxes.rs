@@ -57,20 +57,19 @@ impl OrientedBox {
     /// against its direction.
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
-        let o = self.local(origin_m);
         let (mut enter, mut leave, mut normal) = (0.0_f64, max_m, -direction);
-        for k in 0..3 {
-            let d = self.axes[k].dot(direction);
+        for ((axis, half), o) in self.axes.into_iter().zip(self.half_m).zip(self.local(origin_m)) {
+            let d = axis.dot(direction);
             if d.abs() < 1e-15 {
-                if o[k].abs() > self.half_m[k] {
+                if o.abs() > half {
                     return None;
                 }
                 continue;
             }
-            let side = self.half_m[k] * d.signum();
-            let (near, far) = ((-side - o[k]) / d, (side - o[k]) / d);
+            let side = half * d.signum();
+            let (near, far) = ((-side - o) / d, (side - o) / d);
             if near > enter {
-                (enter, normal) = (near, self.axes[k] * -d.signum());
+                (enter, normal) = (near, axis * -d.signum());
             }
             leave = leave.min(far);
         }

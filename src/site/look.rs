@@ -178,7 +178,7 @@ mod tests {
         position_m: Vec3::new(0.0, 0.0, 0.0),
         width_px: 4000,
         height_px: 3000,
-        hfov_rad: 1.570_796_326_794_896_6,
+        hfov_rad: math::FRAC_PI_2,
         f_number: 2.8,
         iso_max: 1600.0,
         exposure_max_s: 0.01,
