@@ -1,1 +1,13 @@
-//! (filled next)
+//! What came over the wire, made into frames: a MAVLink frame becomes a [`sample::Sample`], samples become a
+//! [`timeline::Flight`] (sorted, gaps known), and a flight is read at the scorer's rate as [`frame::Frame`]s. [`tlog`] is the
+//! file format in between. Read by monitor, pilot, view and report; knows nothing of the scoring.
+
+pub mod frame;
+pub mod sample;
+pub mod signal;
+pub mod timeline;
+pub mod tlog;
+
+pub use frame::Frame;
+pub use sample::{Contact, Sample, Truth};
+pub use timeline::{Flight, Timeline};

@@ -1,0 +1,124 @@
+//! Visual attention: what each picture shows, by geometry and light.
+
+use crate::base::frames::{Enu, Ned, Rotation, Vec3};
+use crate::base::math;
+use crate::base::time::SimTime;
+use crate::scenario::PlacedDefect;
+use crate::site::{CameraPose, DefectView, Site};
+use crate::telemetry::{Flight, Frame};
+use crate::vehicle::{Camera, Lamp, Vehicle};
+use serde::Serialize;
+use std::collections::BTreeSet;
+
+/// Largest angle off a defect's normal, rad (60 degrees, assessment.md).
+const INCIDENCE_MAX_RAD: f64 = math::PI / 3.0;
+/// Smallest longest extent, px (assessment.md).
+const EXTENT_MIN_PX: f64 = 10.0;
+/// Smallest width of a line, px (assessment.md).
+const LINE_MIN_PX: f64 = 0.5;
+
+/// What the scorer asks of the site; the site itself answers, and tests answer with what they have built.
+pub trait Survey: std::fmt::Debug + Send + Sync {
+    /// The session's defects.
+    fn defects(&self) -> &[PlacedDefect];
+    /// How each defect within reach shows in a picture.
+    fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
+    /// Name of the nearest thing within `max_m`, for messages.
+    fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
+}
+
+impl Survey for Site {
+    fn defects(&self) -> &[PlacedDefect] {
+        Self::defects(self)
+    }
+    fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView> {
+        Self::look(self, pose, camera, lamp, at)
+    }
+    fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String> {
+        self.nearest(position_m, max_m, at).map(|nearest| self.object_name(nearest.object))
+    }
+}
+
+/// One picture.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Snapshot {
+    /// Frame of the press, from 1.
+    pub frame: u32,
+    /// Since lift-off, s.
+    pub t_s: f64,
+    /// It shows at least one defect that no earlier picture has shown.
+    pub hit: bool,
+    /// Defects that it is the first to show.
+    pub found: Vec<u32>,
+    /// What it was pointed at and how that failed or not.
+    pub views: Vec<View>,
+}
+
+/// One defect in one picture.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct View {
+    /// Defect.
+    pub defect: u32,
+    /// All conditions hold.
+    pub shown: bool,
+    /// Conditions that fail.
+    pub fails: Vec<&'static str>,
+}
+
+/// Judges every picture taken in `frames`. A frame holds one press at most: pictures of one frame are one press.
+#[must_use]
+pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &dyn Survey) -> Vec<Snapshot> {
+    let Some(first) = frames.first() else { return Vec::new() };
+    let mut hit_before = BTreeSet::new();
+    let mut judged = Vec::new();
+    for (i, frame) in frames.iter().enumerate().filter(|(_, frame)| frame.snapshot) {
+        let since = i.checked_sub(1).map_or(SimTime::from_ns(frame.time.ns() - 1), |k| frames[k].time);
+        let views: Vec<View> = flight
+            .snapshots
+            .between(since, frame.time)
+            .iter()
+            .flat_map(|(time, _, _)| views(flight, *time, vehicle, survey))
+            .collect();
+        let shown = views.iter().filter(|view| view.shown).map(|view| view.defect);
+        let found: Vec<u32> = shown.filter(|defect| hit_before.insert(*defect)).collect();
+        let t_s = (frame.time - first.time).s();
+        judged.push(Snapshot { frame: frame.index, t_s, hit: !found.is_empty(), found, views });
+    }
+    judged
+}
+
+fn views(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn Survey) -> Vec<View> {
+    let Some(pose) = pose(flight, time, vehicle) else { return Vec::new() };
+    let looks = survey.look(&pose, &vehicle.camera, &vehicle.lamp, time);
+    looks.iter().filter(|look| look.in_frame || look.hit).map(|look| view(look, &pose, survey)).collect()
+}
+
+/// Where the camera was: attitude gives the heading, the gimbal holds roll level and its pitch over the horizon.
+#[must_use]
+pub fn pose(flight: &Flight, time: SimTime, vehicle: &Vehicle) -> Option<CameraPose> {
+    let state = flight.between(time)?;
+    let yaw = state.ned_from_frd.yaw_rad();
+    let pitch = flight.gimbal.at(time).unwrap_or(0.0);
+    let looking: Rotation<_, Ned> = Rotation::from_euler(0.0, pitch, yaw);
+    Some(CameraPose {
+        position_m: state.position_m + (state.ned_from_frd * vehicle.camera.position_m).enu(),
+        forward: (looking * Vec3::new(1.0, 0.0, 0.0)).enu(),
+        right: (looking * Vec3::new(0.0, 1.0, 0.0)).enu(),
+        lamp_on: flight.light.at(time).unwrap_or(false),
+    })
+}
+
+fn view(look: &DefectView, pose: &CameraPose, survey: &dyn Survey) -> View {
+    let line = survey.defects().iter().any(|defect| defect.id == look.defect_id && defect.line);
+    let dark = if pose.lamp_on { "too dark: lamp on" } else { "too dark: lamp off" };
+    let conditions = [
+        (look.in_frame, "outside the central part of the picture"),
+        (look.unoccluded, "hidden"),
+        (look.incidence_rad <= INCIDENCE_MAX_RAD, "seen too obliquely"),
+        (look.extent_px >= EXTENT_MIN_PX, "too small in the picture"),
+        (!line || look.width_px >= LINE_MIN_PX, "line too thin in the picture"),
+        (look.illuminance_lux >= look.needed_lux, dark),
+    ];
+    let fails = conditions.into_iter().filter(|(holds, _)| !holds).map(|(_, name)| name).collect();
+    View { defect: look.defect_id, shown: look.hit, fails }
+}

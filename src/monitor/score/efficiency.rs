@@ -1,0 +1,11 @@
+//! Efficiency (the paper's P_E): time, and whether the drone came home.
+
+use super::Score;
+
+/// Full marks up to `time_best_s`, then linearly to 0 at `time_max_s`; -100 when the battery failed (X_b).
+#[must_use]
+pub fn score(seconds: f64, battery_failed: bool, time_best_s: f64, time_max_s: f64) -> Score {
+    let over = (seconds - time_best_s).max(0.0);
+    let raw = if battery_failed { -100.0 } else { 100.0 - 100.0 * over / (time_max_s - time_best_s) };
+    Score::on_scale(raw, -100.0, 100.0)
+}

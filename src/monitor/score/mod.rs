@@ -1,0 +1,27 @@
+//! From measures to scores: the paper's four, and the certification profile beside them.
+
+pub mod accuracy;
+pub mod certification;
+pub mod conformity;
+pub mod efficiency;
+pub mod safety;
+
+use serde::Serialize;
+
+/// A score on its own scale and on 0 to 100. Full precision; only what is shown is rounded.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Score {
+    /// As the formula gives it.
+    pub raw: f64,
+    /// (raw - least) / (greatest - least) * 100.
+    pub pct: f64,
+}
+
+impl Score {
+    /// A raw value on the scale from `least` to `greatest`, clamped into it.
+    #[must_use]
+    pub fn on_scale(raw: f64, least: f64, greatest: f64) -> Self {
+        let raw = raw.clamp(least, greatest);
+        Self { raw, pct: (raw - least) / (greatest - least) * 100.0 }
+    }
+}
