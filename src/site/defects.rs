@@ -50,6 +50,28 @@ const ATTEMPTS: usize = 3000;
 /// Path points tried as the reference photographer's place, nearest first.
 const PLACES: usize = 5;
 
+/// In what an aircraft's camera or lamp falls short of the reference for which placed defects are photographable, in words with
+/// both numbers; empty when it covers the reference.
+#[must_use]
+pub fn short_of_reference(camera: &Camera, lamp: &Lamp) -> Vec<String> {
+    let candela = |l: &Lamp| l.flux_lm / (math::TAU * (1.0 - math::cos(0.5 * l.beam_rad)));
+    let wanting = [
+        ("focal length, px", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
+        ("lamp intensity, cd", candela(lamp), candela(&REFERENCE_LAMP)),
+        // As sensitivity, so that more is better in all lines.
+        ("1/light needed, 1/lx", 1.0 / look::needed_lux(camera), 1.0 / look::needed_lux(&REFERENCE_CAMERA)),
+        ("gimbal up, rad", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
+        ("gimbal down, rad", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
+    ];
+    // Angles written in degrees come back a rounding off.
+    let short = |has: f64, needs: f64| has.is_nan() || has < needs * (1.0 - 1e-9);
+    wanting
+        .iter()
+        .filter(|w| short(w.1, w.2))
+        .map(|(what, has, needs)| format!("{what}: {has:.4}, at least {needs:.4}"))
+        .collect()
+}
+
 /// What placing needs of the site.
 #[derive(Clone, Copy)]
 pub struct Ground<'a> {
@@ -422,6 +444,16 @@ mod tests {
                 assert!(lamp >= look::needed_lux(&REFERENCE_CAMERA), "{lamp} lx");
             }
         });
+    }
+
+    #[test]
+    fn exact_the_reference_covers_itself_and_each_shortfall_is_named() {
+        assert!(short_of_reference(&REFERENCE_CAMERA, &REFERENCE_LAMP).is_empty());
+        let coarse = Camera { width_px: 1920, gimbal_pitch_max_rad: 0.5, ..REFERENCE_CAMERA };
+        let dark = Lamp { flux_lm: 0.0, ..REFERENCE_LAMP };
+        let words = short_of_reference(&coarse, &dark).join("; ");
+        assert!(words.contains("focal") && words.contains("lamp") && words.contains("gimbal up"), "{words}");
+        assert!(!words.contains("light needed") && !words.contains("gimbal down"), "{words}");
     }
 
     #[test]
