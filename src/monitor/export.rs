@@ -7,8 +7,7 @@ use serde::Serialize;
 use std::fmt::Write;
 
 /// Columns of the frames export.
-pub const FRAME_COLUMNS: &str =
-    "frame,t_s,fb,rl,ud,rt,light,snapshot,east_m,north_m,up_m,speed_m_s,battery_pct,contact,missing";
+pub const FRAME_COLUMNS: &str = "frame,t_s,fb,rl,ud,rt,light,snapshot,east_m,north_m,up_m,speed_m_s,battery_pct,contact,missing";
 
 /// Frames as CSV; `t_s` counts from lift-off.
 #[must_use]

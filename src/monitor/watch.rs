@@ -290,7 +290,13 @@ impl Monitor {
 
     /// `session.json`; the shell gives the hashes and the UTC text.
     #[must_use]
-    pub fn session_info(&self, scenario_toml: &[u8], vehicle_toml: &[u8], started_utc: String, monitor_starts: u32) -> SessionInfo {
+    pub fn session_info(
+        &self,
+        scenario_toml: &[u8],
+        vehicle_toml: &[u8],
+        started_utc: String,
+        monitor_starts: u32,
+    ) -> SessionInfo {
         SessionInfo {
             trainee: self.config.trainee.clone(),
             started_unix_us: self.config.started_unix_us,

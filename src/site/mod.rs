@@ -11,12 +11,18 @@ pub mod sun;
 pub mod traffic;
 pub mod wind;
 
+pub mod convex;
+pub mod geometry;
+pub mod terrain;
+
 use crate::base::frames::{Enu, Vec3};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::scenario::bridges::{Lane, Member};
 use crate::scenario::{PlacedDefect, Scenario};
 use crate::vehicle::{Camera, Lamp};
+use dynamics::{Dynamics, StaticQueries};
+use geometry::Geometry;
 
 /// What something is made of for contact, clearance and the wire's `contact` code (design.md: 0 none, 1 bridge, 2 terrain,
 /// 3 water, 4 vehicle, 5 person, 6 other).
@@ -155,74 +161,116 @@ pub struct DefectView {
 
 /// The job's site: immutable once built; what moves is a function of time.
 #[derive(Debug)]
-pub struct Site {}
+pub struct Site {
+    geometry: Geometry,
+    lanes: Vec<Lane>,
+    plane: LocalPlane,
+    dynamics: Dynamics,
+}
 
-// The interface below is what the other rooms call; each body lives in a file of its own beside this one.
-#[allow(unused_variables, missing_docs)]
 impl Site {
     /// Builds geometry, traffic, defects and light from a scenario and the session's seed (which decides defects and traffic).
     #[must_use]
     pub fn build(scenario: &Scenario, seed: u64) -> Self {
-        todo!()
+        let lanes: Vec<Lane> = scenario.bridges.iter().enumerate().flat_map(|(k, bridge)| bridge.lanes(k)).collect();
+        let geometry = Geometry::new(scenario);
+        let cast = |origin, direction, max_m| geometry.ray(origin, direction, max_m);
+        let nearest = |position, max_m| geometry.nearest(position, max_m);
+        let still = StaticQueries { cast: &cast, nearest: &nearest };
+        let dynamics = Dynamics::build(scenario, seed, geometry.members(), &lanes, still);
+        Self { geometry, plane: LocalPlane::new(scenario.origin), lanes, dynamics }
     }
+
     /// Every bridge member of the site.
     #[must_use]
     pub fn members(&self) -> &[Member] {
-        todo!()
+        self.geometry.members()
     }
+
+    /// What stands still.
+    #[must_use]
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
     /// Lanes and walkways of all bridges.
     #[must_use]
     pub fn lanes(&self) -> &[Lane] {
-        todo!()
+        &self.lanes
     }
+
     /// The local plane of the scenario's origin.
     #[must_use]
     pub fn plane(&self) -> &LocalPlane {
-        todo!()
+        &self.plane
     }
+
     /// The defects of this session.
     #[must_use]
     pub fn defects(&self) -> &[PlacedDefect] {
-        todo!()
+        &self.dynamics.defects
     }
+
     /// The nearest surface within `max_m` (bridges, terrain, water, traffic, crew, truck; never the pad).
     #[must_use]
     pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: At) -> Option<Nearest> {
-        todo!()
+        self.dynamics.nearest(self.geometry.nearest(position_m, max_m), position_m, max_m, at)
     }
+
     /// The first hit of a ray within `max_m`, everything included (the pad and the water too). `direction` is a unit vector.
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: At) -> Option<RayHit> {
-        todo!()
+        self.dynamics.ray(self.geometry.ray(origin_m, direction, max_m), origin_m, direction, max_m, at)
     }
+
     /// Appends every contact or near-contact (gap <= `margin_m`) of a convex probe with the site, the pad included.
+    #[allow(clippy::ptr_arg, reason = "it appends")]
     pub fn contacts(&self, probe: &Probe, margin_m: f64, at: At, out: &mut Vec<Contact>) {
-        todo!()
+        self.geometry.contacts(probe, margin_m, out);
+        self.dynamics.traffic.contacts(probe, margin_m, at, out);
     }
+
     /// Height of ground or pad (not water) under a point, m up.
     #[must_use]
     pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
-        todo!()
+        self.geometry.ground_up_m(east_m, north_m)
     }
+
     /// Share of the upper hemisphere that is open sky, 0..1 (static geometry only; deterministic rays).
     #[must_use]
     pub fn sky_view(&self, position_m: Vec3<Enu>) -> f64 {
-        todo!()
+        self.dynamics.light.sky_view(position_m, &self.cast())
     }
+
     /// Ambient illuminance (sun, sky, water, ground bounce; no lamp), lux, on a surface with this outward normal, or for `None`
     /// the mean over all directions at a point in the air.
     #[must_use]
     pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: At) -> f64 {
-        todo!()
+        self.dynamics.light.ambient_lux(position_m, normal, at, &self.cast())
     }
+
     /// How every defect within reach shows in a picture taken from `pose`; only defects within 60 m and in front are listed.
     #[must_use]
     pub fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: At) -> Vec<DefectView> {
-        todo!()
+        self.dynamics.look(pose, camera, lamp, at, &self.cast())
     }
+
     /// Name of an object for messages, e.g. `arch/rib-left/07 (144)`, `car 12`, `inspector`.
     #[must_use]
     pub fn object_name(&self, object: ObjectId) -> String {
-        todo!()
+        match object {
+            geometry::GROUND => "ground".into(),
+            geometry::WATER => "water".into(),
+            geometry::PAD => "pad".into(),
+            _ => match self.members().get(object.0 as usize) {
+                Some(member) => format!("{} ({})", member.name, member.element),
+                None => self.dynamics.traffic.name(object).unwrap_or_else(|| format!("object {}", object.0)),
+            },
+        }
+    }
+
+    /// Rays against what stands still.
+    fn cast(&self) -> impl Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit> + '_ {
+        |origin, direction, max_m| self.geometry.ray(origin, direction, max_m)
     }
 }

@@ -193,8 +193,7 @@ impl Header {
         let Some(header) = Self::peek(frame) else { return false };
         // The dialect answers 0 for a message that it does not know.
         let extra = MavMessage::extra_crc(header.message_id);
-        extra != 0
-            && header.checksum(frame) == frame.get(1..header.payload_end).map(|body| mavlink::calculate_crc(body, extra))
+        extra != 0 && header.checksum(frame) == frame.get(1..header.payload_end).map(|body| mavlink::calculate_crc(body, extra))
     }
 
     /// False only when the frame is of a kind that we keep and its checksum is wrong.

@@ -171,7 +171,8 @@ impl Timeline {
         }
         let sample = sample::read(frame, &self.plane);
         let checksum = u16::from_le_bytes([frame[header.payload_end], frame[header.payload_end + 1]]);
-        let ahead = matches!(sample.map(|s| s.said), Some(Said::Truth(truth)) if self.newest.is_some_and(|newest| truth.time > newest));
+        let ahead =
+            matches!(sample.map(|s| s.said), Some(Said::Truth(truth)) if self.newest.is_some_and(|newest| truth.time > newest));
         let Some(order) = self.place(&header, checksum, ahead) else { return Pushed::Nothing };
         match sample {
             None => Pushed::Nothing,
@@ -237,7 +238,8 @@ impl Timeline {
     pub fn flight(&self, epoch: usize) -> Flight {
         let mut flight = Flight { ended_by_restart: epoch < self.epoch, ..Flight::default() };
         let system = self.truths.first().map(|entry| entry.sender.0);
-        let mut kept: Vec<TruthEntry> = self.truths.iter().filter(|t| t.epoch == epoch && Some(t.sender.0) == system).copied().collect();
+        let mut kept: Vec<TruthEntry> =
+            self.truths.iter().filter(|t| t.epoch == epoch && Some(t.sender.0) == system).copied().collect();
         kept.sort_by_key(|entry| (entry.truth.time, entry.order));
         kept.dedup_by_key(|entry| entry.truth.time);
         let mut numbered: Vec<((u8, u8), i64, SimTime)> = kept.iter().map(|t| (t.sender, t.order, t.truth.time)).collect();

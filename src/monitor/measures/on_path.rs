@@ -185,7 +185,9 @@ impl Paths {
             if self.paths[task].is_beyond(position_m, threshold) {
                 continue;
             }
-            let Some(nearest) = self.nearest(task, position_m).filter(|nearest| nearest.distance_m <= threshold) else { continue };
+            let Some(nearest) = self.nearest(task, position_m).filter(|nearest| nearest.distance_m <= threshold) else {
+                continue;
+            };
             let share = nearest.distance_m / threshold;
             let better = match best {
                 None => true,
@@ -294,7 +296,9 @@ mod tests {
         for _ in 0..200 {
             let count = 1 + stream.below(70);
             let points: Vec<Vec3<Enu>> = (0..count)
-                .map(|_| Vec3::new(stream.range(-9.0, 9.0).round(), stream.range(-9.0, 9.0).round(), stream.range(0.0, 3.0).round()))
+                .map(|_| {
+                    Vec3::new(stream.range(-9.0, 9.0).round(), stream.range(-9.0, 9.0).round(), stream.range(0.0, 3.0).round())
+                })
                 .collect();
             let path = Path::new(&points, stream.below(2) == 0);
             for _ in 0..20 {

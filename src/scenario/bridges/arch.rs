@@ -157,12 +157,8 @@ impl Arch {
         for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
             for k in 0..segments {
                 let (a, c) = (x(k), x(k + 1));
-                let profile = [
-                    [a, self.intrados_z_m(a)],
-                    [c, self.intrados_z_m(c)],
-                    [c, self.extrados_z_m(c)],
-                    [a, self.extrados_z_m(a)],
-                ];
+                let profile =
+                    [[a, self.intrados_z_m(a)], [c, self.intrados_z_m(c)], [c, self.extrados_z_m(c)], [a, self.extrados_z_m(a)]];
                 let half = 0.5 * self.rib_width_m;
                 b.across(&format!("rib-{side}/{k:02}"), 144, &profile, y - half, y + half);
             }
@@ -201,7 +197,12 @@ impl Arch {
         lines.push(0.5 * self.span_m);
         for (k, x) in lines.iter().enumerate() {
             let half = 0.5 * self.floorbeam_width_m;
-            b.block(&format!("floorbeam/{k:02}"), 155, [x - half, -beam_half, self.floorbeam_z_m()], [x + half, beam_half, soffit]);
+            b.block(
+                &format!("floorbeam/{k:02}"),
+                155,
+                [x - half, -beam_half, self.floorbeam_z_m()],
+                [x + half, beam_half, soffit],
+            );
         }
         let mut ends = vec![-0.5 * self.deck_length_m()];
         ends.extend(&lines);
