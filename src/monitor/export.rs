@@ -19,7 +19,8 @@ pub fn frames_csv(frames: &[Frame]) -> String {
     for frame in frames {
         let [fb, rl, ud, rt] = frame.sticks;
         let [east, north, up] = frame.position_m.array();
-        let t_s = (frame.time - first.time).s();
+        // Divided, not multiplied by 1e-9: the nearest number to a decimal one, so that it is written short.
+        let t_s = (frame.time - first.time).ns() as f64 / 1e9;
         let (light, snapshot, missing) = (u8::from(frame.light), u8::from(frame.snapshot), u8::from(frame.missing));
         // Writing to a string cannot fail.
         let _ = writeln!(

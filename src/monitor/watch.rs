@@ -10,6 +10,7 @@ use super::assessment::{self, AssessError, Graded, Job};
 use super::feedback::{Feedback, Moment, TaskNow, cue, texts::Texts};
 use super::folder::SessionInfo;
 use super::measures::attention::Survey;
+use super::measures::crash::may_touch_pad;
 use super::measures::on_path::Paths;
 use super::session::{EndReason, EndRule, Moment as EndMoment, lift_off_height_m};
 use crate::base::frames::{Enu, Vec3};
@@ -17,7 +18,7 @@ use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Encoder, Received};
 use crate::mav::dialect::{
-    COMMAND_ACK_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavResult, MavSeverity, MavState, MavType,
+    COMMAND_ACK_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult, MavSeverity, MavState, MavType,
     NAMED_VALUE_INT_DATA, STATUSTEXT_DATA, TIMESYNC_DATA,
 };
 use crate::scenario::Scenario;
@@ -44,8 +45,6 @@ const SETTLE: SimTime = SimTime::from_ms(500);
 const RETRY: SimTime = SimTime::from_ms(5_000);
 /// After an end in sight, silence of this much wall time closes the session.
 const SILENCE_CLOSES: SimTime = SimTime::from_ms(3_000);
-/// A touch of the pad is no crash below this vertical speed, m/s (assessment.md).
-const SOFT_TOUCH_M_S: f64 = 1.0;
 /// How far from the drone's centre the thing that it touches is looked for, m (estimate: half the largest aircraft).
 const TOUCH_REACH_M: f64 = 1.5;
 
@@ -451,10 +450,7 @@ impl Monitor {
     fn is_soft_pad_touch(&self, contact: Contact) -> bool {
         let team = &self.config.scenario.ground_team;
         matches!(contact, Contact::Terrain | Contact::Other)
-            && self.live.truth.is_some_and(|truth| {
-                let home = (truth.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
-                home && truth.velocity_m_s.up().abs() < SOFT_TOUCH_M_S
-            })
+            && self.live.truth.is_some_and(|truth| may_touch_pad(truth.position_m, truth.velocity_m_s.up(), team))
     }
 
     fn counted_contact(&self) -> Contact {
@@ -632,6 +628,8 @@ impl Monitor {
         self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
             mavtype: MavType::MAV_TYPE_ONBOARD_CONTROLLER,
             autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
+            // The dialect's default says armed.
+            base_mode: MavModeFlag::empty(),
             system_status: MavState::MAV_STATE_ACTIVE,
             mavlink_version: 3,
             ..HEARTBEAT_DATA::default()

@@ -43,6 +43,7 @@ pub struct LinkCounts {
 struct Sequencer {
     sender: (u8, u8),
     newest: i64,
+    newest_truth: i64,
     seen: Vec<(i64, u16)>,
 }
 
@@ -55,10 +56,10 @@ impl Sequencer {
     fn new(sender: (u8, u8), sequence: u8) -> Self {
         // High enough that late frames before the first keep positive numbers.
         let newest = 256 * 1_000 + i64::from(sequence) - 1;
-        Self { sender, newest, seen: vec![(-1, 0); 256] }
+        Self { sender, newest, newest_truth: -1, seen: vec![(-1, 0); 256] }
     }
 
-    /// `ahead`: the frame's own content proves that it is later than all before.
+    /// `ahead`: the frame is a truth later than all before; a number before the newest truth's cannot be its own.
     fn place(&mut self, sequence: u8, checksum: u16, ahead: bool) -> Arrival {
         let difference = i64::from((i64::from(sequence) - self.newest).rem_euclid(256) as u8 as i8);
         let mut order = self.newest + difference;
@@ -67,12 +68,15 @@ impl Sequencer {
             return Arrival::Duplicate;
         }
         let taken = self.seen[slot].0 == order;
-        if taken || difference < -LATE_WITHIN || (difference <= 0 && ahead) {
+        if taken || difference < -LATE_WITHIN || (ahead && order < self.newest_truth) {
             order += 256;
         }
         let late = order < self.newest;
         let skipped = if late { -1 } else { order - self.newest - 1 };
         self.newest = self.newest.max(order);
+        if ahead {
+            self.newest_truth = order;
+        }
         self.seen[slot] = (order, checksum);
         Arrival::New { order, late, skipped }
     }
@@ -172,7 +176,7 @@ impl Timeline {
         let sample = sample::read(frame, &self.plane);
         let checksum = u16::from_le_bytes([frame[header.payload_end], frame[header.payload_end + 1]]);
         let ahead =
-            matches!(sample.map(|s| s.said), Some(Said::Truth(truth)) if self.newest.is_some_and(|newest| truth.time > newest));
+            matches!(sample.map(|s| s.said), Some(Said::Truth(truth)) if self.newest.is_none_or(|newest| truth.time > newest));
         let Some(order) = self.place(&header, checksum, ahead) else { return Pushed::Nothing };
         match sample {
             None => Pushed::Nothing,

@@ -3,3 +3,4 @@
 mod aircraft;
 mod contact;
 mod free_flight;
+mod score;

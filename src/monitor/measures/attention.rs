@@ -1,7 +1,6 @@
 //! Visual attention: what each picture shows, by geometry and light.
 
 use crate::base::frames::{Enu, Ned, Rotation, Vec3};
-use crate::base::math;
 use crate::base::time::SimTime;
 use crate::scenario::PlacedDefect;
 use crate::site::{CameraPose, DefectView, Site};
@@ -9,13 +8,6 @@ use crate::telemetry::{Flight, Frame};
 use crate::vehicle::{Camera, Lamp, Vehicle};
 use serde::Serialize;
 use std::collections::BTreeSet;
-
-/// Largest angle off a defect's normal, rad (60 degrees, assessment.md).
-const INCIDENCE_MAX_RAD: f64 = math::PI / 3.0;
-/// Smallest longest extent, px (assessment.md).
-const EXTENT_MIN_PX: f64 = 10.0;
-/// Smallest width of a line, px (assessment.md).
-const LINE_MIN_PX: f64 = 0.5;
 
 /// What the scorer asks of the site; the site itself answers, and tests answer with what they have built.
 pub trait Survey: std::fmt::Debug + Send + Sync {
@@ -62,7 +54,7 @@ pub struct View {
     /// All conditions hold.
     pub shown: bool,
     /// Conditions that fail.
-    pub fails: Vec<&'static str>,
+    pub fails: Vec<String>,
 }
 
 /// Judges every picture taken in `frames`. A frame holds one press at most: pictures of one frame are one press.
@@ -90,7 +82,7 @@ pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &
 fn views(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn Survey) -> Vec<View> {
     let Some(pose) = pose(flight, time, vehicle) else { return Vec::new() };
     let looks = survey.look(&pose, &vehicle.camera, &vehicle.lamp, time);
-    looks.iter().filter(|look| look.in_frame || look.hit).map(|look| view(look, &pose, survey)).collect()
+    looks.iter().filter(|look| look.in_frame || look.hit).map(view).collect()
 }
 
 /// Where the camera was: attitude gives the heading, the gimbal holds roll level and its pitch over the horizon.
@@ -108,17 +100,6 @@ pub fn pose(flight: &Flight, time: SimTime, vehicle: &Vehicle) -> Option<CameraP
     })
 }
 
-fn view(look: &DefectView, pose: &CameraPose, survey: &dyn Survey) -> View {
-    let line = survey.defects().iter().any(|defect| defect.id == look.defect_id && defect.line);
-    let dark = if pose.lamp_on { "too dark: lamp on" } else { "too dark: lamp off" };
-    let conditions = [
-        (look.in_frame, "outside the central part of the picture"),
-        (look.unoccluded, "hidden"),
-        (look.incidence_rad <= INCIDENCE_MAX_RAD, "seen too obliquely"),
-        (look.extent_px >= EXTENT_MIN_PX, "too small in the picture"),
-        (!line || look.width_px >= LINE_MIN_PX, "line too thin in the picture"),
-        (look.illuminance_lux >= look.needed_lux, dark),
-    ];
-    let fails = conditions.into_iter().filter(|(holds, _)| !holds).map(|(_, name)| name).collect();
-    View { defect: look.defect_id, shown: look.hit, fails }
+fn view(look: &DefectView) -> View {
+    View { defect: look.defect_id, shown: look.hit, fails: look.reasons() }
 }

@@ -1,11 +1,14 @@
 //! Crash analysis: the pad rule, lost contacts, onsets, and which task a crash belongs to.
 
 use super::on_path::OnPath;
+use crate::base::frames::{Enu, Vec3};
 use crate::scenario::GroundTeam;
 use crate::telemetry::{Contact, Flight, Frame};
 
 /// A touch of the pad is no crash below this vertical speed, m/s (assessment.md).
 const SOFT_TOUCH_M_S: f64 = 1.0;
+/// What is touched higher over the pad than this is not the ground around it, m (estimate: any aircraft's centre when tilted).
+const PAD_REACH_M: f64 = 1.0;
 /// The impact's own speed is read this many frames back at most: at the onset the drone may already stand.
 const LOOK_BACK_FRAMES: usize = 2;
 
@@ -40,19 +43,22 @@ pub fn settle_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTeam)
             continue;
         }
         let soft = *run.get_or_insert_with(|| is_soft_touch(frames, i, team));
-        if soft && is_home(&frames[i], team) {
+        if soft && (frames[i].position_m - team.pad_m).horizontal_norm() <= team.home_radius_m {
             frames[i].contact = Contact::None;
         }
     }
 }
 
-fn is_home(frame: &Frame, team: &GroundTeam) -> bool {
-    (frame.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m
-}
-
 fn is_soft_touch(frames: &[Frame], onset: usize, team: &GroundTeam) -> bool {
     let vertical = frames[onset.saturating_sub(LOOK_BACK_FRAMES)..=onset].iter().map(|frame| frame.velocity_m_s.up().abs());
-    is_home(&frames[onset], team) && vertical.fold(0.0, f64::max) < SOFT_TOUCH_M_S
+    may_touch_pad(frames[onset].position_m, vertical.fold(0.0, f64::max), team)
+}
+
+/// Whether a contact with ground or pad here and at this vertical speed is a touch-down or lift-off, and no crash.
+#[must_use]
+pub fn may_touch_pad(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam) -> bool {
+    let from_pad = position_m - team.pad_m;
+    from_pad.horizontal_norm() <= team.home_radius_m && from_pad.up() < PAD_REACH_M && vertical_m_s.abs() < SOFT_TOUCH_M_S
 }
 
 /// All onsets: frames where the contact goes from none to something, or gets as bad as a vehicle or a person.

@@ -1,0 +1,9 @@
+//! Whole sessions from datagrams alone: frames, measures, ends, the live monitor and its replay.
+
+mod cut;
+mod feedback;
+#[path = "../support/job.rs"]
+mod job;
+mod link;
+mod live;
+mod output;
