@@ -6,3 +6,4 @@ pub mod geodesy;
 pub mod math;
 pub mod random;
 pub mod time;
+pub mod toml;

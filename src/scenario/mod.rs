@@ -3,6 +3,13 @@
 //! scenarios/README.md documents every key; a test checks it against this code.
 
 pub mod bridges;
+mod read;
+mod resolve;
+pub mod tasks;
+mod weather;
+
+pub use read::{FORMAT, Siblings, read, read_asked};
+pub use resolve::resolve;
 
 use crate::base::frames::{Enu, Vec3};
 use crate::base::geodesy::Geo;

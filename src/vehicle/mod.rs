@@ -1,6 +1,10 @@
 //! The aircraft: one TOML file per aircraft in `vehicle-params/`, read into validated types. Every key carries its unit;
 //! every number its source or the word estimate (vehicle-params/README.md, checked against this code by a test).
 
+mod read;
+
+pub use read::{FORMAT, read, read_asked};
+
 use crate::base::frames::{Frd, Vec3};
 
 /// A validated aircraft. Body frame: forward, right, down from the centre of mass.

@@ -253,7 +253,8 @@ impl Model {
         out
     }
 
-    /// One physics step. `lamp_on` loads the battery, `airborne` drains the `paper` battery.
+    /// One physics step, `now` at its start. `lamp_on` loads the battery, `airborne` drains the `paper` battery.
+    #[allow(clippy::too_many_arguments, reason = "a step's inputs, each of another kind")]
     pub fn advance(
         &self,
         state: &mut State,

@@ -116,9 +116,10 @@ impl Model {
     /// Rotor speeds and accelerations when the distance to the target has shrunk to `left` of what it was.
     fn rotor_instant(&self, state: &RigidState, target_rad_s: &[f64; MAX_ROTORS], left: f64) -> RotorInstant {
         let mut out = RotorInstant { speed: [0.0; MAX_ROTORS], acceleration: [0.0; MAX_ROTORS] };
-        for i in 0..self.rotors.len() {
-            let gap = (state.rotor_rad_s[i] - target_rad_s[i]) * left;
-            out.speed[i] = target_rad_s[i] + gap;
+        let pairs = state.rotor_rad_s.iter().zip(target_rad_s).take(self.rotors.len());
+        for (i, (now, target)) in pairs.enumerate() {
+            let gap = (now - target) * left;
+            out.speed[i] = target + gap;
             out.acceleration[i] = -gap / self.rotor.time_constant_s;
         }
         out

@@ -1,0 +1,411 @@
+//! Reads TOML into numbers with ranges and collects every problem with its place, instead of stopping at the first. What was asked for
+//! is recorded, so that the documentation of the keys can be checked against the code.
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt;
+use toml_edit::{Document, Item, TableLike, Value};
+
+/// One thing wrong in a file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Problem {
+    /// File name as given.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Key with its path, e.g. `wind.speed_m_s`.
+    pub key: String,
+    /// The value as written; empty when it is missing.
+    pub value: String,
+    /// What is allowed.
+    pub allowed: String,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: {}", self.file, self.line, self.key)?;
+        if !self.value.is_empty() {
+            write!(f, " = {}", self.value)?;
+        }
+        write!(f, ": {}", self.message)?;
+        if !self.allowed.is_empty() {
+            write!(f, " (allowed: {})", self.allowed)?;
+        }
+        Ok(())
+    }
+}
+
+/// Everything wrong in a file, one problem a line.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Problems(pub Vec<Problem>);
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, problem) in self.0.iter().enumerate() {
+            if k > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{problem}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Problems {}
+
+/// What the code asks of a key: for the documentation test.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Asked {
+    /// What is allowed, in words.
+    pub allowed: String,
+    /// Default as written, or `required`.
+    pub default: String,
+}
+
+/// Problems and the record of keys of one reading.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    file: &'a str,
+    text: &'a str,
+    /// What is wrong so far.
+    pub problems: Vec<Problem>,
+    /// Every key asked for; repeated tables count once.
+    pub asked: BTreeMap<String, Asked>,
+}
+
+/// A table of the file and the keys asked of it so far.
+pub struct Section<'d> {
+    path: String,
+    table: Option<&'d dyn TableLike>,
+    line: usize,
+    seen: Vec<&'static str>,
+}
+
+impl<'a> Reader<'a> {
+    /// A reader of one file.
+    #[must_use]
+    pub fn new(file: &'a str, text: &'a str) -> Self {
+        Self { file, text, problems: Vec::new(), asked: BTreeMap::new() }
+    }
+
+    /// Parses the text; a syntax error becomes a problem.
+    pub fn parse(&mut self) -> Option<Document<&'a str>> {
+        match Document::parse(self.text) {
+            Ok(document) => Some(document),
+            Err(error) => {
+                let line = error.span().map_or(1, |span| self.line_at(span.start));
+                self.problem(line, "syntax", "", "TOML 1.0", error.message());
+                None
+            }
+        }
+    }
+
+    fn line_at(&self, offset: usize) -> usize {
+        1 + self.text.as_bytes().iter().take(offset).filter(|b| **b == b'\n').count()
+    }
+
+    fn line_of(&self, item: &Item) -> Option<usize> {
+        item.span().map(|span| self.line_at(span.start))
+    }
+
+    /// Notes a problem.
+    pub fn problem(&mut self, line: usize, key: &str, value: &str, allowed: &str, message: &str) {
+        self.problems.push(Problem {
+            file: self.file.into(),
+            line,
+            key: key.into(),
+            value: value.into(),
+            allowed: allowed.into(),
+            message: message.trim().replace('\n', " "),
+        });
+    }
+
+    /// The file's top.
+    pub fn root<'d>(&self, document: &'d Document<&'a str>) -> Section<'d> {
+        Section { path: String::new(), table: Some(document.as_table()), line: 1, seen: Vec::new() }
+    }
+
+    /// A table inside another; when it is missing, its keys take their defaults.
+    pub fn section<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Section<'d> {
+        let path = parent.full(key);
+        let (item, line) = self.item(parent, key);
+        let table = item.and_then(Item::as_table_like);
+        if let (Some(item), None) = (item, table) {
+            self.problem(line, &path, &shown(item), "a table", "not a table");
+        }
+        Section { path, table, line, seen: Vec::new() }
+    }
+
+    /// The tables of an array of tables.
+    pub fn sections<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Vec<Section<'d>> {
+        let path = parent.full(key);
+        let (item, line) = self.item(parent, key);
+        let Some(item) = item else { return Vec::new() };
+        if let Some(array) = item.as_array_of_tables() {
+            let line_of = |table: &toml_edit::Table| table.span().map_or(line, |span| self.line_at(span.start));
+            return array
+                .iter()
+                .map(|t| Section { path: format!("{path}[]"), table: Some(t), line: line_of(t), seen: Vec::new() })
+                .collect();
+        }
+        self.problem(line, &path, &shown(item), "an array of tables", "not an array of tables");
+        Vec::new()
+    }
+
+    fn item<'d>(&mut self, section: &mut Section<'d>, key: &'static str) -> (Option<&'d Item>, usize) {
+        section.seen.push(key);
+        let item = section.table.and_then(|t| t.get(key));
+        let line = item.and_then(|i| self.line_of(i)).unwrap_or(section.line);
+        (item, line)
+    }
+
+    fn record(&mut self, path: &str, allowed: &str, default: String) {
+        let path = path.to_string();
+        self.asked.entry(path).or_insert_with(|| Asked { allowed: allowed.into(), default });
+    }
+
+    /// A number within [min, max]. Without a default it is required.
+    pub fn number(&mut self, section: &mut Section, key: &'static str, (min, max): (f64, f64), default: Option<f64>) -> f64 {
+        let path = section.full(key);
+        let allowed = format!("{min} to {max}");
+        self.record(&path, &allowed, default.map_or("required".into(), |d| d.to_string()));
+        let (item, line) = self.item(section, key);
+        let Some(item) = item else {
+            if default.is_none() {
+                self.problem(line, &path, "", &allowed, "missing");
+            }
+            return default.unwrap_or(min);
+        };
+        match as_number(item) {
+            Some(value) if value >= min && value <= max => value,
+            Some(_) => {
+                self.problem(line, &path, &shown(item), &allowed, "out of range");
+                default.unwrap_or(min)
+            }
+            None => {
+                self.problem(line, &path, &shown(item), &allowed, "not a number");
+                default.unwrap_or(min)
+            }
+        }
+    }
+
+    /// A number that may be left out.
+    pub fn optional(&mut self, section: &mut Section, key: &'static str, range: (f64, f64)) -> Option<f64> {
+        let present = section.has(key);
+        let path = section.full(key);
+        self.record(&path, &format!("{} to {}", range.0, range.1), "none".into());
+        let value = self.number(section, key, range, Some(range.0));
+        present.then_some(value)
+    }
+
+    /// A whole number within [min, max].
+    pub fn whole(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64), default: Option<i64>) -> i64 {
+        let path = section.full(key);
+        let allowed = format!("whole number {min} to {max}");
+        self.record(&path, &allowed, default.map_or("required".into(), |d| d.to_string()));
+        let (item, line) = self.item(section, key);
+        let Some(item) = item else {
+            if default.is_none() {
+                self.problem(line, &path, "", &allowed, "missing");
+            }
+            return default.unwrap_or(min);
+        };
+        match item.as_integer() {
+            Some(value) if (min..=max).contains(&value) => value,
+            Some(_) => {
+                self.problem(line, &path, &shown(item), &allowed, "out of range");
+                default.unwrap_or(min)
+            }
+            None => {
+                self.problem(line, &path, &shown(item), &allowed, "not a whole number");
+                default.unwrap_or(min)
+            }
+        }
+    }
+
+    /// true or false.
+    pub fn flag(&mut self, section: &mut Section, key: &'static str, default: bool) -> bool {
+        let path = section.full(key);
+        self.record(&path, "true or false", default.to_string());
+        let (item, line) = self.item(section, key);
+        let Some(item) = item else { return default };
+        item.as_bool().unwrap_or_else(|| {
+            self.problem(line, &path, &shown(item), "true or false", "not true or false");
+            default
+        })
+    }
+
+    /// A text. Without a default it is required.
+    pub fn text(&mut self, section: &mut Section, key: &'static str, default: Option<&str>) -> String {
+        let path = section.full(key);
+        self.record(&path, "text", default.map_or("required".into(), str::to_string));
+        let (item, line) = self.item(section, key);
+        match (item, item.and_then(Item::as_str)) {
+            (_, Some(value)) => value.to_string(),
+            (Some(item), None) => {
+                self.problem(line, &path, &shown(item), "text", "not a text");
+                default.unwrap_or_default().to_string()
+            }
+            (None, None) => {
+                if default.is_none() {
+                    self.problem(line, &path, "", "text", "missing");
+                }
+                default.unwrap_or_default().to_string()
+            }
+        }
+    }
+
+    /// One of several words.
+    pub fn choice<T: Copy>(
+        &mut self,
+        section: &mut Section,
+        key: &'static str,
+        words: &[(&'static str, T)],
+        default: Option<usize>,
+    ) -> T {
+        let path = section.full(key);
+        let allowed = words.iter().map(|(w, _)| *w).collect::<Vec<_>>().join(", ");
+        self.record(&path, &allowed, default.map_or("required".into(), |d| words[d].0.to_string()));
+        let (item, line) = self.item(section, key);
+        let fallback = words[default.unwrap_or(0)].1;
+        let Some(item) = item else {
+            if default.is_none() {
+                self.problem(line, &path, "", &allowed, "missing");
+            }
+            return fallback;
+        };
+        let found = item.as_str().and_then(|text| words.iter().find(|(w, _)| *w == text));
+        found.map_or_else(
+            || {
+                self.problem(line, &path, &shown(item), &allowed, "not one of these");
+                fallback
+            },
+            |(_, value)| *value,
+        )
+    }
+
+    /// A list of exactly `n` numbers, each within [min, max].
+    pub fn numbers<const N: usize>(
+        &mut self,
+        section: &mut Section,
+        key: &'static str,
+        range: (f64, f64),
+        default: Option<[f64; N]>,
+    ) -> [f64; N] {
+        let path = section.full(key);
+        let allowed = format!("{N} numbers, each {} to {}", range.0, range.1);
+        self.record(&path, &allowed, default.map_or("required".into(), |d| format!("{d:?}")));
+        let (item, line) = self.item(section, key);
+        let fallback = default.unwrap_or([range.0; N]);
+        let Some(item) = item else {
+            if default.is_none() {
+                self.problem(line, &path, "", &allowed, "missing");
+            }
+            return fallback;
+        };
+        let values = item.as_value().and_then(|v| list(v, range)).and_then(|v| <[f64; N]>::try_from(v).ok());
+        values.unwrap_or_else(|| {
+            self.problem(line, &path, &shown(item), &allowed, "not such a list");
+            fallback
+        })
+    }
+
+    /// A list of points of three numbers; empty when left out.
+    pub fn points(&mut self, section: &mut Section, key: &'static str, range: (f64, f64)) -> Vec<[f64; 3]> {
+        let path = section.full(key);
+        let allowed = format!("list of [east, north, up], each {} to {}", range.0, range.1);
+        self.record(&path, &allowed, "none".into());
+        let (item, line) = self.item(section, key);
+        let Some(item) = item else { return Vec::new() };
+        let point = |v: &Value| list(v, range).and_then(|p| <[f64; 3]>::try_from(p).ok());
+        let points = item.as_array().map(|array| array.iter().map(point).collect::<Option<Vec<_>>>());
+        points.flatten().unwrap_or_else(|| {
+            self.problem(line, &path, &shown(item), &allowed, "not such a list");
+            Vec::new()
+        })
+    }
+
+    /// A list of whole numbers; empty when left out.
+    pub fn wholes(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64)) -> Vec<i64> {
+        let path = section.full(key);
+        let allowed = format!("list of whole numbers, each {min} to {max}");
+        self.record(&path, &allowed, "none".into());
+        let (item, line) = self.item(section, key);
+        let Some(item) = item else { return Vec::new() };
+        let one = |v: &Value| v.as_integer().filter(|i| (min..=max).contains(i));
+        let values = item.as_array().map(|array| array.iter().map(one).collect::<Option<Vec<_>>>());
+        values.flatten().unwrap_or_else(|| {
+            self.problem(line, &path, &shown(item), &allowed, "not such a list");
+            Vec::new()
+        })
+    }
+
+    /// Complains of keys that nobody asked for. Call it when all keys of the table have been asked for.
+    pub fn finish(&mut self, section: &Section) {
+        let Some(table) = section.table else { return };
+        for (key, item) in table.iter() {
+            if section.seen.iter().any(|s| *s == key) {
+                continue;
+            }
+            let line = self.line_of(item).unwrap_or(section.line);
+            let known = section.seen.iter().min_by_key(|s| difference(s, key));
+            let message = known.map_or("unknown key".to_string(), |k| format!("unknown key; did you mean {k}?"));
+            let allowed = section.seen.join(", ");
+            self.problem(line, &section.full(key), &shown(item), &allowed, &message);
+        }
+    }
+}
+
+impl Section<'_> {
+    /// The key with its path.
+    #[must_use]
+    pub fn full(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_string() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// The table's line.
+    #[must_use]
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
+    /// True when the file has the key.
+    #[must_use]
+    pub fn has(&self, key: &str) -> bool {
+        self.table.is_some_and(|t| t.contains_key(key))
+    }
+}
+
+fn as_number(item: &Item) -> Option<f64> {
+    item.as_float().or_else(|| item.as_integer().map(|i| i as f64)).filter(|v| !v.is_nan())
+}
+
+fn list(value: &Value, (min, max): (f64, f64)) -> Option<Vec<f64>> {
+    let one = |v: &Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64)).filter(|v| *v >= min && *v <= max);
+    value.as_array()?.iter().map(one).collect()
+}
+
+/// The value as written, cut short.
+fn shown(item: &Item) -> String {
+    const LONGEST: usize = 60;
+    let text: String = item.to_string().trim().replace('\n', " ").chars().take(LONGEST + 1).collect();
+    if text.chars().count() > LONGEST { format!("{}…", text.chars().take(LONGEST).collect::<String>()) } else { text }
+}
+
+/// Levenshtein distance, for suggestions.
+fn difference(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let cost = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = cost.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}

@@ -1,0 +1,3 @@
+//! Tests against what is shipped and against outside data.
+
+mod shipped;
