@@ -245,10 +245,10 @@ pub fn assess_log(
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log);
     let flight = scored_flight(&timeline, scenario, vehicle);
-    let seed = check_identity(&flight, scenario, None)?;
     if flight.truths.is_empty() {
         return Err(AssessError::NoTruth);
     }
+    let seed = check_identity(&flight, scenario, None)?;
     let survey = build(scenario, seed);
     let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: survey.as_ref() })?;
     Ok(Graded { assessment, frames, seed })

@@ -112,6 +112,8 @@ pub struct Timeline {
     suspects: Vec<TruthEntry>,
     newest: Option<SimTime>,
     epoch: usize,
+    /// System that sends the truth.
+    system: Option<u8>,
     counts: LinkCounts,
 }
 
@@ -138,6 +140,7 @@ impl Timeline {
             suspects: Vec::new(),
             newest: None,
             epoch: 0,
+            system: None,
             counts: LinkCounts::default(),
         }
     }
@@ -177,6 +180,9 @@ impl Timeline {
         let checksum = u16::from_le_bytes([frame[header.payload_end], frame[header.payload_end + 1]]);
         let ahead =
             matches!(sample.map(|s| s.said), Some(Said::Truth(truth)) if self.newest.is_none_or(|newest| truth.time > newest));
+        if ahead {
+            self.system = self.system.or(Some(header.sender.0));
+        }
         let Some(order) = self.place(&header, checksum, ahead) else { return Pushed::Nothing };
         match sample {
             None => Pushed::Nothing,
@@ -189,16 +195,20 @@ impl Timeline {
             self.sequencers.push(Sequencer::new(header.sender, header.sequence));
             self.sequencers.len() - 1
         });
+        // Ground stations reach the monitor in part only; their numbers have gaps that are no loss.
+        let counted = self.system == Some(header.sender.0);
         match self.sequencers[index].place(header.sequence, checksum, ahead) {
             Arrival::Duplicate => {
-                self.counts.duplicated += 1;
+                self.counts.duplicated += u64::from(counted);
                 None
             }
             Arrival::New { order, late, skipped } => {
-                self.counts.frames += 1;
-                self.counts.reordered += u64::from(late);
-                // A late frame was counted as lost when the later one came.
-                self.counts.lost = self.counts.lost.saturating_add_signed(skipped);
+                if counted {
+                    self.counts.frames += 1;
+                    self.counts.reordered += u64::from(late);
+                    // A late frame was counted as lost when the later one came.
+                    self.counts.lost = self.counts.lost.saturating_add_signed(skipped);
+                }
                 Some(order)
             }
         }
@@ -241,7 +251,7 @@ impl Timeline {
     #[must_use]
     pub fn flight(&self, epoch: usize) -> Flight {
         let mut flight = Flight { ended_by_restart: epoch < self.epoch, ..Flight::default() };
-        let system = self.truths.first().map(|entry| entry.sender.0);
+        let system = self.system;
         let mut kept: Vec<TruthEntry> =
             self.truths.iter().filter(|t| t.epoch == epoch && Some(t.sender.0) == system).copied().collect();
         kept.sort_by_key(|entry| (entry.truth.time, entry.order));

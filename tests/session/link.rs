@@ -127,7 +127,7 @@ fn exact_another_scenario_or_seed_is_refused_by_name() {
 #[test]
 fn exact_an_empty_log_and_one_without_a_flight_are_named() {
     let refused = |log: &[u8]| assess_log(log, &one_task(), &vehicle(), fence_of_ten).unwrap_err();
-    assert_eq!(refused(&[]), AssessError::NoSeed);
+    assert_eq!(refused(&[]), AssessError::NoTruth);
     let mut parked = Tape::new();
     parked.hold(3.0);
     assert_eq!(refused(&parked.log(0)), AssessError::NeverFlown);

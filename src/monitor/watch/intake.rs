@@ -1,0 +1,230 @@
+//! Taking in: one frame at a time, from the stamp in the log to the end of the session.
+
+use super::{HEARTBEAT_EVERY, Live, Monitor, RETRY, SETTLE, TOUCH_REACH_M};
+use crate::base::frames::{Enu, Vec3};
+use crate::base::time::SimTime;
+use crate::mav::codec::Received;
+use crate::mav::dialect::MavSeverity;
+use crate::monitor::assessment::{self, AssessError, Graded, Job};
+use crate::monitor::feedback::Feedback;
+use crate::monitor::measures::crash::may_touch_pad;
+use crate::monitor::session::{EndReason, Moment as EndMoment, lift_off_height_m};
+use crate::telemetry::frame::GAP_AFTER;
+use crate::telemetry::sample::{Said, Sample};
+use crate::telemetry::timeline::Pushed;
+use crate::telemetry::{Contact, Truth};
+use serde_json::json;
+impl Monitor {
+    /// Session start plus simulation time; after a simulator's restart the stamps go on rising.
+    pub(super) fn stamp_us(&self, received: &Received) -> u64 {
+        let own = crate::telemetry::sample::truth_time_us(&received.bytes).and_then(|us| i64::try_from(us).ok());
+        let now = own.map_or(self.now(), |us| SimTime::from_us(us).max(self.now()));
+        let since = u64::try_from((self.stamp_base + now).us()).unwrap_or(0);
+        self.config.started_unix_us.saturating_add(since)
+    }
+
+    pub(super) fn take(&mut self, received: &Received) {
+        let before = self.timeline.newest();
+        match self.timeline.push(&received.bytes) {
+            Pushed::Nothing => {}
+            Pushed::Restarted(sample) => {
+                self.stamp_base += before.unwrap_or(SimTime::ZERO);
+                self.restarted(sample);
+            }
+            Pushed::Kept(sample) => self.note(sample, before),
+        }
+    }
+
+    fn restarted(&mut self, sample: Sample) {
+        self.event("simulator_restarted", json!({}));
+        if self.live.lift_off.is_some() {
+            self.close();
+            return;
+        }
+        self.live = Live::new(&self.config);
+        self.feedback = Feedback::new(&self.config.scenario);
+        self.heartbeat_sim = None;
+        self.note(sample, None);
+    }
+
+    fn note(&mut self, sample: Sample, before: Option<SimTime>) {
+        match sample.said {
+            Said::Truth(truth) if before.is_none_or(|before| truth.time > before) => self.truth(truth, before),
+            Said::Truth(_) | Said::Sticks(_) | Said::Hits(_) | Said::GimbalPitch(_) | Said::Light(_) => {}
+            Said::Battery(pct) => self.live.battery_pct = Some(pct),
+            Said::Contact(contact) => self.contact(contact),
+            Said::Respawns(count) => self.respawns(count),
+            Said::Seed(seed) => self.seed_heard(seed),
+            Said::ScenarioCrc(crc) => {
+                if let Err(error) = assessment::check_scenario(&self.config.scenario, crc) {
+                    self.refuse(error);
+                }
+            }
+            Said::Clearance(metres) => self.live.clearance_m = Some(metres),
+            Said::Armed(armed) => self.live.armed = Some(armed),
+            Said::OnGround(on_ground) => self.live.on_ground = on_ground,
+            Said::Snapshot(index) => self.event("snapshot", json!({ "image": index })),
+        }
+    }
+
+    fn seed_heard(&mut self, seed: u64) {
+        if let Err(error) = assessment::check_seed(self.seed, seed) {
+            self.refuse(error);
+            return;
+        }
+        self.seed = Some(seed);
+        if self.survey.is_none() {
+            self.survey = Some((self.config.build)(&self.config.scenario, seed));
+            self.event("seed", json!({ "seed": seed }));
+        }
+    }
+
+    fn refuse(&mut self, error: AssessError) {
+        if self.refused.is_none() {
+            self.event("refused", json!({ "why": error.to_string() }));
+            self.text("Monitor: other scenario or seed", MavSeverity::MAV_SEVERITY_WARNING);
+            self.refused = Some(error.clone());
+            self.outcome = Some(Err(error));
+        }
+    }
+
+    fn respawns(&mut self, count: i32) {
+        if self.live.respawns.is_some_and(|known| count > known) {
+            self.event("respawn", json!({ "count": count }));
+        }
+        self.live.respawns = Some(count);
+    }
+
+    fn truth(&mut self, truth: Truth, before: Option<SimTime>) {
+        if let Some(before) = before.filter(|before| truth.time - *before > GAP_AFTER) {
+            self.event("telemetry_gap", json!({ "from_s": before.s(), "to_s": truth.time.s() }));
+        }
+        self.live.truth = Some(truth);
+        if self.live.lift_off.is_none() && self.height_m(truth.position_m) > lift_off_height_m(&self.config.vehicle) {
+            self.live.lift_off = Some(truth.time);
+            self.event("lift_off", json!({}));
+        }
+        self.place(truth.position_m);
+        self.speak();
+        self.look_for_the_end(&truth);
+        let due = |last: Option<SimTime>| last.is_none_or(|last| truth.time - last >= HEARTBEAT_EVERY);
+        if due(self.heartbeat_sim) {
+            self.heartbeat_sim = Some(truth.time);
+            self.heartbeat();
+        }
+    }
+
+    pub(super) fn height_m(&self, position_m: Vec3<Enu>) -> f64 {
+        position_m.up() - self.config.scenario.ground_team.pad_m.up()
+    }
+
+    fn place(&mut self, position_m: Vec3<Enu>) {
+        if self.live.lift_off.is_none() {
+            return;
+        }
+        let on = self.paths.on(position_m, self.live.last_task).map(|(task, _)| task);
+        if let Some(task) = on.filter(|task| self.live.last_task != Some(*task)) {
+            self.event("task_entered", json!({ "task": self.config.scenario.tasks[task].id }));
+        }
+        self.live.on = on;
+        self.live.last_task = on.or(self.live.last_task);
+    }
+
+    fn contact(&mut self, contact: Contact) {
+        let onset = self.live.contact == Contact::None && contact != Contact::None;
+        if onset {
+            self.live.on_pad = self.is_soft_pad_touch(contact);
+        }
+        let changed = self.live.contact != contact;
+        self.live.contact = contact;
+        if changed && contact != Contact::None && !self.live.on_pad && self.live.lift_off.is_some() {
+            let what = self.touched();
+            self.event("crash", json!({ "with": contact.word(), "what": what }));
+        }
+        if changed {
+            self.speak();
+        }
+    }
+
+    fn is_soft_pad_touch(&self, contact: Contact) -> bool {
+        let team = &self.config.scenario.ground_team;
+        matches!(contact, Contact::Terrain | Contact::Other)
+            && self.live.truth.is_some_and(|truth| may_touch_pad(truth.position_m, truth.velocity_m_s.up(), team))
+    }
+
+    pub(super) fn counted_contact(&self) -> Contact {
+        if self.live.on_pad && !matches!(self.live.contact, Contact::Person | Contact::Vehicle) {
+            Contact::None
+        } else {
+            self.live.contact
+        }
+    }
+
+    pub(super) fn touched(&self) -> Option<String> {
+        let truth = self.live.truth?;
+        self.survey.as_ref()?.name_near(truth.position_m, TOUCH_REACH_M, truth.time)
+    }
+
+    fn look_for_the_end(&mut self, truth: &Truth) {
+        let Some(start) = self.live.lift_off else { return };
+        if self.live.end.is_none() && truth.time >= self.live.no_end_before {
+            let rate = self.config.scenario.scoring.frame_rate_hz;
+            let moment = EndMoment {
+                time: truth.time,
+                flown_s: (truth.time - start).s() + 1.0 / rate,
+                position_m: truth.position_m,
+                speed_m_s: truth.velocity_m_s.norm(),
+                contact: self.counted_contact(),
+                battery_pct: self.live.battery_pct.unwrap_or(100.0),
+                armed: self.live.armed,
+                on_ground: self.live.on_ground,
+            };
+            self.live.end = self.live.rule.see(&moment).map(|(_, reason)| (truth.time, reason));
+        }
+        if let Some((time, _)) = self.live.end
+            && truth.time - time >= SETTLE
+            && !self.replaying
+        {
+            self.try_to_finish(truth.time);
+        }
+    }
+
+    /// The live rule sees samples, the scorer frames: the scorer decides. When it sees no end yet, the watch goes on.
+    fn try_to_finish(&mut self, now: SimTime) {
+        let outcome = self.score();
+        match &outcome {
+            Ok(graded) if graded.assessment.end.reason == EndReason::Abort => {
+                self.live.end = None;
+                self.live.no_end_before = now + RETRY;
+            }
+            Ok(_) | Err(_) => self.finish(outcome),
+        }
+    }
+
+    pub(super) fn score(&mut self) -> Result<Graded, AssessError> {
+        if let Some(refused) = &self.refused {
+            return Err(refused.clone());
+        }
+        let Self { config, timeline, survey, .. } = self;
+        let flight = assessment::scored_flight(timeline, &config.scenario, &config.vehicle);
+        let seed = assessment::check_identity(&flight, &config.scenario, self.seed)?;
+        let survey = survey.get_or_insert_with(|| (config.build)(&config.scenario, seed)).clone();
+        let job = Job { scenario: &config.scenario, vehicle: &config.vehicle, survey: survey.as_ref() };
+        let (assessment, frames) = assessment::assess(&flight, &job)?;
+        Ok(Graded { assessment, frames, seed })
+    }
+
+    pub(super) fn finish(&mut self, outcome: Result<Graded, AssessError>) {
+        let (reason, words) = match &outcome {
+            Ok(graded) => {
+                let overall = graded.assessment.scores.overall;
+                (json!(graded.assessment.end.reason), format!("Session over: {overall:.0} points"))
+            }
+            Err(error) => (json!(error.to_string()), "Session over: nothing to score".to_owned()),
+        };
+        let counts = self.link();
+        self.event("end", json!({ "reason": reason, "link": counts }));
+        self.text(&words, MavSeverity::MAV_SEVERITY_INFO);
+        self.outcome = Some(outcome);
+    }
+}
