@@ -7,3 +7,4 @@ mod job;
 mod link;
 mod live;
 mod output;
+mod shipped;

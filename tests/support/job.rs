@@ -1,7 +1,7 @@
 //! A small job, a site that answers what a test wrote down, and a tape of datagrams as a vehicle would send them.
 #![allow(dead_code, reason = "each test binary uses its part")]
 
-use spandrel::base::frames::{Enu, Frd, Vec3};
+use spandrel::base::frames::{Enu, Frd, Rotation, Vec3};
 use spandrel::base::geodesy::{Geo, LocalPlane};
 use spandrel::base::time::SimTime;
 use spandrel::mav::codec::Encoder;
@@ -254,17 +254,24 @@ pub struct Tape {
     pub now_ms: u32,
     /// Where the last truth was.
     pub at_m: Vec3<Enu>,
+    /// Heading, rad clockwise from north.
+    pub yaw_rad: f64,
 }
 
 impl Tape {
     /// Armed on the pad at simulation time zero, with seed and scenario announced.
     pub fn new() -> Self {
-        let plane = LocalPlane::new(scenario(Vec::new()).origin);
-        let at_m = Vec3::new(0.0, 0.0, 0.15);
-        let mut tape = Self { plane, encoder: Encoder::new(1, 1), datagrams: Vec::new(), now_ms: 0, at_m };
+        Self::of(&scenario(Vec::new()))
+    }
+
+    /// The same in any job.
+    pub fn of(job: &Scenario) -> Self {
+        let plane = LocalPlane::new(job.origin);
+        let at_m = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 0.15);
+        let mut tape = Self { plane, encoder: Encoder::new(1, 1), datagrams: Vec::new(), now_ms: 0, at_m, yaw_rad: 0.0 };
         tape.truth(Vec3::zero());
         tape.int("seed", SEED as i32);
-        tape.int("scn_crc", CRC as i32);
+        tape.int("scn_crc", job.crc as i32);
         tape.int("hits", 0);
         tape.int("respawns", 0);
         tape.contact(0);
@@ -282,7 +289,7 @@ impl Tape {
         let [e, n, u] = velocity.array().map(|v| (v * 100.0).round() as i16);
         self.send(&MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
             time_usec: u64::from(self.now_ms) * 1000,
-            attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
+            attitude_quaternion: quaternion(0.0, self.yaw_rad),
             lat: (geo.latitude_deg * 1e7).round() as i32,
             lon: (geo.longitude_deg * 1e7).round() as i32,
             alt: (geo.altitude_m * 1e3).round() as i32,
@@ -320,6 +327,15 @@ impl Tape {
     pub fn lamp(&mut self, on: bool) {
         let lamp = ILLUMINATOR_STATUS_DATA { uptime_ms: self.now_ms, enable: u8::from(on), ..ILLUMINATOR_STATUS_DATA::default() };
         self.send(&MavMessage::ILLUMINATOR_STATUS(lamp));
+    }
+
+    /// Points the gimbal, rad over the horizon.
+    pub fn gimbal(&mut self, pitch_rad: f64) {
+        self.send(&MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(GIMBAL_DEVICE_ATTITUDE_STATUS_DATA {
+            time_boot_ms: self.now_ms,
+            q: quaternion(pitch_rad, 0.0),
+            ..GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::default()
+        }));
     }
 
     pub fn snapshot(&mut self, index: i32) {
@@ -388,6 +404,10 @@ impl Tape {
     pub fn log(&self, start_us: u64) -> Vec<u8> {
         log_of(&self.datagrams, start_us)
     }
+}
+
+fn quaternion(pitch_rad: f64, yaw_rad: f64) -> [f32; 4] {
+    Rotation::from_euler(0.0, pitch_rad, yaw_rad).wxyz().map(|component| component as f32)
 }
 
 pub fn log_of(datagrams: &[Vec<u8>], start_us: u64) -> Vec<u8> {

@@ -18,7 +18,8 @@ pub fn loss(speeds_m_s: &[f64], speeding: &[bool], window: Option<Window>, limit
     let Some(window) = window else { return 0.0 };
     let range = window.first..=window.last;
     let weights = speeds_m_s[range.clone()].iter().zip(&speeding[range]).filter(|(_, on)| **on).map(|(v, _)| v / limit_m_s);
-    weights.sum::<f64>() / window.frames() as f64
+    // An empty sum of floats is -0; adding 0 makes it 0.
+    (weights.sum::<f64>() + 0.0) / window.frames() as f64
 }
 
 #[cfg(test)]

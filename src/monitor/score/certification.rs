@@ -239,7 +239,7 @@ fn visits(evidence: &Evidence<'_>) -> Vec<TaskVisits> {
         let on = evidence.on_path.task.iter().filter(|on| on.is_some_and(|(t, _)| t == task)).count();
         let inside = ranges.iter().flat_map(|(first, last)| &frames[*first..=*last]);
         let loss: f64 = inside.map(Frame::speed_m_s).filter(|v| *v > limit).map(|v| v / limit).sum();
-        let per_frame = |sum: f64| if count == 0 { 0.0 } else { sum / count as f64 };
+        let per_frame = |sum: f64| if count == 0 { 0.0 } else { (sum + 0.0) / count as f64 };
         TaskVisits {
             id: scenario.tasks[task].id,
             visits: ranges.iter().map(|(first, last)| (frames[*first].index, frames[*last].index)).collect(),

@@ -21,7 +21,8 @@ impl Score {
     /// A raw value on the scale from `least` to `greatest`, clamped into it.
     #[must_use]
     pub fn on_scale(raw: f64, least: f64, greatest: f64) -> Self {
-        let raw = raw.clamp(least, greatest);
+        // Adding 0 turns -0 into 0.
+        let raw = raw.clamp(least, greatest) + 0.0;
         Self { raw, pct: (raw - least) / (greatest - least) * 100.0 }
     }
 }

@@ -1,0 +1,103 @@
+//! The shipped job with its real site: paths, defects, light, camera geometry, end to end from datagrams.
+
+use crate::job::Tape;
+use spandrel::base::frames::{Enu, Vec3};
+use spandrel::base::math;
+use spandrel::monitor::measures::attention::Survey;
+use spandrel::monitor::watch::build_site;
+use spandrel::monitor::{assess_log, export};
+use spandrel::scenario::{PlacedDefect, Scenario};
+use spandrel::site::CameraPose;
+use spandrel::vehicle::Vehicle;
+
+fn shipped() -> (Scenario, Vehicle) {
+    let none = |name: &str| Err(format!("no {name} here"));
+    let text = include_str!("../../scenarios/two-bridges.toml");
+    let scenario = spandrel::scenario::read("two-bridges.toml", text, &none).unwrap();
+    let text = include_str!("../../vehicle-params/phantom2.toml");
+    (scenario, spandrel::vehicle::read("phantom2.toml", text).unwrap())
+}
+
+/// Where to stand (m), heading and gimbal pitch (rad) to photograph a defect from within a task's threshold of its path.
+fn stand(defect: &PlacedDefect, scenario: &Scenario, vehicle: &Vehicle, site: &dyn Survey) -> Option<(Vec3<Enu>, f64, f64)> {
+    let mut points: Vec<(Vec3<Enu>, f64)> =
+        scenario.tasks.iter().flat_map(|task| task.path_m.iter().map(|point| (*point, task.threshold_m))).collect();
+    points.sort_by(|a, b| (a.0 - defect.position_m).norm().total_cmp(&(b.0 - defect.position_m).norm()));
+    let closer = |(point, threshold): &(Vec3<Enu>, f64)| {
+        let way = defect.position_m - *point;
+        [0.0, 0.45, 0.9].map(|share| *point + way.unit() * (share * threshold).min((way.norm() - 1.0).max(0.0)))
+    };
+    points.iter().take(60).flat_map(closer).find_map(|place| {
+        let to = (defect.position_m - place).unit();
+        let (yaw, pitch) = (math::atan2(to.east(), to.north()), math::asin(to.up()));
+        let right = Vec3::new(math::cos(yaw), -math::sin(yaw), 0.0);
+        let pose = CameraPose { position_m: place, forward: to, right, lamp_on: true };
+        let views = site.look(&pose, &vehicle.camera, &vehicle.lamp, spandrel::base::time::SimTime::from_ms(60_000));
+        views.iter().any(|view| view.defect_id == defect.id && view.hit).then_some((place, yaw, pitch))
+    })
+}
+
+#[test]
+fn flight_photographs_of_the_shipped_jobs_defects_hit_and_score() {
+    let (scenario, vehicle) = shipped();
+    let site = build_site(&scenario, crate::job::SEED);
+    let defects = site.defects().to_vec();
+    assert_eq!(defects.len(), scenario.defects.count);
+    let stands: Vec<_> = defects.iter().filter_map(|defect| stand(defect, &scenario, &vehicle, site.as_ref())).collect();
+    assert!(stands.len() >= 8, "a plain stand is found for {} of {}", stands.len(), defects.len());
+    let mut tape = Tape::of(&scenario);
+    let pad = tape.at_m;
+    tape.fly((pad.east(), pad.north(), pad.up() + 5.0), 2.0);
+    tape.lamp(true);
+    for (index, (place, yaw, pitch)) in stands.iter().enumerate() {
+        tape.yaw_rad = *yaw;
+        tape.fly((place.east(), place.north(), place.up()), 4.0);
+        tape.gimbal(*pitch);
+        tape.hold(0.5);
+        tape.snapshot(i32::try_from(index).unwrap());
+        tape.hold(0.1);
+    }
+    let log = tape.log(0);
+    let graded = assess_log(&log, &scenario, &vehicle, |_, _| site.clone()).unwrap();
+    let snapshots = &graded.assessment.snapshots;
+    assert_eq!(snapshots.taken, stands.len());
+    // The wire rounds positions to a centimetre: a stand at the very edge of a condition may fail by that.
+    assert!(snapshots.defects_found + 1 >= stands.len(), "{} found, {:#?}", snapshots.defects_found, snapshots.each);
+    let exported = serde_json::to_value(export::ScenarioExport::new(&scenario, &defects)).unwrap();
+    assert_eq!(exported["tasks"].as_array().unwrap().len(), 4);
+}
+
+#[test]
+fn flight_the_shipped_jobs_paths_flown_to_the_letter_are_worth_full_conformity() {
+    let (scenario, vehicle) = shipped();
+    let site = build_site(&scenario, crate::job::SEED);
+    let mut tape = Tape::of(&scenario);
+    let pad = tape.at_m;
+    tape.fly((pad.east(), pad.north(), pad.up() + 5.0), 2.0);
+    for task in &scenario.tasks {
+        let around = if task.closed { task.path_m.first() } else { None };
+        for point in task.path_m.iter().chain(around) {
+            tape.fly((point.east(), point.north(), point.up()), 4.0);
+        }
+        // Away to the side and up, so that no transit crosses a corridor.
+        let [e, n, u] = tape.at_m.array();
+        let side = if n < -5.0 { -40.0 } else { 40.0 };
+        tape.fly((e, n + side, u), 4.0);
+        tape.fly((e, n + side, 60.0), 4.0);
+        tape.fly((0.0, 60.0, 60.0), 10.0);
+    }
+    let [e, n, u] = pad.array();
+    tape.fly((e, n, u + 5.0), 4.0);
+    tape.fly((e, n, u), 0.8);
+    tape.hold(4.0);
+    let graded = assess_log(&tape.log(0), &scenario, &vehicle, |_, _| site.clone()).unwrap();
+    let assessment = &graded.assessment;
+    assert!(assessment.tasks.iter().all(|task| task.attempted && task.speeding == 0.0), "{:?}", assessment.tasks);
+    for (task, visits) in assessment.tasks.iter().zip(&assessment.certification.tasks) {
+        assert!(task.on_path == 1.0 && visits.on_path == 1.0, "{task:?} {visits:?}");
+        assert!(visits.coverage > 0.99, "{visits:?}");
+    }
+    assert_eq!(assessment.scores.conformity.unwrap().pct, 100.0);
+    assert_eq!(assessment.scores.efficiency.pct, 100.0);
+    assert_eq!(assessment.end.reason, spandrel::monitor::session::EndReason::Landed);
+}
