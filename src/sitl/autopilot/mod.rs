@@ -1,6 +1,12 @@
 //! The built-in autopilot: estimator, rate, attitude, velocity, position, modes, failsafes, mission. Sees sensor readings,
 //! stick intents and requests; never the truth.
 
+pub mod core;
+pub mod tuning;
+
+pub use self::core::{Autopilot, Event, Severity};
+pub use self::tuning::{LinkLoss, Tuning};
+
 use crate::base::frames::{Frd, Ned, Rotation, Vec3};
 
 /// Flight modes; the MAVLink numbers of each flavour live in the endpoint.

@@ -1,0 +1,111 @@
+//! What an operator may change in flight; the endpoint maps each field to the parameter name in its doc line.
+
+/// What a lost link leads to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LinkLoss {
+    /// Nothing but a warning.
+    Ignore,
+    /// Stop and hold.
+    Hold,
+    /// Return to home and land.
+    Return,
+    /// Land here.
+    Land,
+}
+
+impl LinkLoss {
+    /// From a parameter's number: 0 nothing, 1 hold, 2 return, 3 land.
+    #[must_use]
+    pub fn from_number(n: i32) -> Option<Self> {
+        [Self::Ignore, Self::Hold, Self::Return, Self::Land].get(usize::try_from(n).ok()?).copied()
+    }
+
+    /// The parameter's number.
+    #[must_use]
+    pub fn number(self) -> i32 {
+        match self {
+            Self::Ignore => 0,
+            Self::Hold => 1,
+            Self::Return => 2,
+            Self::Land => 3,
+        }
+    }
+}
+
+/// Changeable values, with the PX4 parameter that each stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tuning {
+    /// `MPC_XY_VEL_MAX`: largest horizontal speed in automatic modes, m/s.
+    pub horizontal_speed_max_m_s: f64,
+    /// `MPC_XY_CRUISE`: horizontal speed in missions, returns and go-to, m/s.
+    pub cruise_m_s: f64,
+    /// `MPC_Z_V_AUTO_UP`: climb in automatic modes, m/s.
+    pub climb_m_s: f64,
+    /// `MPC_Z_V_AUTO_DN`: descent in automatic modes, m/s.
+    pub descend_m_s: f64,
+    /// `MPC_TKO_SPEED`: climb at take-off, m/s.
+    pub takeoff_speed_m_s: f64,
+    /// `MPC_LAND_SPEED`: last metres of a landing, m/s.
+    pub land_speed_m_s: f64,
+    /// `MPC_LAND_ALT2`: below this height over the ground (or home) the landing is slow, m.
+    pub land_slow_below_m: f64,
+    /// `MIS_TAKEOFF_ALT`: take-off height over home, m.
+    pub takeoff_height_m: f64,
+    /// `RTL_RETURN_ALT`: height over home at which it returns, m.
+    pub return_height_m: f64,
+    /// `NAV_ACC_RAD`: a waypoint counts as reached within, m.
+    pub accept_radius_m: f64,
+    /// `COM_RC_LOSS_T`: manual control is lost after, s.
+    pub manual_loss_s: f64,
+    /// `COM_FAIL_ACT_T`: it holds this long before the failsafe's action, s.
+    pub failsafe_delay_s: f64,
+    /// `NAV_RCL_ACT`: what lost manual control leads to.
+    pub manual_loss: LinkLoss,
+    /// `COM_DL_LOSS_T`: the ground station is lost after, s.
+    pub data_link_loss_s: f64,
+    /// `NAV_DLL_ACT`: what a lost ground station leads to.
+    pub data_link_loss: LinkLoss,
+    /// `COM_OF_LOSS_T`: external set-points are lost after, s.
+    pub offboard_loss_s: f64,
+    /// `BAT_LOW_THR`: low battery, %.
+    pub battery_low_pct: f64,
+    /// `BAT_CRIT_THR`: critical battery, %.
+    pub battery_critical_pct: f64,
+    /// `COM_DISARM_LAND`: disarms this long after landing, s; not above zero: never.
+    pub disarm_after_landing_s: f64,
+    /// `COM_DISARM_PRFLT`: disarms when not taken off within, s; not above zero: never.
+    pub disarm_before_flight_s: f64,
+    /// `COM_RC_OVERRIDE`: moved sticks take over from automatic modes.
+    pub stick_takeover: bool,
+    /// `MPC_HOLD_DZ`: sticks within this share of their travel count as centred.
+    pub stick_deadband: f64,
+}
+
+impl Default for Tuning {
+    fn default() -> Self {
+        Self {
+            horizontal_speed_max_m_s: 12.0,
+            cruise_m_s: 5.0,
+            climb_m_s: 3.0,
+            descend_m_s: 1.5,
+            takeoff_speed_m_s: 1.5,
+            land_speed_m_s: 0.7,
+            land_slow_below_m: 5.0,
+            takeoff_height_m: 2.5,
+            return_height_m: 30.0,
+            accept_radius_m: 2.0,
+            manual_loss_s: 0.5,
+            failsafe_delay_s: 5.0,
+            manual_loss: LinkLoss::Hold,
+            data_link_loss_s: 10.0,
+            data_link_loss: LinkLoss::Ignore,
+            offboard_loss_s: 1.0,
+            battery_low_pct: 15.0,
+            battery_critical_pct: 7.0,
+            disarm_after_landing_s: 2.0,
+            disarm_before_flight_s: 10.0,
+            stick_takeover: true,
+            stick_deadband: 0.05,
+        }
+    }
+}

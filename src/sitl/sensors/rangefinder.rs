@@ -1,0 +1,78 @@
+//! Range finders: down, up, and eight around in the body's plane, as rays into the site.
+
+use super::Surroundings;
+use crate::base::frames::{Frd, Vec3};
+use crate::base::math;
+use crate::base::random::RandomStream;
+use crate::base::time::{Schedule, SimTime};
+use crate::sitl::physics::RigidState;
+use crate::vehicle;
+
+/// What all range finders measured at one instant, m; infinite beyond reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ranges {
+    /// Along the body's down axis.
+    pub down_m: f64,
+    /// Against it.
+    pub up_m: f64,
+    /// Eight directions clockwise from the nose.
+    pub around_m: [f64; 8],
+}
+
+impl Ranges {
+    /// The shortest of all, m.
+    #[must_use]
+    pub fn shortest_m(&self) -> f64 {
+        self.around_m.iter().fold(self.down_m.min(self.up_m), |a, b| a.min(*b))
+    }
+}
+
+/// State of the range finders.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RangeFinders {
+    stream: RandomStream,
+    due: Schedule,
+    noise_m: f64,
+    max_m: f64,
+    around: [Vec3<Frd>; 8],
+}
+
+impl RangeFinders {
+    /// With the aircraft's rate, noise and reach.
+    #[must_use]
+    pub fn new(sensors: &vehicle::Sensors, seed: u64) -> Self {
+        let mut around = [Vec3::zero(); 8];
+        for (i, direction) in around.iter_mut().enumerate() {
+            let (s, c) = math::sin_cos(i as f64 * math::PI / 4.0);
+            *direction = Vec3::new(c, s, 0.0);
+        }
+        Self {
+            stream: RandomStream::new(seed, "range"),
+            due: Schedule::new(SimTime::ZERO, sensors.range_rate_hz),
+            noise_m: sensors.range_noise_m,
+            max_m: sensors.range_max_m,
+            around,
+        }
+    }
+
+    /// All ranges from the centre of mass, when due.
+    pub fn read<S: Surroundings>(&mut self, rigid: &RigidState, site: &S, now: SimTime) -> Option<Ranges> {
+        if !self.due.fire(now) {
+            return None;
+        }
+        let down_m = self.one(rigid, Vec3::new(0.0, 0.0, 1.0), site, now);
+        let up_m = self.one(rigid, Vec3::new(0.0, 0.0, -1.0), site, now);
+        let mut around_m = [0.0; 8];
+        for (range, direction) in around_m.iter_mut().zip(self.around) {
+            *range = self.one(rigid, direction, site, now);
+        }
+        Some(Ranges { down_m, up_m, around_m })
+    }
+
+    fn one<S: Surroundings>(&mut self, rigid: &RigidState, direction: Vec3<Frd>, site: &S, now: SimTime) -> f64 {
+        let hit = site.ray_m(rigid.position_m.enu(), (rigid.attitude * direction).enu(), self.max_m, now);
+        // Drawn on every call, so that what one ray meets never shifts another's noise.
+        let noise = self.noise_m * self.stream.normal();
+        hit.map_or(f64::INFINITY, |d| (d + noise).max(0.0))
+    }
+}
