@@ -81,7 +81,7 @@ fn flight_the_shipped_jobs_paths_flown_to_the_letter_are_worth_full_conformity()
         }
         // Away to the side and up, so that no transit crosses a corridor.
         let [e, n, u] = tape.at_m.array();
-        let side = if n < -5.0 { -40.0 } else { 40.0 };
+        let side = if n < -5.0 || task.closed { -40.0 } else { 40.0 };
         tape.fly((e, n + side, u), 4.0);
         tape.fly((e, n + side, 60.0), 4.0);
         tape.fly((0.0, 60.0, 60.0), 10.0);
