@@ -6,12 +6,15 @@ mod job;
 
 use job::{Tape, fence_of_ten, line, scenario, task, vehicle};
 use spandrel::mav::dialect::{ATTITUDE_DATA, LOCAL_POSITION_NED_DATA, MavMessage, VFR_HUD_DATA};
-use spandrel::monitor::assess_log;
+use spandrel::monitor::{Monitor, MonitorConfig, assess_log};
+use spandrel::scenario::Scenario;
 use std::hint::black_box;
 use std::time::Duration;
 
 /// The ceiling.
 const CEILING: Duration = Duration::from_millis(500);
+/// From the sample to the changed cue (shared assessment, in-task feedback).
+const CUE_CEILING: Duration = Duration::from_millis(100);
 const FLIGHT_S: f64 = 1500.0;
 const ROUNDS: usize = 7;
 
@@ -62,6 +65,36 @@ fn long_flight() -> Vec<Vec<u8>> {
     busy
 }
 
+/// Longest time from a datagram to the cue on the wire over a whole flight: (all datagrams, those that changed the cues).
+#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+fn cue_latency(scenario: &Scenario, datagrams: &[Vec<u8>]) -> (Duration, Duration) {
+    let mut monitor = Monitor::new(MonitorConfig {
+        scenario: scenario.clone(),
+        vehicle: vehicle(),
+        trainee: "bench".to_owned(),
+        started_unix_us: 0,
+        system_id: 1,
+        seed: None,
+        build: fence_of_ten,
+    });
+    let (mut slowest, mut slowest_change) = (Duration::ZERO, Duration::ZERO);
+    for datagram in datagrams {
+        let (before, start) = (monitor.cues(), std::time::Instant::now());
+        monitor.handle_datagram(datagram);
+        while monitor.poll_transmit().is_some() {}
+        let took = start.elapsed();
+        while monitor.poll_record().is_some() {}
+        if monitor.finished().is_some() {
+            break;
+        }
+        slowest = slowest.max(took);
+        if monitor.cues() != before {
+            slowest_change = slowest_change.max(took);
+        }
+    }
+    (slowest, slowest_change)
+}
+
 fn main() {
     let tasks = (0u32..4).map(|k| {
         let north = f64::from(k) * 20.0;
@@ -83,5 +116,13 @@ fn main() {
         assess.as_secs_f64() / read.as_secs_f64(),
         CEILING.as_secs_f64(),
         if assess <= CEILING { "kept" } else { "EXCEEDED" },
+    );
+    let (slowest, change) = cue_latency(&scenario, &datagrams);
+    println!(
+        "cue: {:.3} ms at most from a sample to its changed cue, {:.3} ms for any datagram; ceiling {} ms: {}",
+        change.as_secs_f64() * 1e3,
+        slowest.as_secs_f64() * 1e3,
+        CUE_CEILING.as_millis(),
+        if slowest <= CUE_CEILING { "kept" } else { "EXCEEDED" },
     );
 }

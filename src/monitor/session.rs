@@ -137,6 +137,9 @@ pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
     LIFT_OFF_M.max(stand + OVER_STAND_M)
 }
 
+/// Frames are looked at this long past the time limit: longer than a landing takes to be confirmed.
+const OVERTIME: SimTime = SimTime::from_ms(10_000);
+
 /// The frames of a session and its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Session {
@@ -151,7 +154,8 @@ impl Session {
     #[must_use]
     pub fn cut(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
         let start = flight.lift_off(scenario.ground_team.pad_m.up(), lift_off_height_m(vehicle))?;
-        let end = flight.end()?;
+        // The time limit ends every session; a broken clock must not make frames without end.
+        let end = flight.end()?.min(start + SimTime::from_s(scenario.scoring.time_max_s) + OVERTIME);
         let rate = scenario.scoring.frame_rate_hz;
         let mut frames = all_frames(flight, start, end, rate);
         crash::settle_contacts(&mut frames, flight, &scenario.ground_team);

@@ -223,15 +223,20 @@ fn kept(message_id: u32) -> bool {
     )
 }
 
-/// The clock of a truth frame, µs since simulation start; `None` for other frames.
+/// The clock of a truth frame, since simulation start; `None` for other frames.
 #[must_use]
-pub fn truth_time_us(frame: &[u8]) -> Option<u64> {
+pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
     let header = Header::peek(frame)?;
     if header.message_id != HIL_STATE_QUATERNION_DATA::ID {
         return None;
     }
     let payload = frame.get(header.payload_at..header.payload_end)?;
-    HIL_STATE_QUATERNION_DATA::deser(MavlinkVersion::V2, payload).ok().map(|truth| truth.time_usec)
+    HIL_STATE_QUATERNION_DATA::deser(MavlinkVersion::V2, payload).ok().map(|truth| clock(truth.time_usec))
+}
+
+/// A clock beyond the range of [`SimTime`] (292 years) is a broken frame; saturating keeps it in order instead of wrapping.
+fn clock(us: u64) -> SimTime {
+    SimTime::from_us(i64::try_from(us).unwrap_or(i64::MAX).min(i64::MAX / 1_000))
 }
 
 /// Reads one frame whose checksum has been checked. `None` when it says nothing that the timeline keeps.
@@ -325,10 +330,8 @@ fn truth(wire: &HIL_STATE_QUATERNION_DATA, plane: &LocalPlane) -> Option<Truth> 
         altitude_m: f64::from(wire.alt) * 1e-3,
     };
     let velocity: Vec3<Ned> = Vec3::new(f64::from(wire.vx) * 0.01, f64::from(wire.vy) * 0.01, f64::from(wire.vz) * 0.01);
-    // A clock beyond 292 000 years is a broken frame; saturating keeps it in order instead of wrapping.
-    let us = i64::try_from(wire.time_usec).ok()?.min(i64::MAX / 1_000);
     Some(Truth {
-        time: SimTime::from_us(us),
+        time: clock(wire.time_usec),
         position_m: plane.enu_from_geo(geo),
         velocity_m_s: velocity.enu(),
         ned_from_frd: Rotation::from_wxyz(wire.attitude_quaternion.map(f64::from))?,

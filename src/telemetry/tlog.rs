@@ -105,7 +105,7 @@ pub fn whole_len(bytes: &[u8]) -> usize {
 #[must_use]
 pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
     let first = Reader::new(bytes).next()?;
-    let since_start = super::sample::truth_time_us(first.frame).unwrap_or(0);
+    let since_start = super::sample::truth_time(first.frame).map_or(0, |time| u64::try_from(time.us()).unwrap_or(0));
     Some(first.stamp_us.saturating_sub(since_start))
 }
 

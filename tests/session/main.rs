@@ -2,6 +2,7 @@
 
 mod cut;
 mod feedback;
+mod hostile;
 #[path = "../support/job.rs"]
 mod job;
 mod link;

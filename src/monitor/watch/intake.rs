@@ -17,8 +17,8 @@ use serde_json::json;
 impl Monitor {
     /// Session start plus simulation time; after a simulator's restart the stamps go on rising.
     pub(super) fn stamp_us(&self, received: &Received) -> u64 {
-        let own = crate::telemetry::sample::truth_time_us(&received.bytes).and_then(|us| i64::try_from(us).ok());
-        let now = own.map_or(self.now(), |us| SimTime::from_us(us).max(self.now()));
+        let own = crate::telemetry::sample::truth_time(&received.bytes);
+        let now = own.map_or(self.now(), |own| own.max(self.now()));
         let since = u64::try_from((self.stamp_base + now).us()).unwrap_or(0);
         self.config.started_unix_us.saturating_add(since)
     }
