@@ -1,5 +1,5 @@
-//! The command line: one line per subcommand.
+//! The program: everything is in the library, see `spandrel::app`.
 
 fn main() -> std::process::ExitCode {
-    std::process::ExitCode::SUCCESS
+    spandrel::app::main()
 }

@@ -1,1 +1,99 @@
-//! (filled next)
+//! The shells: the only sockets, files, clocks, threads and processes. One file per subcommand; each turns arguments into a run of a
+//! sans-IO core. Results go to standard output, everything else to standard error.
+
+mod args;
+mod assess;
+mod check;
+mod children;
+mod clock;
+mod demo;
+mod errors;
+mod export;
+mod files;
+mod logging;
+mod monitor;
+#[allow(dead_code, reason = "the sim subcommand uses the rest")]
+mod net;
+#[allow(dead_code, reason = "the sim subcommand uses the rest")]
+mod pace;
+mod pilot;
+#[allow(dead_code, reason = "the sim subcommand uses the rest")]
+mod ports;
+mod progress;
+mod session_folder;
+mod stop;
+mod table;
+mod train;
+
+pub use errors::AppError;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Open trainer for bridge inspectors who work with a drone: a simulated vehicle that speaks MAVLink, a sidecar that watches a flight
+/// and scores it, and a synthetic trainee.
+///
+/// First steps: `spandrel demo` flies a whole session by itself; `spandrel train` waits for your ground station (QGroundControl
+/// connects by itself) and scores your flight.
+#[derive(Debug, Parser)]
+#[command(name = "spandrel", version, max_term_width = 110, after_help = errors::EXIT_CODES)]
+pub struct Cli {
+    /// What standard error tells: error, warn, info, debug or trace
+    #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
+    log: tracing::Level,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Train(train::Args),
+    Demo(demo::Args),
+    Monitor(monitor::Args),
+    Pilot(pilot::Args),
+    Assess(assess::Args),
+    Export(export::Args),
+    Check(check::Args),
+}
+
+/// Runs the program: arguments in, exit code out (0 done, 1 failed, 2 wrong arguments or files).
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    logging::start(cli.log);
+    let done = match &cli.command {
+        Command::Train(args) => train::run(args, cli.log),
+        Command::Demo(args) => demo::run(args, cli.log),
+        Command::Monitor(args) => monitor::run(args),
+        Command::Pilot(args) => pilot::run(args),
+        Command::Assess(args) => assess::run(args),
+        Command::Export(args) => export::run(args),
+        Command::Check(args) => check::run(args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => error.report(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn exact_the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn exact_every_subcommand_explains_itself_with_an_example() {
+        for command in Cli::command().get_subcommands() {
+            let help = command.clone().render_long_help().to_string();
+            assert!(help.contains("Examples:"), "{}: no examples", command.get_name());
+            for argument in command.get_arguments().filter(|argument| !argument.is_hide_set()) {
+                assert!(argument.get_help().is_some(), "{} {}: no help", command.get_name(), argument.get_id());
+            }
+        }
+    }
+}

@@ -59,6 +59,12 @@ impl Geometry {
         &self.members
     }
 
+    /// Centre of the pad's upper surface and half its side, m.
+    #[must_use]
+    pub fn pad(&self) -> (Vec3<Enu>, f64) {
+        (self.pad_m, self.pad_half_m)
+    }
+
     /// The shape of a member.
     #[must_use]
     pub fn shape(&self, member: usize) -> Option<&Convex> {

@@ -13,6 +13,7 @@ pub mod wind;
 
 pub mod convex;
 pub mod geometry;
+pub mod gltf;
 pub mod terrain;
 
 use crate::base::frames::{Enu, Vec3};

@@ -1,0 +1,32 @@
+//! Lists the shipped scenario and vehicle files, so that the program carries them and works from any folder. A new file needs no
+//! registration: it is found here.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::{env, fs};
+
+fn main() {
+    let root = env::var("CARGO_MANIFEST_DIR").unwrap_or_default();
+    let mut code = String::new();
+    for (name, folder) in [("SCENARIOS", "scenarios"), ("VEHICLES", "vehicle-params")] {
+        println!("cargo::rerun-if-changed={folder}");
+        let _ = writeln!(code, "/// Shipped files of `{folder}`: stem and text.\npub const {name}: &[(&str, &str)] = &[");
+        for path in toml_files(&Path::new(&root).join(folder)) {
+            let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+            let _ = writeln!(code, "    ({stem:?}, include_str!({:?})),", path.display().to_string());
+        }
+        code.push_str("];\n");
+    }
+    let out = Path::new(&env::var("OUT_DIR").unwrap_or_default()).join("shipped.rs");
+    if let Err(error) = fs::write(&out, code) {
+        println!("cargo::error=cannot write {}: {error}", out.display());
+    }
+}
+
+fn toml_files(folder: &Path) -> Vec<std::path::PathBuf> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut files: Vec<_> =
+        entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
+    files.sort();
+    files
+}

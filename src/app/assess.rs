@@ -1,0 +1,86 @@
+//! `spandrel assess`: scores a stored flight again.
+
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::session_folder::Stored;
+use super::table;
+use crate::monitor::watch::build_site;
+use crate::monitor::{Graded, assess_log, export};
+use crate::scenario::Scenario;
+use crate::vehicle::Vehicle;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// Score a stored flight again
+///
+/// Reads a session folder, or a telemetry log together with its scenario and vehicle, and scores it from the telemetry alone: the same
+/// log gives the same bytes as the live session did.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel assess sessions/20260801T...                       the table
+  spandrel assess sessions/20260801T... --json -              the JSON of assessment.json
+  spandrel assess flight.tlog --scenario two-bridges --vehicle phantom2 --json scores.json
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Session folder, or a telemetry log (.tlog)
+    #[arg(value_name = "SESSION|TLOG")]
+    flight: PathBuf,
+    /// Scenario of a bare log: a file, or the name of a shipped one
+    #[arg(long, value_name = "FILE|NAME")]
+    scenario: Option<String>,
+    /// Aircraft of a bare log: a file, or the name of a shipped one
+    #[arg(long, value_name = "FILE|NAME")]
+    vehicle: Option<String>,
+    /// Write the assessment as JSON here, '-' for standard output; without it a table is printed
+    #[arg(long, value_name = "FILE")]
+    json: Option<String>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files are wrong or there is nothing to score.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let (scenario, vehicle, log) = inputs(args)?;
+    let graded = grade(&log, &scenario, &vehicle)?;
+    match &args.json {
+        Some(target) => files::write(target, export::json_text(&graded.assessment).as_bytes()),
+        None => files::write("-", table::scores(&json!(graded.assessment)).as_bytes()),
+    }
+}
+
+/// Scores a log.
+///
+/// # Errors
+/// When there is nothing to score.
+pub fn grade(log: &[u8], scenario: &Scenario, vehicle: &Vehicle) -> Result<Graded, AppError> {
+    assess_log(log, scenario, vehicle, build_site).map_err(|error| AppError::failed(error.to_string()))
+}
+
+fn inputs(args: &Args) -> Result<(Scenario, Vehicle, Vec<u8>), AppError> {
+    if args.flight.is_dir() {
+        let stored = Stored::read(&args.flight)?;
+        let scenario = match &args.scenario {
+            Some(other) => files::scenario(other)?.scenario,
+            None => stored.scenario.scenario,
+        };
+        let vehicle = match &args.vehicle {
+            Some(other) => files::vehicle(other)?.vehicle,
+            None => stored.vehicle.vehicle,
+        };
+        return Ok((scenario, vehicle, stored.log));
+    }
+    let (Some(scenario), Some(vehicle)) = (&args.scenario, &args.vehicle) else {
+        return Err(AppError::wrong(format!(
+            "{}: is no session folder; a bare telemetry log needs --scenario and --vehicle",
+            args.flight.display()
+        )));
+    };
+    Ok((files::scenario(scenario)?.scenario, files::vehicle(vehicle)?.vehicle, read_log(&args.flight)?))
+}
+
+fn read_log(path: &Path) -> Result<Vec<u8>, AppError> {
+    std::fs::read(path).map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", path.display())))
+}

@@ -1,0 +1,190 @@
+//! `spandrel check`: everything that is wrong with scenario and vehicle files, at once.
+
+use super::errors::{AppError, EXIT_CODES};
+use super::files::{self, Source};
+use crate::base::frames::{Enu, Vec3};
+use crate::base::toml::Problem;
+use crate::scenario::{self, Scenario, Task};
+use crate::site::{Site, defects};
+use crate::vehicle::{self, Vehicle};
+use serde_json::json;
+
+/// Room that a path leaves around the aircraft's half width, m (issue 2, section 2).
+const MARGIN_M: f64 = 0.5;
+
+/// Check scenario and vehicle files
+///
+/// Reports everything that is wrong at once, each with file, line, key, value and allowed range. For a scenario it also builds the site
+/// and refuses a task whose reference path leaves the aircraft less room than half its width from tip to tip plus 0.5 m, and says where.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel check my-bridge.toml                        the paths are checked for the default aircraft
+  spandrel check my-bridge.toml --vehicle m30          ... for another one
+  spandrel check scenarios/*.toml vehicle-params/*.toml --json
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Scenario and vehicle files, or names of shipped ones
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<String>,
+    /// Aircraft that must fit along the paths: a file, or the name of a shipped one
+    #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
+    vehicle: String,
+    /// Print {"problems": [{file, line, key, value, allowed, message}], "notes": [...]} on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Default)]
+struct Findings {
+    problems: Vec<Problem>,
+    notes: Vec<String>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When anything is wrong with a file.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let aircraft = files::vehicle(&args.vehicle)?.vehicle;
+    let mut findings = Findings::default();
+    for file in &args.files {
+        match files::any_source(file) {
+            Ok(source) => look(&source, &aircraft, &mut findings),
+            Err(error) => findings.problems.push(unreadable(file, &error)),
+        }
+    }
+    let (problems, notes) = (&findings.problems, &findings.notes);
+    if args.json {
+        println!("{:#}", json!({ "problems": problems, "notes": notes }));
+    } else {
+        notes.iter().for_each(|note| println!("note: {note}"));
+        problems.iter().for_each(|problem| println!("{problem}"));
+    }
+    match problems.len() {
+        0 if args.json => Ok(()),
+        0 => {
+            println!("{} right", count(args.files.len(), "file"));
+            Ok(())
+        }
+        many => Err(AppError::wrong(format!("{} in {}", count(many, "problem"), count(args.files.len(), "file")))),
+    }
+}
+
+fn count(number: usize, what: &str) -> String {
+    if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
+}
+
+fn unreadable(file: &str, error: &AppError) -> Problem {
+    let text = String::new;
+    Problem { file: file.into(), line: 0, key: text(), value: text(), allowed: text(), message: error.to_string() }
+}
+
+fn look(source: &Source, aircraft: &Vehicle, findings: &mut Findings) {
+    if is_vehicle(&source.text) {
+        match vehicle::read(&source.file, &source.text) {
+            Ok(vehicle) => {
+                let short = defects::short_of_reference(&vehicle.camera, &vehicle.lamp);
+                findings.notes.extend(short.into_iter().map(|what| format!("{}: {what}", source.file)));
+            }
+            Err(wrong) => findings.problems.extend(wrong.0),
+        }
+        return;
+    }
+    match scenario::read(&source.file, &source.text, &|name| source.sibling(name)) {
+        Ok(scenario) => findings.problems.extend(too_tight(source, &scenario, aircraft)),
+        Err(wrong) => findings.problems.extend(wrong.0),
+    }
+}
+
+/// A vehicle file names a mass at its top; a scenario never does.
+fn is_vehicle(text: &str) -> bool {
+    text.lines().take_while(|line| !line.trim_start().starts_with('[')).any(|line| line.trim_start().starts_with("mass_kg"))
+}
+
+fn too_tight(source: &Source, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {
+    let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MARGIN_M;
+    // Defects and traffic are not asked about, so any seed does.
+    let site = Site::build(&Scenario { defects: none_placed(scenario), ..scenario.clone() }, 0);
+    let lines: Vec<usize> = task_lines(&source.text);
+    let tight = |(k, task): (usize, &Task)| {
+        let (at_m, clearance_m, object) = tightest(task, &site, needed_m)?;
+        let [east, north, up] = at_m.array();
+        Some(Problem {
+            file: source.file.clone(),
+            line: lines.get(k).copied().unwrap_or(0),
+            key: format!("tasks.{k}"),
+            value: format!("{clearance_m:.2} m"),
+            allowed: format!(
+                "at least {needed_m:.2} m for {}: half its {:.2} m tip to tip plus {MARGIN_M} m",
+                aircraft.id, aircraft.hull.tip_to_tip_m
+            ),
+            message: format!(
+                "the path of task {} '{}' passes too close to {object} at east {east:.1} m, north {north:.1} m, up {up:.1} m",
+                task.id, task.name
+            ),
+        })
+    };
+    scenario.tasks.iter().enumerate().filter_map(tight).collect()
+}
+
+fn none_placed(scenario: &Scenario) -> scenario::Defects {
+    scenario::Defects { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
+}
+
+/// The place with the least room, when that is less than needed. Between the points of the path (at most 1 m apart) the middles are
+/// looked at as well.
+fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, String)> {
+    let points = &task.path_m;
+    let wrap = if task.closed { points.first() } else { None };
+    let next = points.iter().skip(1).chain(wrap);
+    let middles = points.iter().zip(next).map(|(a, b)| (*a + *b) * 0.5);
+    let found = points.iter().copied().chain(middles).filter_map(|point| {
+        let nearest = site.geometry().nearest(point, needed_m)?;
+        (nearest.distance_m < needed_m).then(|| (point, nearest.distance_m, nearest.object))
+    });
+    let (point, clearance_m, object) = found.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((point, clearance_m, site.object_name(object)))
+}
+
+/// Lines on which the tasks begin.
+fn task_lines(text: &str) -> Vec<usize> {
+    let heads = text.lines().enumerate().filter(|(_, line)| {
+        let line: String = line.chars().filter(|c| !c.is_whitespace()).collect();
+        line.starts_with("[[task]]") || line.starts_with("[[tasks]]")
+    });
+    heads.map(|(k, _)| k + 1).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_task_lines_are_found_by_their_heads() {
+        assert_eq!(task_lines("a = 1\n[[tasks]]\nx = 2\n [[ tasks ]]\n[wind]\n"), [2, 4]);
+    }
+
+    #[test]
+    fn exact_every_shipped_path_fits_the_default_aircraft() {
+        let aircraft = files::vehicle("phantom2").unwrap().vehicle;
+        for name in files::scenario_names() {
+            let mut findings = Findings::default();
+            look(&files::any_source(name).unwrap(), &aircraft, &mut findings);
+            assert_eq!(findings.problems, [], "{name}");
+        }
+    }
+
+    #[test]
+    fn exact_a_path_that_is_too_tight_is_refused_with_its_place() {
+        let mut aircraft = files::vehicle("phantom2").unwrap().vehicle;
+        aircraft.hull.tip_to_tip_m = 30.0;
+        let mut findings = Findings::default();
+        look(&files::any_source("two-bridges").unwrap(), &aircraft, &mut findings);
+        assert_eq!(findings.problems.len(), 4, "{:?}", findings.problems);
+        let problem = findings.problems[2].to_string();
+        assert!(problem.contains("interlayer") || problem.contains("task 3"), "{problem}");
+        assert!(problem.contains("allowed: at least 15.50 m") && problem.contains("up "), "{problem}");
+    }
+}

@@ -1,0 +1,125 @@
+//! `spandrel demo`: simulator, monitor and synthetic trainee as three processes over real UDP, in lockstep, on ports of their own.
+
+use super::args::{self, JobArgs};
+use super::children::Child;
+use super::clock::Stopwatch;
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::pace::Speed;
+use super::pilot::SkillArgs;
+use super::stop::Stop;
+use super::train;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Between two looks at the children.
+const LOOK: Duration = Duration::from_millis(20);
+/// Once the pilot is done, the monitor has this much wall time to see the end by itself (three seconds of simulation time at rest).
+const GRACE: Duration = Duration::from_secs(15);
+
+/// Watch a whole session fly by itself
+///
+/// Runs simulator, monitor and a synthetic trainee as three processes over real UDP on free ports, in lockstep: nothing is lost at any
+/// speed, and the same seed gives the same frames. Ends with the four scores, the overall, crashes, snapshots, and the place of the
+/// session folder. Several demos run side by side.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel demo                                         five times real time
+  spandrel demo --skill novice --seed 7 --speed max     as fast as the machine can
+  spandrel demo --speed 1 --gcs 127.0.0.1:14550         watch it in QGroundControl
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    job: JobArgs,
+    #[command(flatten)]
+    skill: SkillArgs,
+    /// So many times real time (0.1 to 100), or max
+    #[arg(long, value_name = "X|max", default_value = "5")]
+    speed: Speed,
+    /// Folder that session folders are made in
+    #[arg(long, value_name = "DIR", default_value = "sessions")]
+    sessions: PathBuf,
+    /// A ground station that looks on, or none; may be repeated
+    #[arg(long, value_name = "HOST:PORT|none", default_value = "none")]
+    gcs: Vec<args::Target>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files are wrong, a process fails, or the flight cannot be scored.
+pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
+    files::scenario(&args.job.scenario)?;
+    files::vehicle(&args.job.vehicle)?;
+    let stop = Stop::install(false)?;
+    let seed = args.job.seed.unwrap_or_else(args::fresh_seed);
+    let job = JobArgs { seed: Some(seed), ..args.job.clone() };
+    let quiet = if log == tracing::Level::INFO { tracing::Level::WARN } else { log };
+    let mut monitor = Child::start("monitor", &[train::common(&job, log), monitor_args(args)].concat())?;
+    let announced = monitor.announced()?;
+    let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
+    let pilot_args = [train::common(&job, quiet), args.skill.to_args(), vec!["--port".to_owned(), "0".to_owned()]];
+    let mut pilot = Child::start("pilot", &pilot_args.concat())?;
+    let pilot_port = pilot.announced()?["port"].as_u64().unwrap_or_default();
+    let monitor_port = announced["port"].as_u64().unwrap_or_default();
+    let sim_args = [train::common(&job, quiet), sim_args(args, monitor_port, pilot_port)];
+    let mut sim = Child::start("sim", &sim_args.concat())?;
+    sim.announced()?;
+    tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.skill, args.speed);
+    let lost = wait(&mut monitor, &mut pilot, &mut sim, &stop);
+    monitor.finish();
+    sim.finish();
+    pilot.finish();
+    let told = train::tell(&session);
+    match lost {
+        Some(error) => Err(error),
+        None => told,
+    }
+}
+
+fn monitor_args(args: &Args) -> Vec<String> {
+    let trainee = format!("synthetic-{}", args.skill.skill);
+    ["--sessions", &args.sessions.display().to_string(), "--trainee", &trainee, "--port", "0"].map(str::to_owned).to_vec()
+}
+
+fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
+    let (monitor, pilot) = (monitor_port.to_string(), format!("127.0.0.1:{pilot_port}"));
+    let speed = args.speed.to_string();
+    let mut out =
+        ["--ports", "ephemeral", "--speed", &speed, "--monitor-port", &monitor, "--gcs", &pilot].map(str::to_owned).to_vec();
+    out.extend(["--lockstep".to_owned(), pilot, "--lockstep".to_owned(), format!("127.0.0.1:{monitor}")]);
+    for target in &args.gcs {
+        if let args::Target::Address(address) = target {
+            out.extend(["--gcs".to_owned(), address.to_string()]);
+        }
+    }
+    out
+}
+
+/// Waits until the session is over. A pilot that is done and no end in sight, or a process that ends too early, ends it.
+fn wait(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &Stop) -> Option<AppError> {
+    let mut pilot_done: Option<Stopwatch> = None;
+    loop {
+        if monitor.ended().is_some() || stop.asked() {
+            return None;
+        }
+        if let Some(report) = pilot.line() {
+            tracing::info!("the pilot is done: {report}");
+            pilot_done = Some(Stopwatch::start());
+        }
+        if pilot_done.is_some_and(|since| since.elapsed() > GRACE) {
+            return None;
+        }
+        for (name, child) in [("simulator", &mut *sim), ("pilot", &mut *pilot)] {
+            // The monitor ends a moment before the others notice.
+            if let Some(status) = child.ended()
+                && monitor.ended().is_none()
+            {
+                return Some(AppError::failed(format!("the {name} ended early ({status})")));
+            }
+        }
+        std::thread::sleep(LOOK);
+    }
+}

@@ -1,0 +1,84 @@
+//! `spandrel export`: frames, scenario and geometry for other programs.
+
+use super::args;
+use super::assess;
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::progress::Progress;
+use super::session_folder::Stored;
+use crate::monitor::export::{ScenarioExport, frames_csv, json_text};
+use crate::site::Site;
+use crate::site::gltf;
+use std::path::Path;
+
+/// Write frames, scenario or geometry for other programs
+///
+/// Frames (one line per scored frame, CSV) need a session; the scored part of the scenario (JSON: paths, defects, limits) and the
+/// geometry that collides (binary glTF, every member named with its element number) work for a session or a scenario.
+#[derive(Debug, clap::Args)]
+#[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb"])))]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel export sessions/20260801T... --frames frames.csv
+  spandrel export two-bridges --seed 7 --scenario -          paths and the defects that seed 7 places
+  spandrel export two-bridges --glb bridges.glb              open it in any 3D viewer
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Session folder, scenario file, or the name of a shipped scenario
+    #[arg(value_name = "SESSION|SCENARIO")]
+    from: String,
+    /// Frames as CSV; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    frames: Option<String>,
+    /// The scored part of the scenario as JSON; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    scenario: Option<String>,
+    /// Geometry as binary glTF 2.0, metres, y up; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    glb: Option<String>,
+    /// Seed that places the defects of a scenario without a seed of its own
+    #[arg(long, value_name = "N", value_parser = args::seed)]
+    seed: Option<u64>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files are wrong, there is nothing to export, or the target cannot be written.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let path = Path::new(&args.from);
+    let stored = if path.is_dir() { Some(Stored::read(path)?) } else { None };
+    if let Some(target) = &args.frames {
+        let Some(stored) = &stored else {
+            return Err(AppError::wrong(format!("--frames needs a session folder, and '{}' is none", args.from)));
+        };
+        let graded = assess::grade(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle)?;
+        files::write(target, frames_csv(&graded.frames).as_bytes())?;
+    }
+    if args.scenario.is_none() && args.glb.is_none() {
+        return Ok(());
+    }
+    let scenario = match stored {
+        Some(stored) => stored.scenario.scenario,
+        None => files::scenario(&args.from)?.scenario,
+    };
+    let seed = args.seed.or(scenario.seed);
+    if args.scenario.is_some() && seed.is_none() && scenario.defects.count > 0 && scenario.defects.placed.is_none() {
+        return Err(AppError::wrong(format!(
+            "'{}' places its defects anew in every session: say which ones with --seed N",
+            args.from
+        )));
+    }
+    let progress = Progress::start("building the site");
+    // Without a seed only the geometry is asked for, and no seed moves that.
+    let site = Site::build(&scenario, seed.unwrap_or_default());
+    progress.end();
+    if let Some(target) = &args.scenario {
+        files::write(target, json_text(&ScenarioExport::new(&scenario, site.defects())).as_bytes())?;
+    }
+    if let Some(target) = &args.glb {
+        files::write(target, &gltf::glb(&site))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,268 @@
+//! `spandrel monitor`: sockets, clock and session folder around the sans-IO sidecar.
+
+use super::args::{self, JobArgs, TraineeId};
+use super::clock::{self, Stopwatch};
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::net::{Arrival, Hub, SocketId};
+use super::progress::Progress;
+use super::session_folder::{SessionFolder, Stored};
+use super::stop::Stop;
+use super::table;
+use crate::base::time::SimTime;
+use crate::monitor::watch::build_site;
+use crate::monitor::{AssessError, Graded, Monitor, MonitorConfig, export};
+use serde_json::json;
+use std::net::{IpAddr, SocketAddr};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// First monitor port; each instance has the next one.
+pub const FIRST_PORT: u16 = 14030;
+/// Longest wait for a datagram: the core wants to see the wall clock every 100 ms.
+const WAIT: Duration = Duration::from_millis(50);
+/// What is taken reaches the disk at least this often.
+const FLUSH_EVERY: Duration = Duration::from_millis(250);
+/// A vehicle that is silent this long may come back from another address.
+const SILENT: Duration = Duration::from_secs(3);
+/// Datagrams taken before the answers go out.
+const BATCH: usize = 256;
+
+/// Watch a flight and score it
+///
+/// Listens to the vehicle's MAVLink telemetry, shows what it sees to the pilot as status texts (off path, too close, speeding, crash,
+/// battery), writes the session folder and, when the session ends (landing near the ground team, empty battery, time limit, or a person
+/// or vehicle hit), the assessment. It never looks inside the simulator. A killed monitor goes on with --session DIR.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel monitor --trainee anna                      watch instance 0 of the simulator (UDP 14030)
+  spandrel monitor --connect 127.0.0.1:14280 --port 0  be one more sidecar: dial the vehicle's payload port
+  spandrel monitor --session sessions/20260801T...     go on in mid-flight after a kill
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    job: JobArgs,
+    /// Folder that session folders are made in
+    #[arg(long, value_name = "DIR", default_value = "sessions")]
+    sessions: PathBuf,
+    /// Who flies: letters, digits, '-' and '_', at most 32
+    #[arg(long, value_name = "ID", default_value = "anonymous")]
+    trainee: TraineeId,
+    /// Go on in this session folder, whose monitor was killed (scenario, vehicle and trainee come from there)
+    #[arg(long, value_name = "DIR")]
+    session: Option<PathBuf>,
+    /// Vehicle instance: sets the default port
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=200))]
+    instance: u8,
+    /// UDP port to listen on, 0 for any free one [default: 14030 + instance]
+    #[arg(long, value_name = "PORT")]
+    port: Option<u16>,
+    /// Dial the vehicle here instead of waiting for its first datagram
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
+    connect: Option<SocketAddr>,
+    /// Local address to bind
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    listen: IpAddr,
+    /// Print one JSON line {"port", "session"} on standard output first, and no table at the end
+    #[arg(long)]
+    announce: bool,
+    /// Finish when standard input closes (for a parent process)
+    #[arg(long)]
+    leash: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files or ports are wrong, or the session cannot be scored.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let stop = Stop::install(args.leash)?;
+    let (config, monitor, folder) = open(args)?;
+    let mut hub = Hub::new();
+    let port = args.port.unwrap_or(FIRST_PORT + u16::from(args.instance));
+    let socket = hub.bind(args.listen, port, "--port")?;
+    if args.announce {
+        println!("{}", json!({ "port": hub.port(socket), "session": folder.path() }));
+    }
+    tracing::info!("listening on UDP {}, writing {}", hub.port(socket), folder.path().display());
+    let watch = Stopwatch::start();
+    let resolved = config.scenario.defects.placed.is_some();
+    let mut shell = Shell {
+        hub,
+        socket,
+        peer: args.connect,
+        heard: Duration::ZERO,
+        monitor,
+        folder,
+        resolved,
+        flushed: Duration::ZERO,
+        watch,
+    };
+    shell.describe()?;
+    let mut progress = Progress::start("waiting for the vehicle");
+    while shell.monitor.finished().is_none() {
+        if stop.asked() || shell.monitor.refused().is_some() {
+            shell.monitor.close();
+        } else {
+            shell.turn()?;
+        }
+        progress.tell(|| shell.where_it_stands());
+    }
+    progress.end();
+    shell.write_down()?;
+    shell.end(args.announce)
+}
+
+/// A new session, or an old one taken up again.
+fn open(args: &Args) -> Result<(MonitorConfig, Monitor, SessionFolder), AppError> {
+    let system_id = args.instance + 1;
+    if let Some(path) = &args.session {
+        let stored = Stored::read(path)?;
+        let folder = SessionFolder::resume(path, &stored)?;
+        let config = MonitorConfig {
+            scenario: stored.scenario.scenario.clone(),
+            vehicle: stored.vehicle.vehicle.clone(),
+            trainee: stored.trainee.clone(),
+            started_unix_us: stored.started_unix_us,
+            system_id,
+            seed: args.job.seed,
+            build: build_site,
+        };
+        return Ok((config.clone(), Monitor::resume(config, &stored.log), folder));
+    }
+    let scenario = files::scenario(&args.job.scenario)?;
+    let vehicle = files::vehicle(&args.job.vehicle)?;
+    let started_unix_us = clock::unix_us();
+    let folder = SessionFolder::create(&args.sessions, args.trainee.as_str(), started_unix_us, &scenario, &vehicle)?;
+    let config = MonitorConfig {
+        scenario: scenario.scenario,
+        vehicle: vehicle.vehicle,
+        trainee: args.trainee.as_str().to_owned(),
+        started_unix_us,
+        system_id,
+        seed: args.job.seed,
+        build: build_site,
+    };
+    Ok((config.clone(), Monitor::new(config), folder))
+}
+
+struct Shell {
+    hub: Hub,
+    socket: SocketId,
+    peer: Option<SocketAddr>,
+    heard: Duration,
+    monitor: Monitor,
+    folder: SessionFolder,
+    resolved: bool,
+    flushed: Duration,
+    watch: Stopwatch,
+}
+
+impl Shell {
+    /// Takes in what has come, lets the core answer, writes what is to be kept.
+    fn turn(&mut self) -> Result<(), AppError> {
+        let mut wait = WAIT;
+        for _ in 0..BATCH {
+            let Some(arrival) = self.hub.next(wait) else { break };
+            wait = Duration::ZERO;
+            self.take(&arrival);
+        }
+        let wall = self.watch.elapsed();
+        self.monitor.handle_timeout(SimTime::from_s(wall.as_secs_f64()));
+        self.send();
+        self.keep()?;
+        if wall.saturating_sub(self.flushed) >= FLUSH_EVERY {
+            self.flushed = wall;
+            self.folder.flush()?;
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, arrival: &Arrival) {
+        let Arrival::Datagram { from, bytes, .. } = arrival else { return };
+        let wall = self.watch.elapsed();
+        if self.peer != Some(*from) {
+            let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.heard) < SILENT;
+            if current_is_alive {
+                tracing::debug!("a datagram from the stranger {from} is left alone");
+                return;
+            }
+            tracing::info!("hearing {from}");
+            self.peer = Some(*from);
+        }
+        self.heard = wall;
+        self.monitor.handle_datagram(bytes);
+    }
+
+    fn send(&mut self) {
+        while let Some(bytes) = self.monitor.poll_transmit() {
+            if let Some(peer) = self.peer {
+                self.hub.send(self.socket, peer, &bytes);
+            }
+        }
+    }
+
+    fn keep(&mut self) -> Result<(), AppError> {
+        while let Some(record) = self.monitor.poll_record() {
+            self.folder.record(record);
+        }
+        if !self.resolved
+            && let (Some(seed), Some(survey)) = (self.monitor.seed(), self.monitor.survey())
+        {
+            self.resolved = true;
+            self.folder.resolve(seed, survey.defects())?;
+            self.describe()?;
+        }
+        Ok(())
+    }
+
+    fn describe(&self) -> Result<(), AppError> {
+        self.folder.describe(|scenario, vehicle, utc, starts| self.monitor.session_info(scenario, vehicle, utc, starts))
+    }
+
+    fn write_down(&mut self) -> Result<(), AppError> {
+        self.send();
+        self.keep()?;
+        self.folder.flush()?;
+        self.describe()
+    }
+
+    fn end(&self, announce: bool) -> Result<(), AppError> {
+        if self.hub.dropped() > 0 {
+            tracing::warn!("{} datagrams found the queue full", self.hub.dropped());
+        }
+        let graded = self.outcome()?;
+        let json = export::json_text(&graded.assessment);
+        self.folder.assessment(&json)?;
+        if !announce {
+            print!("{}", table::scores(&json!(graded.assessment)));
+            println!("session       {}", self.folder.path().display());
+        }
+        Ok(())
+    }
+
+    fn outcome(&self) -> Result<&Graded, AppError> {
+        let place = self.folder.path().display();
+        match self.monitor.finished() {
+            Some(Ok(graded)) => Ok(graded),
+            Some(Err(error @ (AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. }))) => Err(AppError::wrong(
+                format!("{error}: give simulator and monitor the same --scenario and --seed (telemetry is in {place})"),
+            )),
+            Some(Err(error)) => Err(AppError::failed(format!("{error} (telemetry is in {place})"))),
+            None => Err(AppError::failed(format!("the session has not ended (telemetry is in {place})"))),
+        }
+    }
+
+    fn where_it_stands(&self) -> String {
+        let monitor = &self.monitor;
+        let Some(flown) = monitor.flown() else {
+            return if self.peer.is_some() { "connected, on the ground".into() } else { "waiting for the vehicle".into() };
+        };
+        let seconds = flown.ms() / 1000;
+        let task = monitor.task().map_or("off path".to_owned(), |task| format!("on task {task}"));
+        let battery = monitor.battery_pct().map_or(String::new(), |pct| format!(", battery {pct:.0} %"));
+        format!("{:02}:{:02} of flight, {task}{battery}", seconds / 60, seconds % 60)
+    }
+}

@@ -1,0 +1,127 @@
+//! How simulation time follows wall time: real time, N times, or flat out. Pure: the wall clock is an argument.
+
+use crate::base::time::SimTime;
+use std::str::FromStr;
+use std::time::Duration;
+
+/// Largest step of simulation time between two looks at the sockets: the lockstep interval (design.md).
+pub const STEP: SimTime = SimTime::from_ms(20);
+/// A host that falls behind by more wall time than this does not catch up: the clock slips, and the slip is told.
+const SLACK: Duration = Duration::from_millis(250);
+
+/// How fast simulation time runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Speed {
+    /// So many times real time.
+    Times(f64),
+    /// As fast as the machine can.
+    Max,
+}
+
+impl FromStr for Speed {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "max" {
+            return Ok(Self::Max);
+        }
+        let allowed = || format!("'{text}' is no speed (allowed: 0.1 to 100, or max)");
+        let times: f64 = text.parse().map_err(|_| allowed())?;
+        if (0.1..=100.0).contains(&times) { Ok(Self::Times(times)) } else { Err(allowed()) }
+    }
+}
+
+impl std::fmt::Display for Speed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Times(times) => write!(f, "{times}"),
+            Self::Max => f.write_str("max"),
+        }
+    }
+}
+
+/// Maps wall time to the simulation time that is due.
+#[derive(Debug, Clone)]
+pub struct Pace {
+    speed: Speed,
+    wall: Duration,
+    sim: SimTime,
+    slipped: Duration,
+}
+
+impl Pace {
+    /// Simulation time zero is now.
+    pub fn new(speed: Speed, wall: Duration) -> Self {
+        Self { speed, wall, sim: SimTime::ZERO, slipped: Duration::ZERO }
+    }
+
+    /// The simulation time to run to, at most [`STEP`] past `reached`.
+    pub fn target(&mut self, wall: Duration, reached: SimTime) -> SimTime {
+        let Speed::Times(times) = self.speed else { return reached + STEP };
+        let due = self.due(wall, times);
+        let behind_s = (due.saturating_sub(reached)).s() / times;
+        if behind_s > SLACK.as_secs_f64() {
+            self.slipped += Duration::from_secs_f64(behind_s);
+            self.wall = wall;
+            self.sim = reached;
+            return reached + STEP;
+        }
+        due.min(reached + STEP)
+    }
+
+    /// Wall time to sleep until `next` is due.
+    pub fn sleep(&self, wall: Duration, next: SimTime) -> Duration {
+        let Speed::Times(times) = self.speed else { return Duration::ZERO };
+        let due_s = (next.saturating_sub(self.sim)).s() / times;
+        (self.wall + Duration::from_secs_f64(due_s)).saturating_sub(wall)
+    }
+
+    /// Wall time that was lost because the machine could not keep up.
+    pub fn slipped(&self) -> Duration {
+        self.slipped
+    }
+
+    fn due(&self, wall: Duration, times: f64) -> SimTime {
+        self.sim + SimTime::from_s(wall.saturating_sub(self.wall).as_secs_f64() * times)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_four_times_real_time_runs_four_seconds_in_one() {
+        let mut pace = Pace::new(Speed::Times(4.0), Duration::from_secs(10));
+        let mut reached = SimTime::ZERO;
+        for ms in 1..=1000 {
+            reached = pace.target(Duration::from_secs(10) + Duration::from_millis(ms), reached);
+        }
+        assert_eq!(reached, SimTime::from_s(4.0));
+        assert_eq!(pace.sleep(Duration::from_secs(11), SimTime::from_s(4.4)), Duration::from_millis(100));
+    }
+
+    #[test]
+    fn exact_a_stalled_host_slips_and_does_not_race() {
+        let mut pace = Pace::new(Speed::Times(1.0), Duration::ZERO);
+        assert_eq!(pace.target(Duration::from_secs(5), SimTime::ZERO), STEP);
+        assert_eq!(pace.slipped(), Duration::from_secs(5));
+        assert_eq!(pace.target(Duration::from_millis(5010), STEP), SimTime::from_ms(10));
+    }
+
+    #[test]
+    fn exact_flat_out_goes_step_by_step_and_never_sleeps() {
+        let mut pace = Pace::new(Speed::Max, Duration::ZERO);
+        assert_eq!(pace.target(Duration::ZERO, SimTime::from_ms(40)), SimTime::from_ms(60));
+        assert_eq!(pace.sleep(Duration::ZERO, SimTime::from_s(9.0)), Duration::ZERO);
+    }
+
+    #[test]
+    fn exact_speeds_parse_and_print() {
+        assert_eq!("max".parse(), Ok(Speed::Max));
+        assert_eq!("5".parse(), Ok(Speed::Times(5.0)));
+        assert_eq!(Speed::Times(0.5).to_string(), "0.5");
+        for bad in ["0", "-1", "fast", "1000", "NaN"] {
+            assert!(bad.parse::<Speed>().is_err(), "{bad}");
+        }
+    }
+}

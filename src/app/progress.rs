@@ -1,0 +1,52 @@
+//! Progress on standard error: one moving line on a terminal, a log line now and then elsewhere.
+
+use super::clock::Stopwatch;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{IsTerminal, stderr};
+use std::time::Duration;
+
+/// Between two log lines when standard error is no terminal.
+const LINE_EVERY: Duration = Duration::from_secs(15);
+
+/// Something that takes longer than a second.
+#[derive(Debug)]
+pub struct Progress {
+    bar: Option<ProgressBar>,
+    watch: Stopwatch,
+    lines: u32,
+}
+
+impl Progress {
+    /// Starts with a first word.
+    pub fn start(what: &str) -> Self {
+        let bar = stderr().is_terminal().then(|| {
+            let bar = ProgressBar::new_spinner();
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
+                bar.set_style(style);
+            }
+            bar.enable_steady_tick(Duration::from_millis(120));
+            bar.set_message(what.to_owned());
+            bar
+        });
+        Self { bar, watch: Stopwatch::start(), lines: 0 }
+    }
+
+    /// Tells where things stand; call as often as you like.
+    pub fn tell(&mut self, message: impl FnOnce() -> String) {
+        match &self.bar {
+            Some(bar) => bar.set_message(message()),
+            None if self.watch.elapsed() >= LINE_EVERY * (self.lines + 1) => {
+                self.lines += 1;
+                tracing::info!("{}", message());
+            }
+            None => {}
+        }
+    }
+
+    /// Clears the line.
+    pub fn end(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! The session folder on disk: created once, appended to, flushed; a killed monitor finds its place again.
+
+use super::clock;
+use super::errors::AppError;
+use super::files::{self, ScenarioFile, VehicleFile};
+use crate::monitor::folder::{ASSESSMENT, EVENTS, SCENARIO, SESSION, SessionInfo, TELEMETRY, VEHICLE, sha256_hex};
+use crate::monitor::{Record, export};
+use crate::scenario::{self, PlacedDefect};
+use crate::telemetry::tlog;
+use std::fs::{File, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// An open session folder.
+#[derive(Debug)]
+pub struct SessionFolder {
+    path: PathBuf,
+    telemetry: File,
+    events: File,
+    pending: Vec<u8>,
+    pending_events: Vec<u8>,
+    scenario_toml: String,
+    vehicle_toml: String,
+    started_utc: String,
+    starts: u32,
+}
+
+/// What a session folder holds, read back.
+#[derive(Debug)]
+pub struct Stored {
+    /// The job as resolved.
+    pub scenario: ScenarioFile,
+    /// The aircraft.
+    pub vehicle: VehicleFile,
+    /// The telemetry.
+    pub log: Vec<u8>,
+    /// Who flew.
+    pub trainee: String,
+    /// Wall time of simulation time zero, µs since the Unix epoch.
+    pub started_unix_us: u64,
+    /// Starts of the monitor so far.
+    pub starts: u32,
+}
+
+impl SessionFolder {
+    /// Makes `SESSIONS/<utc>-<trainee>-<scenario>-<short id>/`.
+    ///
+    /// # Errors
+    /// When it cannot be made or written.
+    pub fn create(
+        sessions: &Path,
+        trainee: &str,
+        started_unix_us: u64,
+        scenario: &ScenarioFile,
+        vehicle: &VehicleFile,
+    ) -> Result<Self, AppError> {
+        let (readable, compact) = clock::utc(started_unix_us);
+        std::fs::create_dir_all(sessions).map_err(|error| cannot(sessions, &error))?;
+        let stem = format!("{compact}-{trainee}-{}", scenario.scenario.name);
+        let path = new_folder(sessions, &stem, started_unix_us)?;
+        for (name, text) in &scenario.siblings {
+            let file = path.join(name);
+            if let Some(folder) = file.parent() {
+                std::fs::create_dir_all(folder).map_err(|error| cannot(folder, &error))?;
+            }
+            replace(&file, text.as_bytes())?;
+        }
+        replace(&path.join(SCENARIO), scenario.text.as_bytes())?;
+        replace(&path.join(VEHICLE), vehicle.text.as_bytes())?;
+        Self::open(path, scenario.text.clone(), vehicle.text.clone(), readable, 1)
+    }
+
+    /// Opens a folder in which a monitor was killed; the telemetry is cut to whole records.
+    ///
+    /// # Errors
+    /// When it is no session folder or cannot be written.
+    pub fn resume(path: &Path, stored: &Stored) -> Result<Self, AppError> {
+        let (readable, _) = clock::utc(stored.started_unix_us);
+        let (scenario, vehicle) = (stored.scenario.text.clone(), stored.vehicle.text.clone());
+        let folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
+        let whole = u64::try_from(tlog::whole_len(&stored.log)).unwrap_or(u64::MAX);
+        folder.telemetry.set_len(whole).map_err(|error| cannot(&path.join(TELEMETRY), &error))?;
+        Ok(folder)
+    }
+
+    fn open(
+        path: PathBuf,
+        scenario_toml: String,
+        vehicle_toml: String,
+        started_utc: String,
+        starts: u32,
+    ) -> Result<Self, AppError> {
+        let append = |name: &str| {
+            let file = path.join(name);
+            OpenOptions::new().create(true).append(true).open(&file).map_err(|error| cannot(&file, &error))
+        };
+        let (telemetry, events) = (append(TELEMETRY)?, append(EVENTS)?);
+        let (pending, pending_events) = (Vec::new(), Vec::new());
+        Ok(Self { path, telemetry, events, pending, pending_events, scenario_toml, vehicle_toml, started_utc, starts })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Takes a record; it reaches the disk with the next [`Self::flush`].
+    pub fn record(&mut self, record: Record) {
+        match record {
+            Record::Telemetry(bytes) => self.pending.extend(bytes),
+            Record::Event(line) => self.pending_events.extend(line.into_bytes()),
+        }
+    }
+
+    /// Writes what was taken.
+    ///
+    /// # Errors
+    /// When the disk refuses; nothing taken is lost, the next call tries again.
+    pub fn flush(&mut self) -> Result<(), AppError> {
+        for (file, pending, name) in
+            [(&mut self.telemetry, &mut self.pending, TELEMETRY), (&mut self.events, &mut self.pending_events, EVENTS)]
+        {
+            if !pending.is_empty() {
+                file.write_all(pending).map_err(|error| cannot(&self.path.join(name), &error))?;
+                pending.clear();
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the seed and the placed defects into `scenario.toml`.
+    ///
+    /// # Errors
+    /// When the disk refuses.
+    pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), AppError> {
+        self.scenario_toml = scenario::resolve(&self.scenario_toml, seed, placed);
+        replace(&self.path.join(SCENARIO), self.scenario_toml.as_bytes())
+    }
+
+    /// Writes `session.json`.
+    ///
+    /// # Errors
+    /// When the disk refuses.
+    pub fn describe(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), AppError> {
+        let (scenario, vehicle) = (self.scenario_toml.as_bytes(), self.vehicle_toml.as_bytes());
+        let info = info(scenario, vehicle, self.started_utc.clone(), self.starts);
+        replace(&self.path.join(SESSION), export::json_text(&info).as_bytes())
+    }
+
+    /// Writes `assessment.json`.
+    ///
+    /// # Errors
+    /// When the disk refuses.
+    pub fn assessment(&self, json: &str) -> Result<(), AppError> {
+        replace(&self.path.join(ASSESSMENT), json.as_bytes())
+    }
+}
+
+impl Stored {
+    /// Reads a session folder.
+    ///
+    /// # Errors
+    /// When a file is missing or wrong.
+    pub fn read(path: &Path) -> Result<Self, AppError> {
+        if !path.join(TELEMETRY).is_file() {
+            return Err(AppError::wrong(format!("{}: is no session folder (it has no {TELEMETRY})", path.display())));
+        }
+        let session = files::read(&path.join(SESSION))?;
+        let session: serde_json::Value = serde_json::from_str(&session)
+            .map_err(|error| AppError::wrong(format!("{}: line {}: {error}", path.join(SESSION).display(), error.line())))?;
+        let text = |key: &str| session.get(key).and_then(serde_json::Value::as_str).unwrap_or_default().to_owned();
+        let number = |key: &str| session.get(key).and_then(serde_json::Value::as_u64).unwrap_or_default();
+        let log_path = path.join(TELEMETRY);
+        Ok(Self {
+            scenario: files::scenario(&path.join(SCENARIO).display().to_string())?,
+            vehicle: files::vehicle_named(&path.join(VEHICLE), &text("vehicle"))?,
+            log: std::fs::read(&log_path).map_err(|error| cannot(&log_path, &error))?,
+            trainee: text("trainee"),
+            started_unix_us: number("started_unix_us"),
+            starts: u32::try_from(number("monitor_starts")).unwrap_or(u32::MAX - 1),
+        })
+    }
+}
+
+/// A folder of its own even when two sessions start in the same second.
+fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathBuf, AppError> {
+    for attempt in 0..1000u32 {
+        let key = format!("{started_unix_us} {} {attempt}", std::process::id());
+        let path = sessions.join(format!("{stem}-{}", &sha256_hex(key.as_bytes())[..6]));
+        match std::fs::create_dir(&path) {
+            Ok(()) => return Ok(path),
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(cannot(&path, &error)),
+        }
+    }
+    Err(AppError::failed(format!("{}: no free folder name for {stem}", sessions.display())))
+}
+
+/// Writes beside and renames, so that a reader or a kill never sees half a file.
+fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
+    let beside = path.with_extension("new");
+    std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path)).map_err(|error| cannot(path, &error))
+}
+
+fn cannot(path: &Path, error: &std::io::Error) -> AppError {
+    AppError::failed(format!("{}: cannot be written: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_two_sessions_of_one_instant_get_two_folders() {
+        let sessions = tempfile::tempdir().unwrap();
+        let make = || new_folder(sessions.path(), "20231114T221320Z-anna-two-bridges", 5).unwrap();
+        let (a, b) = (make(), make());
+        assert_ne!(a, b);
+        assert!(a.is_dir() && b.is_dir());
+    }
+
+    #[test]
+    fn exact_what_is_no_session_is_refused_by_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let Err(error) = Stored::read(folder.path()) else { panic!("read it") };
+        assert!(error.to_string().contains("is no session folder"));
+    }
+}

@@ -1,0 +1,107 @@
+//! The assessment for people, from its JSON: the numbers are rounded here and nowhere before.
+
+use serde_json::Value;
+use std::fmt::Write;
+
+/// The scores, tasks, crashes, pictures and the end of one session.
+pub fn scores(assessment: &Value) -> String {
+    let mut out = String::new();
+    let scores = &assessment["scores"];
+    let _ = writeln!(out, "{:<14}{:>8}{:>11}", "score", "raw", "of 100");
+    for name in ["conformity", "efficiency", "safety", "accuracy"] {
+        let _ = match (number(&scores[name]["raw"]), number(&scores[name]["pct"])) {
+            (Some(raw), Some(pct)) => writeln!(out, "{name:<14}{raw:>8.2}{pct:>11.2}"),
+            _ => writeln!(out, "{name:<14}{:>19}", "not applicable"),
+        };
+    }
+    if let (Some(overall), Some(most)) = (number(&scores["overall"]), number(&scores["overall_max"])) {
+        let _ = writeln!(out, "{:<14}{:>8}{overall:>11.2}  of {most:.0}", "overall", "");
+    }
+    tasks(&mut out, assessment);
+    crashes(&mut out, &assessment["crashes"]);
+    pictures(&mut out, &assessment["snapshots"]);
+    end(&mut out, assessment);
+    out
+}
+
+fn tasks(out: &mut String, assessment: &Value) {
+    for task in assessment["tasks"].as_array().into_iter().flatten() {
+        let id = task["id"].as_u64().unwrap_or_default();
+        let _ = match (task["attempted"].as_bool(), number(&task["on_path"]), number(&task["speeding"])) {
+            (Some(true), Some(on_path), Some(speeding)) => {
+                writeln!(out, "task {id}        on path {:.1} %, speeding loss {speeding:.3}", 100.0 * on_path)
+            }
+            _ => writeln!(out, "task {id}        not attempted"),
+        };
+    }
+}
+
+fn crashes(out: &mut String, crashes: &Value) {
+    let count = |key: &str| crashes[key].as_u64().unwrap_or_default();
+    let mut places = Vec::new();
+    for (place, number) in crashes["by_task"].as_object().into_iter().flatten() {
+        if number.as_u64().is_some_and(|number| number > 0) {
+            let place = if place.parse::<u32>().is_ok() { format!("task {place}") } else { place.clone() };
+            places.push(format!("{place}: {number}"));
+        }
+    }
+    let places = if places.is_empty() { String::new() } else { format!(" ({})", places.join(", ")) };
+    let (other, person, vehicle) = (count("other"), count("person"), count("vehicle"));
+    let _ =
+        writeln!(out, "crashes       {other} with structures or ground, {person} with persons, {vehicle} with vehicles{places}");
+}
+
+fn pictures(out: &mut String, snapshots: &Value) {
+    let count = |key: &str| snapshots[key].as_u64().unwrap_or_default();
+    let (taken, hits, found, placed) = (count("taken"), count("hits"), count("defects_found"), count("defects_placed"));
+    let _ = writeln!(out, "snapshots     {taken} taken, {hits} of them hits; {found} of {placed} defects found");
+}
+
+fn end(out: &mut String, assessment: &Value) {
+    let end = &assessment["end"];
+    let seconds = number(&end["seconds"]).unwrap_or_default();
+    let reason = end["reason"].as_str().unwrap_or("unknown");
+    let missing = assessment["telemetry"]["missing_frames"].as_u64().unwrap_or_default();
+    let minutes = (seconds / 60.0).floor();
+    let _ = writeln!(
+        out,
+        "end           {reason} after {minutes:.0} min {:.0} s of flight, {missing} frames missing",
+        seconds - 60.0 * minutes
+    );
+}
+
+fn number(value: &Value) -> Option<f64> {
+    value.as_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn exact_the_table_shows_every_number_rounded() {
+        let assessment = json!({
+            "scores": {"conformity": {"raw": 62.126, "pct": 81.0625}, "efficiency": {"raw": 100.0, "pct": 100.0},
+                "safety": {"raw": -9.0, "pct": 91.0}, "accuracy": null, "overall": 272.0625, "overall_max": 300.0},
+            "tasks": [{"id": 1, "attempted": true, "on_path": 0.875, "speeding": 0.25}, {"id": 2, "attempted": false}],
+            "crashes": {"other": 3, "person": 0, "vehicle": 0, "by_task": {"1": 2, "outside": 1, "2": 0}},
+            "snapshots": {"taken": 5, "hits": 3, "defects_found": 4, "defects_placed": 10},
+            "end": {"reason": "landed", "frames": 22500, "seconds": 750.0}, "telemetry": {"missing_frames": 0}
+        });
+        let expected = "\
+score              raw     of 100
+conformity       62.13      81.06
+efficiency      100.00     100.00
+safety           -9.00      91.00
+accuracy           not applicable
+overall                    272.06  of 300
+task 1        on path 87.5 %, speeding loss 0.250
+task 2        not attempted
+crashes       3 with structures or ground, 0 with persons, 0 with vehicles (task 1: 2, outside: 1)
+snapshots     5 taken, 3 of them hits; 4 of 10 defects found
+end           landed after 12 min 30 s of flight, 0 frames missing
+";
+        assert_eq!(scores(&assessment), expected);
+    }
+}

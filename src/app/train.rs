@@ -1,0 +1,149 @@
+//! `spandrel train`: simulator and monitor for a person's ground station.
+
+use super::args::{JobArgs, TraineeId};
+use super::children::Child;
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::pace::Speed;
+use super::ports::PortArgs;
+use super::stop::Stop;
+use super::table;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Between two looks at the children.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Fly a session yourself
+///
+/// Starts simulator and monitor, says how to connect a ground station or a script, waits for the flight, and prints the scores and the
+/// session folder. There is no camera view yet: fly by your ground station's map and instruments, or by a script.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel train                                  the paper's job; QGroundControl on this machine connects by itself
+  spandrel train --trainee anna --scenario drill-hover
+  spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     a ground station on another machine
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    job: JobArgs,
+    /// Who flies: letters, digits, '-' and '_', at most 32
+    #[arg(long, value_name = "ID", default_value = "anonymous")]
+    trainee: TraineeId,
+    /// Folder that session folders are made in
+    #[arg(long, value_name = "DIR", default_value = "sessions")]
+    sessions: PathBuf,
+    /// So many times real time (0.1 to 100), or max; a person flies at 1
+    #[arg(long, value_name = "X|max", default_value = "1")]
+    speed: Speed,
+    #[command(flatten)]
+    ports: PortArgs,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files or ports are wrong, a process fails, or the flight cannot be scored.
+pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
+    // What is wrong with the files is told before anything starts.
+    let scenario = files::scenario(&args.job.scenario)?.scenario;
+    files::vehicle(&args.job.vehicle)?;
+    let stop = Stop::install(false)?;
+    let common = common(&args.job, log);
+    let mut monitor = Child::start("monitor", &[common.clone(), monitor_args(args)].concat())?;
+    let announced = monitor.announced()?;
+    let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
+    let monitor_port = announced["port"].as_u64().unwrap_or_default().to_string();
+    let sim_args =
+        [common, args.ports.to_args(), vec!["--speed".into(), args.speed.to_string(), "--monitor-port".into(), monitor_port]];
+    let mut sim = Child::start("sim", &sim_args.concat())?;
+    let ports = sim.announced()?;
+    print!("{}", how_to_connect(&scenario.title, &args.ports, &ports, &session));
+    let lost = wait(&mut monitor, &mut sim, &stop);
+    monitor.finish();
+    sim.finish();
+    let told = tell(&session);
+    match lost {
+        Some(error) => Err(error),
+        None => told,
+    }
+}
+
+/// Arguments that all children share.
+pub fn common(job: &JobArgs, log: tracing::Level) -> Vec<String> {
+    let mut args = vec!["--log".to_owned(), log.to_string().to_lowercase()];
+    args.extend(["--scenario", &job.scenario, "--vehicle", &job.vehicle].map(str::to_owned));
+    if let Some(seed) = job.seed {
+        args.extend(["--seed".to_owned(), seed.to_string()]);
+    }
+    args
+}
+
+/// Prints the scores of a session folder and its place.
+///
+/// # Errors
+/// When it holds no assessment.
+pub fn tell(session: &Path) -> Result<(), AppError> {
+    let path = session.join(crate::monitor::folder::ASSESSMENT);
+    let text = std::fs::read_to_string(&path)
+        .map_err(|_| AppError::failed(format!("the session was not scored; what was recorded is in {}", session.display())))?;
+    let assessment = serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: {error}", path.display())))?;
+    print!("{}", table::scores(&assessment));
+    println!("session       {}", session.display());
+    Ok(())
+}
+
+fn monitor_args(args: &Args) -> Vec<String> {
+    let port = args.ports.monitor_port();
+    [
+        "--sessions",
+        &args.sessions.display().to_string(),
+        "--trainee",
+        args.trainee.as_str(),
+        "--port",
+        &port.to_string(),
+        "--instance",
+        &args.ports.instance.to_string(),
+    ]
+    .map(str::to_owned)
+    .to_vec()
+}
+
+/// Waits until the session is over, somebody interrupts, or a process ends too early.
+fn wait(monitor: &mut Child, sim: &mut Child, stop: &Stop) -> Option<AppError> {
+    loop {
+        if monitor.ended().is_some() || stop.asked() {
+            return None;
+        }
+        if let Some(status) = sim.ended() {
+            return Some(AppError::failed(format!("the simulator ended early ({status})")));
+        }
+        std::thread::sleep(LOOK);
+    }
+}
+
+fn how_to_connect(title: &str, args: &PortArgs, ports: &serde_json::Value, session: &Path) -> String {
+    let port = |key: &str| ports[key].as_u64().map_or("not opened".to_owned(), |port| port.to_string());
+    let targets: Vec<String> = args.ground_stations().iter().map(ToString::to_string).collect();
+    let (auto, targets) = if targets.is_empty() { ("no", "nobody".to_owned()) } else { ("yes", targets.join(", ")) };
+    format!(
+        "\
+{title}
+  QGroundControl   connects by itself: {auto} (the vehicle calls {targets})
+  dial in          UDP {} or TCP {} at {}
+  MAVSDK           {}
+  pymavlink        udpout:127.0.0.1:{}
+  session folder   {}
+There is no camera view yet: fly by the ground station's map and instruments, or by a script.
+Take off, do the tasks, land on the pad; the scores follow. Ctrl-C ends the session early.
+",
+        port("gcs_port"),
+        port("tcp_port"),
+        args.listen,
+        args.sdk().map_or("nobody is called".to_owned(), |sdk| format!("udpin://0.0.0.0:{}", sdk.port())),
+        port("gcs_port"),
+        session.display(),
+    )
+}

@@ -1,4 +1,0 @@
-//! Closed-loop flights: physics, sensors, estimator and autopilot together, without a network.
-
-mod bench;
-mod manoeuvres;
