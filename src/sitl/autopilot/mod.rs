@@ -1,10 +1,17 @@
 //! The built-in autopilot: estimator, rate, attitude, velocity, position, modes, failsafes, mission. Sees sensor readings,
 //! stick intents and requests; never the truth.
 
-pub mod core;
+pub mod control;
+pub mod estimator;
+mod failsafe;
+pub mod guidance;
+pub mod mission;
+pub mod mixer;
+mod pilot;
+mod steer;
 pub mod tuning;
 
-pub use self::core::{Autopilot, Event, Severity};
+pub use self::pilot::{Autopilot, CONTROL_HZ, Event, Severity};
 pub use self::tuning::{LinkLoss, Tuning};
 
 use crate::base::frames::{Frd, Ned, Rotation, Vec3};

@@ -1,0 +1,106 @@
+//! An aircraft in the air over flat ground.
+
+use spandrel::base::frames::{Ned, Vec3};
+use spandrel::base::time::{Schedule, SimTime};
+use spandrel::scenario::{BatteryModel, Scenario};
+use spandrel::site::Site;
+use spandrel::sitl::autopilot::{Autopilot, CONTROL_HZ, Landed, Mode, Outcome, Request, Sticks, Tuning};
+use spandrel::sitl::physics::{Actuators, Air, Load, Model, State};
+use spandrel::sitl::sensors::{BatteryReading, Sensors, Truth};
+use spandrel::vehicle::Vehicle;
+use std::path::Path;
+
+pub const VEHICLES: [&str; 4] = ["phantom2", "f450", "m30", "elios3"];
+const STEP: SimTime = SimTime::from_ms(1);
+
+fn shipped(path: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+pub fn vehicle(name: &str) -> Vehicle {
+    let file = format!("vehicle-params/{name}.toml");
+    spandrel::vehicle::read(&file, &shipped(&file)).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+pub fn scenario(name: &str) -> Scenario {
+    let file = format!("scenarios/{name}.toml");
+    spandrel::scenario::read(&file, &shipped(&file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+pub struct Bench {
+    pub site: Site,
+    pub model: Model,
+    pub state: State,
+    pub sensors: Sensors,
+    pub autopilot: Autopilot,
+    pub air: Air,
+    pub now: SimTime,
+    pub sticks: Option<Sticks>,
+    pub actuators: Actuators,
+    control: Schedule,
+    stick_clock: Schedule,
+}
+
+impl Bench {
+    pub fn new(vehicle: &Vehicle, seed: u64) -> Self {
+        let scenario = scenario("drill-hover");
+        let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
+        Self {
+            site: Site::build(&scenario, seed),
+            model: Model::new(vehicle, BatteryModel::Physical),
+            state: State::at_rest(Vec3::new(0.0, 0.0, -feet - 0.02), 0.0),
+            sensors: Sensors::new(vehicle, false, scenario.origin, seed),
+            autopilot: Autopilot::new(vehicle, &scenario.rules, scenario.origin, Tuning::default()),
+            air: Air::STILL,
+            now: SimTime::ZERO,
+            sticks: None,
+            actuators: Actuators::default(),
+            control: Schedule::new(SimTime::ZERO, CONTROL_HZ),
+            stick_clock: Schedule::new(SimTime::ZERO, 25.0),
+        }
+    }
+
+    pub fn run(&mut self, seconds: f64, mut each: impl FnMut(&Self)) {
+        let end = self.now + SimTime::from_s(seconds);
+        while self.now < end {
+            if let Some(sticks) = self.sticks
+                && self.stick_clock.fire(self.now)
+            {
+                self.autopilot.sticks(sticks, self.now);
+            }
+            if self.control.fire(self.now) {
+                let b = &self.state.battery;
+                let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
+                let truth = Truth { rigid: &self.state.rigid, battery, lamp_on: false };
+                let readings = self.sensors.sample(&truth, &self.site, self.now);
+                self.actuators = self.autopilot.step(&readings, self.now);
+            }
+            let load = Load { lamp_on: false, airborne: true };
+            self.model.advance(&mut self.state, &self.actuators, &self.air, &self.site, load, self.now, STEP);
+            self.sensors.feel(&self.state.rigid, self.state.specific_force_m_s2, STEP);
+            self.now += STEP;
+            each(self);
+        }
+    }
+
+    pub fn ask(&mut self, request: Request) {
+        assert_eq!(self.autopilot.request(request, self.now), Outcome::Accepted, "{request:?}");
+    }
+
+    pub fn position(&self) -> Vec3<Ned> {
+        self.state.rigid.position_m
+    }
+
+    /// Ready, armed and hovering at a height.
+    pub fn airborne(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
+        let mut bench = Self::new(vehicle, seed);
+        bench.run(2.0, |_| ());
+        assert!(bench.autopilot.arming_reasons(bench.now).is_empty(), "{:?}", bench.autopilot.arming_reasons(bench.now));
+        bench.ask(Request::Arm { force: false });
+        bench.ask(Request::Takeoff { height_m: Some(height_m) });
+        bench.run(6.0 + height_m, |_| ());
+        let status = bench.autopilot.status();
+        assert_eq!((status.mode, status.landed), (Mode::Hold, Landed::InAir), "{:?}", bench.position());
+        bench
+    }
+}

@@ -1,0 +1,4 @@
+//! Closed-loop flights: physics, sensors, estimator and autopilot together, without a network.
+
+mod bench;
+mod manoeuvres;
