@@ -142,7 +142,7 @@ fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, 
     let middles = points.iter().zip(next).map(|(a, b)| (*a + *b) * 0.5);
     let found = points.iter().copied().chain(middles).filter_map(|point| {
         let nearest = site.geometry().nearest(point, needed_m)?;
-        (nearest.distance_m < needed_m).then(|| (point, nearest.distance_m, nearest.object))
+        (nearest.distance_m < needed_m).then_some((point, nearest.distance_m, nearest.object))
     });
     let (point, clearance_m, object) = found.min_by(|a, b| a.1.total_cmp(&b.1))?;
     Some((point, clearance_m, site.object_name(object)))

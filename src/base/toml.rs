@@ -346,7 +346,7 @@ impl<'a> Reader<'a> {
     pub fn finish(&mut self, section: &Section) {
         let Some(table) = section.table else { return };
         for (key, item) in table.iter() {
-            if section.seen.iter().any(|s| *s == key) {
+            if section.seen.contains(&key) {
                 continue;
             }
             let line = self.line_of(item).unwrap_or(section.line);

@@ -1,0 +1,217 @@
+//! Reads the paths that a Rust source names: `use` trees and inline paths, with `self` and `super` resolved.
+
+/// A path with its line, e.g. (12, ["crate", "site", "Site"]).
+pub type Named = (usize, Vec<String>);
+
+/// Source with comments, strings and characters blanked out; line ends stay.
+pub fn code_only(source: &str) -> String {
+    let bytes: Vec<char> = source.chars().collect();
+    let mut out = String::with_capacity(source.len());
+    let mut at = 0;
+    while at < bytes.len() {
+        let end = skip(&bytes, at);
+        if end == at {
+            out.push(bytes[at]);
+            at += 1;
+        } else {
+            out.extend(bytes[at..end].iter().map(|c| if *c == '\n' { '\n' } else { ' ' }));
+            at = end;
+        }
+    }
+    out
+}
+
+/// Where the comment, string or character that begins at `at` ends; `at` itself when none begins here.
+fn skip(text: &[char], at: usize) -> usize {
+    let starts = |what: &str| what.chars().enumerate().all(|(k, c)| text.get(at + k) == Some(&c));
+    let joined = at > 0 && (text[at - 1].is_alphanumeric() || text[at - 1] == '_');
+    if starts("//") {
+        return text[at..].iter().position(|c| *c == '\n').map_or(text.len(), |k| at + k);
+    }
+    if starts("/*") {
+        return block_comment(text, at);
+    }
+    if starts("\"") {
+        return string(text, at + 1);
+    }
+    if !joined && (starts("r\"") || starts("r#") || starts("br\"") || starts("br#")) {
+        return raw_string(text, at);
+    }
+    if starts("'") { character(text, at) } else { at }
+}
+
+fn block_comment(text: &[char], at: usize) -> usize {
+    let (mut depth, mut k) = (0, at);
+    while k < text.len() {
+        match (text[k], text.get(k + 1)) {
+            ('/', Some('*')) => (depth, k) = (depth + 1, k + 2),
+            ('*', Some('/')) => (depth, k) = (depth - 1, k + 2),
+            _ => k += 1,
+        }
+        if depth == 0 {
+            return k;
+        }
+    }
+    text.len()
+}
+
+fn string(text: &[char], mut k: usize) -> usize {
+    while k < text.len() {
+        match text[k] {
+            '\\' => k += 2,
+            '"' => return k + 1,
+            _ => k += 1,
+        }
+    }
+    text.len()
+}
+
+fn raw_string(text: &[char], at: usize) -> usize {
+    let mut k = at + if text[at] == 'b' { 2 } else { 1 };
+    let hashes = text[k..].iter().take_while(|c| **c == '#').count();
+    k += hashes;
+    if text.get(k) != Some(&'"') {
+        return at;
+    }
+    let closes = |k: usize| text[k] == '"' && text[k + 1..].iter().take(hashes).filter(|c| **c == '#').count() == hashes;
+    (k + 1..text.len()).find(|k| closes(*k)).map_or(text.len(), |k| k + 1 + hashes)
+}
+
+/// A character literal; a lifetime is left alone.
+fn character(text: &[char], at: usize) -> usize {
+    match (text.get(at + 1), text.get(at + 2)) {
+        (Some('\\'), _) => (at + 3..text.len()).find(|k| text[*k] == '\'').map_or(text.len(), |k| k + 1),
+        (Some(_), Some('\'')) => at + 3,
+        _ => at,
+    }
+}
+
+/// Every path of two or more parts in `code` that begins with one of `roots`, with `use` groups spread out. `module` is the file's own
+/// module path, for `self` and `super`.
+pub fn named(code: &str, module: &[String], roots: &[&str]) -> Vec<Named> {
+    let tokens = tokens(code);
+    let mut found = Vec::new();
+    for at in 0..tokens.len() {
+        let begins = roots.contains(&tokens[at].1.as_str()) || ["self", "super"].contains(&tokens[at].1.as_str());
+        let continues = at > 0 && tokens[at - 1].1 == "::" && at > 1 && is_word(&tokens[at - 2].1);
+        if begins && !continues && tokens.get(at + 1).is_some_and(|next| next.1 == "::") {
+            let mut parts = Vec::new();
+            tree(&tokens, at, &mut parts, &mut found);
+        }
+    }
+    found.into_iter().filter_map(|(line, path)| Some((line, resolve(path, module)?))).collect()
+}
+
+fn is_word(token: &str) -> bool {
+    token.starts_with(|c: char| c.is_alphabetic() || c == '_')
+}
+
+fn tokens(code: &str) -> Vec<(usize, String)> {
+    let mut out: Vec<(usize, String)> = Vec::new();
+    for (number, line) in code.lines().enumerate() {
+        let mut rest = line;
+        while let Some(first) = rest.chars().next() {
+            let len = if first.is_alphanumeric() || first == '_' {
+                rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len())
+            } else if rest.starts_with("::") {
+                2
+            } else {
+                first.len_utf8()
+            };
+            if !first.is_whitespace() {
+                out.push((number + 1, rest[..len].to_owned()));
+            }
+            rest = &rest[len..];
+        }
+    }
+    out
+}
+
+/// Reads one path or `use` tree from `at`; returns where it ends.
+fn tree(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, found: &mut Vec<Named>) -> usize {
+    let depth = prefix.len();
+    let line = tokens[at].0;
+    while let Some((_, token)) = tokens.get(at) {
+        if token == "{" {
+            at = group(tokens, at + 1, prefix, found);
+            prefix.truncate(depth);
+            return at;
+        }
+        if !is_word(token) && token != "*" {
+            break;
+        }
+        prefix.push(token.clone());
+        at += 1;
+        if tokens.get(at).is_none_or(|next| next.1 != "::") {
+            break;
+        }
+        at += 1;
+    }
+    found.push((line, prefix.clone()));
+    prefix.truncate(depth);
+    at
+}
+
+fn group(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, found: &mut Vec<Named>) -> usize {
+    while let Some((_, token)) = tokens.get(at) {
+        match token.as_str() {
+            "}" => return at + 1,
+            "," => at += 1,
+            // `as name` inside a group.
+            "as" => at += 2,
+            word if is_word(word) || word == "*" => at = tree(tokens, at, prefix, found),
+            _ => at += 1,
+        }
+    }
+    at
+}
+
+/// `self::` and `super::` against the file's own module.
+fn resolve(path: Vec<String>, module: &[String]) -> Option<Vec<String>> {
+    let ups = path.iter().take_while(|part| *part == "super" || *part == "self").filter(|part| *part == "super").count();
+    let relative = path.iter().take_while(|part| *part == "super" || *part == "self").count();
+    if relative == 0 {
+        return Some(path);
+    }
+    // A `super` inside an inline module of the file points lower than it seems; taking it as written errs on the strict side.
+    let base = module.len().checked_sub(ups)?;
+    let own = std::iter::once("crate".to_owned()).chain(module[..base].iter().cloned());
+    Some(own.chain(path[relative..].iter().cloned()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn paths(source: &str, module: &[&str]) -> Vec<String> {
+        let module: Vec<String> = module.iter().map(|part| (*part).to_owned()).collect();
+        named(&code_only(source), &module, &["crate", "std"]).into_iter().map(|(_, path)| path.join("::")).collect()
+    }
+
+    #[test]
+    fn exact_groups_are_spread_and_nested() {
+        let found = paths("use crate::{a::B, c::{self, d::E as F, *}};", &[]);
+        assert_eq!(found, ["crate::a::B", "crate::c::self", "crate::c::d::E", "crate::c::*"]);
+    }
+
+    #[test]
+    fn exact_inline_paths_count_and_longer_names_do_not() {
+        assert_eq!(paths("let x = crate::a::b(); my::crate_::c(); std::fs::read(p)", &[]), ["crate::a::b", "std::fs::read"]);
+    }
+
+    #[test]
+    fn exact_super_and_self_are_resolved() {
+        assert_eq!(
+            paths("use super::physics::X; use self::y::Z;", &["sitl", "autopilot"]),
+            ["crate::sitl::physics::X", "crate::sitl::autopilot::y::Z"]
+        );
+        assert_eq!(paths("use super::super::physics::X;", &["sitl", "autopilot", "core"]), ["crate::sitl::physics::X"]);
+    }
+
+    #[test]
+    fn exact_comments_strings_and_lifetimes_are_no_code() {
+        let source = "// crate::a::b\n/* crate::c::d /* deep */ crate::e */ let s = \"crate::f::g\"; let r = r#\"crate::h::i\"#; \
+                      fn f<'a>(c: char) { if c == '\"' { crate::real::one() } }";
+        assert_eq!(paths(source, &[]), ["crate::real::one"]);
+    }
+}
