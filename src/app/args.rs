@@ -17,7 +17,7 @@ pub struct JobArgs {
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
     /// Seed for everything random (defects, traffic, gusts, sensor noise), 0 to 2147483647 [default: the scenario's, else a new one]
-    #[arg(long, value_name = "N", value_parser = seed)]
+    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
 }
 

@@ -60,7 +60,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         println!("{:#}", json!({ "problems": problems, "notes": notes }));
     } else {
         notes.iter().for_each(|note| println!("note: {note}"));
-        problems.iter().for_each(|problem| println!("{problem}"));
+        // A file that cannot be read has no line to name.
+        problems
+            .iter()
+            .for_each(|problem| if problem.line == 0 { println!("{}", problem.message) } else { println!("{problem}") });
     }
     match problems.len() {
         0 if args.json => Ok(()),
@@ -113,7 +116,7 @@ fn too_tight(source: &Source, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Pr
         let [east, north, up] = at_m.array();
         Some(Problem {
             file: source.file.clone(),
-            line: lines.get(k).copied().unwrap_or(0),
+            line: lines.get(k).copied().unwrap_or(1),
             key: format!("tasks.{k}"),
             value: format!("{clearance_m:.2} m"),
             allowed: format!(

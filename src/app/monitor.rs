@@ -3,7 +3,7 @@
 use super::args::{self, JobArgs, TraineeId};
 use super::clock::{self, Stopwatch};
 use super::errors::{AppError, EXIT_CODES};
-use super::files;
+use super::files::{self, ScenarioFile, VehicleFile};
 use super::net::{Arrival, Hub, SocketId};
 use super::progress::Progress;
 use super::session_folder::{SessionFolder, Stored};
@@ -79,10 +79,12 @@ pub struct Args {
 /// When files or ports are wrong, or the session cannot be scored.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = Stop::install(args.leash)?;
-    let (config, monitor, folder) = open(args)?;
+    // Files first, then the port, then the folder: what is refused leaves nothing behind.
+    let start = Start::read(args)?;
     let mut hub = Hub::new();
     let port = args.port.unwrap_or(FIRST_PORT + u16::from(args.instance));
     let socket = hub.bind(args.listen, port, "--port")?;
+    let (config, monitor, folder) = start.open(args)?;
     if args.announce {
         println!("{}", json!({ "port": hub.port(socket), "session": folder.path() }));
     }
@@ -115,37 +117,46 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     shell.end(args.announce)
 }
 
-/// A new session, or an old one taken up again.
-fn open(args: &Args) -> Result<(MonitorConfig, Monitor, SessionFolder), AppError> {
-    let system_id = args.instance + 1;
-    if let Some(path) = &args.session {
-        let stored = Stored::read(path)?;
-        let folder = SessionFolder::resume(path, &stored)?;
-        let config = MonitorConfig {
-            scenario: stored.scenario.scenario.clone(),
-            vehicle: stored.vehicle.vehicle.clone(),
-            trainee: stored.trainee.clone(),
-            started_unix_us: stored.started_unix_us,
-            system_id,
+/// What is started: a new session, or an old one taken up again.
+enum Start {
+    New(Box<(ScenarioFile, VehicleFile)>),
+    Again(PathBuf, Box<Stored>),
+}
+
+impl Start {
+    /// Reads the files; nothing is written yet.
+    fn read(args: &Args) -> Result<Self, AppError> {
+        match &args.session {
+            Some(path) => Ok(Self::Again(path.clone(), Box::new(Stored::read(path)?))),
+            None => Ok(Self::New(Box::new((files::scenario(&args.job.scenario)?, files::vehicle(&args.job.vehicle)?)))),
+        }
+    }
+
+    fn open(&self, args: &Args) -> Result<(MonitorConfig, Monitor, SessionFolder), AppError> {
+        let config = |scenario: &ScenarioFile, vehicle: &VehicleFile, trainee: &str, started_unix_us| MonitorConfig {
+            scenario: scenario.scenario.clone(),
+            vehicle: vehicle.vehicle.clone(),
+            trainee: trainee.to_owned(),
+            started_unix_us,
+            system_id: args.instance + 1,
             seed: args.job.seed,
             build: build_site,
         };
-        return Ok((config.clone(), Monitor::resume(config, &stored.log), folder));
+        match self {
+            Self::New(files) => {
+                let (scenario, vehicle) = files.as_ref();
+                let started_unix_us = clock::unix_us();
+                let folder = SessionFolder::create(&args.sessions, args.trainee.as_str(), started_unix_us, scenario, vehicle)?;
+                let config = config(scenario, vehicle, args.trainee.as_str(), started_unix_us);
+                Ok((config.clone(), Monitor::new(config), folder))
+            }
+            Self::Again(path, stored) => {
+                let folder = SessionFolder::resume(path, stored)?;
+                let config = config(&stored.scenario, &stored.vehicle, &stored.trainee, stored.started_unix_us);
+                Ok((config.clone(), Monitor::resume(config, &stored.log), folder))
+            }
+        }
     }
-    let scenario = files::scenario(&args.job.scenario)?;
-    let vehicle = files::vehicle(&args.job.vehicle)?;
-    let started_unix_us = clock::unix_us();
-    let folder = SessionFolder::create(&args.sessions, args.trainee.as_str(), started_unix_us, &scenario, &vehicle)?;
-    let config = MonitorConfig {
-        scenario: scenario.scenario,
-        vehicle: vehicle.vehicle,
-        trainee: args.trainee.as_str().to_owned(),
-        started_unix_us,
-        system_id,
-        seed: args.job.seed,
-        build: build_site,
-    };
-    Ok((config.clone(), Monitor::new(config), folder))
 }
 
 struct Shell {

@@ -1,0 +1,8 @@
+//! Any text: a scenario or named problems, never a panic.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|text: &str| {
+    if let Err(problems) = spandrel::scenario::read("fuzz.toml", text, &|_| Ok("1,2\n3,4\n".into())) {
+        assert!(!problems.0.is_empty());
+    }
+});

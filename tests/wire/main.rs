@@ -1,0 +1,3 @@
+//! The program as a user meets it: processes, sockets, files, exit codes.
+
+mod program;

@@ -1,0 +1,103 @@
+//! Exit codes, messages and files of the subcommands that need no flight.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn spandrel(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_spandrel")).args(args).output().unwrap()
+}
+
+fn told(output: &Output) -> (Option<i32>, String, String) {
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn wire_wrong_arguments_and_files_end_with_two_and_say_what_is_allowed() {
+    for (args, needle) in [
+        (vec!["train", "--trainee", "../up"], "letters, digits"),
+        (vec!["demo", "--speed", "0"], "0.1 to 100, or max"),
+        (vec!["demo", "--seed", "-1"], "0 to 2147483647"),
+        (vec!["demo", "--skill", "ace"], "expert"),
+        (vec!["monitor", "--scenario", "no-such-job"], "two-bridges"),
+        (vec!["monitor", "--vehicle", "no-such-drone"], "phantom2"),
+        (vec!["monitor", "--session", "no-such-folder"], "is no session folder"),
+        (vec!["pilot", "--connect", "somewhere"], "HOST:PORT"),
+        (vec!["assess", "no-such.tlog"], "--scenario and --vehicle"),
+        (vec!["export", "two-bridges", "--frames", "-"], "needs a session folder"),
+        (vec!["export", "two-bridges"], "--glb"),
+        (vec!["check", "no-such-file.toml"], "1 problem in 1 file"),
+    ] {
+        let (code, out, err) = told(&spandrel(&args));
+        assert_eq!(code, Some(2), "{args:?}: {out}{err}");
+        assert!(err.contains(needle), "{args:?}: {err}");
+        assert!(!err.contains("panicked"), "{args:?}: {err}");
+    }
+}
+
+#[test]
+fn wire_check_reports_every_problem_of_every_file_as_text_and_as_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    let job = include_str!("../../scenarios/drill-hover.toml");
+    let good = write("good.toml", job);
+    let bad = write("bad.toml", &job.replace("spacing_m = 8.0", "spacing_m = -8.0").replace("turbulence", "turbulance"));
+    let (code, out, _) = told(&spandrel(&["check", &good]));
+    assert_eq!((code, out.trim()), (Some(0), "1 file right"));
+
+    let (code, out, err) = told(&spandrel(&["check", &good, &bad]));
+    assert_eq!(code, Some(2));
+    assert_eq!(out.lines().count(), 2, "{out}");
+    assert!(out.contains("bad.toml:13: terrain.spacing_m = -8.0"), "{out}");
+    assert!(out.contains("turbulance") && err.contains("2 problems in 2 files"), "{out}{err}");
+
+    let (code, out, _) = told(&spandrel(&["check", &bad, "--json"]));
+    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(code, Some(2));
+    let problem = &json["problems"][0];
+    assert_eq!((problem["line"].as_u64(), problem["key"].as_str()), (Some(13), Some("terrain.spacing_m")));
+    assert!(["file", "value", "allowed", "message"].iter().all(|key| problem[key].is_string()), "{problem}");
+}
+
+#[test]
+fn wire_exports_go_to_standard_output_and_logs_do_not() {
+    let (code, out, _) = told(&spandrel(&["export", "two-bridges", "--seed", "7", "--scenario", "-", "--log", "trace"]));
+    assert_eq!(code, Some(0));
+    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(json["tasks"].as_array().map(Vec::len), Some(4));
+    assert_eq!(json["defects"].as_array().map(Vec::len), Some(10));
+}
+
+#[test]
+fn wire_the_program_works_from_any_folder() {
+    let elsewhere = tempfile::tempdir().unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_spandrel"));
+    let output = Command::new(program).args(["export", "practice", "--glb", "p.glb"]).current_dir(&elsewhere).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(std::fs::read(elsewhere.path().join("p.glb")).unwrap().starts_with(b"glTF"));
+}
+
+#[test]
+fn wire_a_port_in_use_is_told_plainly() {
+    let taken = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port().to_string();
+    let sessions = tempfile::tempdir().unwrap();
+    let folder = sessions.path().display().to_string();
+    let (code, _, err) = told(&spandrel(&["monitor", "--port", &port, "--sessions", &folder]));
+    assert_eq!(code, Some(1));
+    assert_eq!(std::fs::read_dir(&sessions).unwrap().count(), 0, "a session folder was left behind");
+    assert!(err.contains("is in use") && err.contains(&port), "{err}");
+}
+
+#[test]
+fn wire_help_of_every_subcommand_has_examples_and_exit_codes() {
+    for subcommand in ["train", "demo", "monitor", "pilot", "assess", "export", "check"] {
+        let (code, out, _) = told(&spandrel(&[subcommand, "--help"]));
+        assert_eq!(code, Some(0));
+        assert!(out.contains("Examples:") && out.contains("Exit codes:"), "{subcommand}");
+    }
+}
