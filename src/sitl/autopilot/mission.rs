@@ -1,180 +1,125 @@
-//! Flying an uploaded mission step by step.
+//! The mission's list and where it stands; `modes.rs` flies the steps.
 
-use super::{Estimate, MissionStep, Ned, Vec3};
+use super::MissionStep;
 use crate::base::time::SimTime;
 
-/// A mission and how far it has been flown.
+/// Steps without flight that may follow each other in one go; a list of jumps to itself ends there.
+const GO_ON_MAX: usize = 64;
+
+/// The list and its progress.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct MissionRun {
+pub struct Mission {
     steps: Vec<MissionStep>,
-    current: usize,
-    reached: Option<usize>,
-    since: Option<SimTime>,
-    jumps_left: Vec<u32>,
-    finished: bool,
+    jumps_done: Vec<u32>,
+    /// Current step.
+    pub current: usize,
+    /// The current step's waiting ends at this time.
+    pub wait_until: Option<SimTime>,
+    /// Cruise speed set by the mission, m/s.
+    pub speed_m_s: Option<f64>,
+    /// Steps reached and not yet reported.
+    pub reached: Vec<usize>,
+    /// The current step has been begun.
+    pub begun: bool,
 }
 
-/// What the present step wants.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Wanted {
-    /// Fly there.
-    Point {
-        /// Where, m.
-        position_m: Vec3<Ned>,
-        /// Heading, rad; `None`: towards it.
-        yaw_rad: Option<f64>,
-    },
-    /// Climb here.
-    Climb {
-        /// Height, m up about the origin.
-        up_m: f64,
-    },
-    /// A new cruise speed, m/s.
-    Speed(f64),
-    /// Land here.
-    Land,
-    /// Return home.
-    Return,
-    /// Wait.
-    Stay,
-    /// The end.
-    Done,
-}
-
-/// A take-off counts as reached within this, m.
-const CLIMB_M: f64 = 0.5;
-
-impl MissionRun {
-    /// From its steps, at the first.
+impl Mission {
+    /// From a list.
     #[must_use]
     pub fn new(steps: Vec<MissionStep>) -> Self {
-        let jumps_left = steps.iter().map(|s| if let MissionStep::Jump { times, .. } = s { *times } else { 0 }).collect();
-        Self { steps, jumps_left, ..Self::default() }
+        Self { jumps_done: vec![0; steps.len()], steps, ..Self::default() }
     }
 
-    /// Nothing uploaded.
+    /// Nothing to fly.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
 
-    /// Present item.
+    /// The step to fly now; `None` at the end.
     #[must_use]
-    pub fn current(&self) -> usize {
-        self.current
+    pub fn step(&self) -> Option<MissionStep> {
+        self.steps.get(self.current).copied()
     }
 
-    /// Flown to its end.
-    #[must_use]
-    pub fn finished(&self) -> bool {
-        self.finished
-    }
-
-    /// The item reached since the last call.
-    pub fn take_reached(&mut self) -> Option<usize> {
-        self.reached.take()
-    }
-
-    /// Goes to an item; false when there is none.
+    /// Goes to a step; false when there is none.
     pub fn jump(&mut self, index: usize) -> bool {
-        let there = index < self.steps.len();
-        if there {
+        let known = index < self.steps.len();
+        if known {
             self.current = index;
-            self.since = None;
-            self.finished = false;
+            self.wait_until = None;
+            self.begun = false;
         }
-        there
+        known
     }
 
-    /// Goes on; a finished mission starts again.
-    pub fn resume(&mut self) {
-        if self.finished {
-            self.jump(0);
+    /// The current step is done: reports it and takes the next that flies or waits. False at the end.
+    pub fn advance(&mut self, now: SimTime) -> bool {
+        self.next();
+        self.skip(now)
+    }
+
+    /// Passes over steps that neither fly nor wait. False at the end.
+    pub fn skip(&mut self, now: SimTime) -> bool {
+        for _ in 0..GO_ON_MAX {
+            match self.step() {
+                None => return false,
+                Some(MissionStep::Speed(speed)) => {
+                    self.speed_m_s = (speed > 0.0).then_some(speed);
+                    self.next();
+                }
+                Some(MissionStep::Payload) => self.next(),
+                Some(MissionStep::Jump { to, times }) => self.repeat(to, times),
+                Some(MissionStep::Delay(s)) => {
+                    self.wait_until = self.wait_until.or(Some(now + SimTime::from_s(s.clamp(0.0, 86_400.0))));
+                    return true;
+                }
+                Some(_) => return true,
+            }
         }
-        self.since = None;
+        false
     }
 
     fn next(&mut self) {
-        self.reached = Some(self.current);
+        self.reached.push(self.current);
         self.current += 1;
-        self.since = None;
-        if self.current >= self.steps.len() {
-            self.finished = true;
-            self.current = self.steps.len().saturating_sub(1);
-        }
+        self.wait_until = None;
+        self.begun = false;
     }
 
-    /// What is wanted now; several steps that take no time may pass at once.
-    pub fn step(&mut self, e: &Estimate, now: SimTime) -> Wanted {
-        if self.finished {
-            return Wanted::Done;
-        }
-        match self.steps.get(self.current).copied() {
-            None => Wanted::Done,
-            Some(MissionStep::Waypoint { position_m, accept_m, hold_s, yaw_rad }) => {
-                self.wait_at(position_m, accept_m, hold_s, e, now);
-                Wanted::Point { position_m, yaw_rad }
-            }
-            Some(MissionStep::Takeoff { up_m }) => {
-                if -e.position_m.down() > up_m - CLIMB_M {
-                    self.next();
-                }
-                Wanted::Climb { up_m }
-            }
-            Some(MissionStep::Land { position_m: Some(place) }) => {
-                let over = Vec3::<Ned>::new(place.north(), place.east(), e.position_m.down());
-                if (e.position_m - over).norm() < 0.7 {
-                    self.next();
-                    return Wanted::Land;
-                }
-                Wanted::Point { position_m: over, yaw_rad: None }
-            }
-            Some(MissionStep::Land { position_m: None }) => {
-                self.next();
-                Wanted::Land
-            }
-            Some(MissionStep::Return) => {
-                self.next();
-                Wanted::Return
-            }
-            Some(MissionStep::Speed(speed)) => {
-                self.next();
-                Wanted::Speed(speed)
-            }
-            Some(MissionStep::Delay(seconds)) => {
-                if (now - *self.since.get_or_insert(now)).s() >= seconds {
-                    self.next();
-                }
-                Wanted::Stay
-            }
-            Some(MissionStep::Jump { to, .. }) => {
-                self.take_jump(to);
-                Wanted::Stay
-            }
-            Some(MissionStep::Payload) => {
-                self.next();
-                Wanted::Stay
-            }
-        }
-    }
-
-    fn wait_at(&mut self, position_m: Vec3<Ned>, accept_m: f64, hold_s: f64, e: &Estimate, now: SimTime) {
-        if self.since.is_none() && (e.position_m - position_m).norm() <= accept_m {
-            self.since = Some(now);
-        }
-        if self.since.is_some_and(|since| (now - since).s() >= hold_s) {
-            self.next();
-        }
-    }
-
-    fn take_jump(&mut self, to: usize) {
-        let at = self.current;
-        if self.jumps_left[at] > 0 && to < self.steps.len() {
-            self.jumps_left[at] -= 1;
-            self.current = to;
-            self.since = None;
+    fn repeat(&mut self, to: usize, times: u32) {
+        let here = self.current;
+        if self.jumps_done[here] < times && to < self.steps.len() {
+            self.jumps_done[here] += 1;
+            self.reached.push(here);
+            self.jump(to);
         } else {
+            self.jumps_done[here] = 0;
             self.next();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_jump_repeats_as_often_as_it_says() {
+        let wait = MissionStep::Delay(1.0);
+        let mut mission = Mission::new(vec![wait, MissionStep::Jump { to: 0, times: 2 }, wait]);
+        let mut visits = Vec::new();
+        let mut going = mission.skip(SimTime::ZERO);
+        while going {
+            visits.push(mission.current);
+            going = mission.advance(SimTime::ZERO);
+        }
+        assert_eq!(visits, [0, 0, 0, 2]);
+    }
+
+    #[test]
+    fn exact_jumps_in_a_ring_end() {
+        let mut mission = Mission::new(vec![MissionStep::Jump { to: 0, times: u32::MAX }]);
+        assert!(!mission.skip(SimTime::ZERO));
     }
 }

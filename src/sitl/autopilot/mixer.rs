@@ -1,97 +1,193 @@
-//! From collective thrust and torque to motor commands. Where the rotors cannot give all of it, yaw goes first, then thrust gives
-//! way so that roll and pitch stay.
+//! From wanted torque and thrust to motor commands, by the rotors' geometry. When it is too much, yaw gives way first, then the
+//! collective, then roll and pitch keep their direction and lose size.
 
+use crate::base::frames::{Frd, Vec3};
 use crate::sitl::physics::{Actuators, MAX_ROTORS};
 use crate::vehicle::Vehicle;
-use nalgebra::{DMatrix, Matrix4};
+use nalgebra::{Matrix4, Vector4};
 
-/// Share of a rotor's top thrust below which it is not driven in flight.
-const LEAST_SHARE: f64 = 0.02;
+/// What the attitude loops want of the rotors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demand {
+    /// Torque about the body axes, N m.
+    pub torque_n_m: Vec3<Frd>,
+    /// Collective thrust, N.
+    pub thrust_n: f64,
+}
 
-/// Geometry of the rotors, solved once.
+/// How much of a demand was given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Given {
+    /// Share of the roll and pitch torque, 0..1.
+    pub tilt: f64,
+    /// Share of the yaw torque, 0..1.
+    pub yaw: f64,
+}
+
+/// Geometry and motor model; the believed rotor speeds are its only state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mixer {
-    /// Thrust per rotor for unit collective, roll, pitch, yaw.
-    columns: [[f64; MAX_ROTORS]; 4],
     count: usize,
+    /// Thrust of each rotor per unit of roll torque, pitch torque, yaw torque and collective.
+    columns: [[f64; 4]; MAX_ROTORS],
     thrust_coefficient: f64,
     idle_rad_s: f64,
     max_rad_s: f64,
-    top_n: f64,
+    time_constant_s: f64,
+    lead: f64,
+    speeds: [f64; MAX_ROTORS],
 }
 
 impl Mixer {
-    /// From the rotor geometry: the least-squares inverse of what thrusts do to the body.
+    /// From an aircraft; `lead` drives the motors ahead of their lag.
     #[must_use]
-    pub fn new(vehicle: &Vehicle) -> Self {
-        let n = vehicle.rotors.len();
-        let per_thrust = vehicle.rotor.torque_coefficient_n_m_s2 / vehicle.rotor.thrust_coefficient_n_s2;
-        let mut b = DMatrix::zeros(4, n);
-        for (k, rotor) in vehicle.rotors.iter().enumerate() {
-            b[(0, k)] = 1.0;
-            b[(1, k)] = -rotor.position_m.right();
-            b[(2, k)] = rotor.position_m.forward();
-            b[(3, k)] = rotor.spin * per_thrust;
-        }
-        let square: Matrix4<f64> = (&b * b.transpose()).fixed_view::<4, 4>(0, 0).into_owned();
-        let inverse = square.try_inverse().unwrap_or_else(Matrix4::zeros);
-        let spread = b.transpose() * inverse;
-        let mut columns = [[0.0; MAX_ROTORS]; 4];
-        for (axis, column) in columns.iter_mut().enumerate() {
-            for (k, value) in column.iter_mut().enumerate().take(n) {
-                *value = spread[(k, axis)];
-            }
-        }
+    pub fn new(vehicle: &Vehicle, lead: f64) -> Self {
+        let count = vehicle.rotors.len().min(MAX_ROTORS);
         let r = &vehicle.rotor;
+        let reach = r.torque_coefficient_n_m_s2 / r.thrust_coefficient_n_s2;
+        let effect: Vec<Vector4<f64>> = vehicle
+            .rotors
+            .iter()
+            .take(count)
+            .map(|rotor| Vector4::new(-rotor.position_m.right(), rotor.position_m.forward(), rotor.spin * reach, 1.0))
+            .collect();
+        let gram = effect.iter().fold(Matrix4::zeros(), |sum, e| sum + e * e.transpose());
+        // Without an inverse (rotors in a line, all one spin) the collective alone is left.
+        let inverse =
+            gram.try_inverse().unwrap_or_else(|| Matrix4::from_diagonal(&Vector4::new(0.0, 0.0, 0.0, 1.0 / count as f64)));
+        let mut columns = [[0.0; 4]; MAX_ROTORS];
+        for (column, e) in columns.iter_mut().zip(&effect) {
+            let c = inverse * e;
+            *column = [c.x, c.y, c.z, c.w];
+        }
         Self {
+            count,
             columns,
-            count: n,
             thrust_coefficient: r.thrust_coefficient_n_s2,
             idle_rad_s: r.idle_speed_rad_s,
             max_rad_s: r.max_speed_rad_s,
-            top_n: r.thrust_coefficient_n_s2 * r.max_speed_rad_s * r.max_speed_rad_s,
+            time_constant_s: r.time_constant_s,
+            lead,
+            speeds: [0.0; MAX_ROTORS],
         }
     }
 
-    /// Most collective thrust, N.
-    #[must_use]
-    pub fn top_n(&self) -> f64 {
-        self.top_n * self.count as f64
+    /// Motor commands for a demand. `voltage_share` is the battery's voltage over its full one: a sagging pack turns the motors slower.
+    pub fn mix(&mut self, demand: &Demand, voltage_share: f64, dt_s: f64) -> (Actuators, Given) {
+        let top = (self.max_rad_s * voltage_share).max(self.idle_rad_s + 1.0);
+        let low = self.thrust_coefficient * self.idle_rad_s * self.idle_rad_s;
+        let high = self.thrust_coefficient * top * top;
+        let (thrusts, given) = self.allocate(demand, low, high);
+        let mut out = Actuators { armed: true, ..Actuators::default() };
+        for (i, thrust) in thrusts.iter().enumerate().take(self.count) {
+            let wanted = (thrust / self.thrust_coefficient).max(0.0).sqrt();
+            let pushed = self.speeds[i] + self.lead * (wanted - self.speeds[i]);
+            out.motors[i] = ((pushed - self.idle_rad_s) / (top - self.idle_rad_s)).clamp(0.0, 1.0);
+            let driven = self.idle_rad_s + out.motors[i] * (top - self.idle_rad_s);
+            // Implicit step of the first-order lag: stable for any ratio of step and lag.
+            self.speeds[i] += (driven - self.speeds[i]) * dt_s / (dt_s + self.time_constant_s);
+        }
+        (out, given)
     }
 
-    /// Motor commands for a thrust (N) and torques about forward, right, down (N m).
-    #[must_use]
-    pub fn mix(&self, thrust_n: f64, torque_n_m: [f64; 3]) -> Actuators {
-        let n = self.count;
+    /// Motors at idle.
+    pub fn idle(&mut self, dt_s: f64) -> Actuators {
+        for speed in &mut self.speeds {
+            *speed += (self.idle_rad_s - *speed) * dt_s / (dt_s + self.time_constant_s);
+        }
+        Actuators { motors: [0.0; MAX_ROTORS], armed: true }
+    }
+
+    /// Motors stopped.
+    pub fn stop(&mut self) -> Actuators {
+        self.speeds = [0.0; MAX_ROTORS];
+        Actuators::default()
+    }
+
+    fn allocate(&self, demand: &Demand, low: f64, high: f64) -> ([f64; MAX_ROTORS], Given) {
+        let t = demand.torque_n_m;
         let mut tilt = [0.0; MAX_ROTORS];
         let mut yaw = [0.0; MAX_ROTORS];
-        for k in 0..n {
-            tilt[k] = self.columns[1][k] * torque_n_m[0] + self.columns[2][k] * torque_n_m[1];
-            yaw[k] = self.columns[3][k] * torque_n_m[2];
+        let (mut least, mut most): (f64, f64) = (0.0, 0.0);
+        for i in 0..self.count {
+            let c = &self.columns[i];
+            tilt[i] = c[0] * t.forward() + c[1] * t.right();
+            yaw[i] = c[2] * t.down();
+            least = least.min(tilt[i]);
+            most = most.max(tilt[i]);
         }
-        let low = LEAST_SHARE * self.top_n;
-        let room = self.top_n - low;
-        let (tilt_low, tilt_high) = extremes(&tilt[..n]);
-        let shrink = (room / (tilt_high - tilt_low).max(1e-12)).min(1.0);
-        tilt.iter_mut().for_each(|t| *t *= shrink);
-        // The collective moves so far that roll and pitch fit between the rotors' limits.
-        let base = (thrust_n / n as f64).clamp(low - tilt_low * shrink, self.top_n - tilt_high * shrink);
-        let mut share: f64 = 1.0;
-        for k in 0..n {
-            let at = base + tilt[k];
-            let space = if yaw[k] > 0.0 { self.top_n - at } else { at - low };
-            share = share.min(space.max(0.0) / yaw[k].abs().max(1e-12));
+        let tilt_share = ((high - low) / (most - least).max(1e-9)).min(1.0);
+        // The collective moves so that roll and pitch fit; for rotors of equal share it is the same for all.
+        let each = self.columns[0][3].max(1e-6);
+        let room = (low - least * tilt_share, high - most * tilt_share);
+        let common = (demand.thrust_n * each).max(room.0).min(room.1) / each;
+        let mut out = [0.0; MAX_ROTORS];
+        let mut yaw_share: f64 = 1.0;
+        for i in 0..self.count {
+            out[i] = common * self.columns[i][3] + tilt[i] * tilt_share;
+            let room = if yaw[i] > 0.0 { high - out[i] } else { out[i] - low };
+            yaw_share = yaw_share.min((room / yaw[i].abs().max(1e-9)).max(0.0));
         }
-        let mut out = Actuators { armed: true, ..Actuators::default() };
-        for k in 0..n {
-            let force = (base + tilt[k] + share * yaw[k]).max(0.0);
-            let speed = (force / self.thrust_coefficient).sqrt();
-            out.motors[k] = ((speed - self.idle_rad_s) / (self.max_rad_s - self.idle_rad_s)).clamp(0.0, 1.0);
+        for i in 0..self.count {
+            out[i] = (out[i] + yaw[i] * yaw_share).clamp(low, high);
         }
-        out
+        (out, Given { tilt: tilt_share, yaw: yaw_share })
     }
 }
 
-fn extremes(values: &[f64]) -> (f64, f64) {
-    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sitl::autopilot::testing::vehicle_with;
+    use crate::sitl::sensors::tests::perfect;
+
+    /// N and N m; rounding of a dozen products.
+    const ROUNDING: f64 = 1e-10;
+
+    fn wrench(vehicle: &Vehicle, thrusts: &[f64; MAX_ROTORS]) -> [f64; 4] {
+        let reach = vehicle.rotor.torque_coefficient_n_m_s2 / vehicle.rotor.thrust_coefficient_n_s2;
+        vehicle.rotors.iter().zip(thrusts).fold([0.0; 4], |s, (r, t)| {
+            [s[0] - r.position_m.right() * t, s[1] + r.position_m.forward() * t, s[2] + r.spin * reach * t, s[3] + t]
+        })
+    }
+
+    fn limits(v: &Vehicle) -> (f64, f64) {
+        let k = v.rotor.thrust_coefficient_n_s2;
+        (k * v.rotor.idle_speed_rad_s * v.rotor.idle_speed_rad_s, k * v.rotor.max_speed_rad_s * v.rotor.max_speed_rad_s)
+    }
+
+    #[test]
+    fn exact_a_modest_demand_is_given_exactly() {
+        let v = vehicle_with(perfect());
+        let (low, high) = limits(&v);
+        let demand = Demand { torque_n_m: Vec3::new(0.1, -0.2, 0.03), thrust_n: 13.0 };
+        let (thrusts, given) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
+        let got = wrench(&v, &thrusts);
+        for (got, wanted) in got.iter().zip([0.1, -0.2, 0.03, 13.0]) {
+            assert!((got - wanted).abs() < ROUNDING, "{got} {wanted}");
+        }
+        assert_eq!(given, Given { tilt: 1.0, yaw: 1.0 });
+    }
+
+    #[test]
+    fn prop_yaw_gives_way_before_roll_and_pitch() {
+        let v = vehicle_with(perfect());
+        let (low, high) = limits(&v);
+        let demand = Demand { torque_n_m: Vec3::new(1.0, 0.0, 2.0), thrust_n: 20.0 };
+        let (thrusts, given) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
+        let got = wrench(&v, &thrusts);
+        assert!((got[0] - 1.0).abs() < ROUNDING && got[1].abs() < ROUNDING, "{got:?}");
+        assert!(given.yaw < 1.0 && got[2] > 0.0 && got[2] < 2.0, "{got:?}");
+        assert!(thrusts.iter().take(4).all(|t| *t >= low - ROUNDING && *t <= high + ROUNDING));
+    }
+
+    #[test]
+    fn prop_full_thrust_leaves_room_for_roll() {
+        let v = vehicle_with(perfect());
+        let (low, high) = limits(&v);
+        let demand = Demand { torque_n_m: Vec3::new(0.5, 0.5, 0.0), thrust_n: 1e3 };
+        let (thrusts, _) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
+        let got = wrench(&v, &thrusts);
+        assert!((got[0] - 0.5).abs() < ROUNDING && (got[1] - 0.5).abs() < ROUNDING, "{got:?}");
+    }
 }

@@ -1,17 +1,27 @@
 //! The built-in autopilot: estimator, rate, attitude, velocity, position, modes, failsafes, mission. Sees sensor readings,
 //! stick intents and requests; never the truth.
 
-pub mod control;
+pub mod attitude;
+mod automatic;
+mod commands;
+pub mod core;
+mod errand;
 pub mod estimator;
-mod failsafe;
-pub mod guidance;
+pub mod gains;
+pub mod landed;
+pub mod link;
+mod manual;
 pub mod mission;
 pub mod mixer;
-mod pilot;
-mod steer;
+pub mod modes;
+pub mod shaper;
+pub mod supervise;
+#[cfg(test)]
+pub(crate) mod testing;
 pub mod tuning;
+pub mod velocity;
 
-pub use self::pilot::{Autopilot, CONTROL_HZ, Event, Severity};
+pub use self::core::{Autopilot, CONTROL_HZ, Event, Severity};
 pub use self::tuning::{LinkLoss, Tuning};
 
 use crate::base::frames::{Frd, Ned, Rotation, Vec3};

@@ -105,7 +105,7 @@ impl Default for Tuning {
             disarm_after_landing_s: 2.0,
             disarm_before_flight_s: 10.0,
             stick_takeover: true,
-            stick_deadband: 0.05,
+            stick_deadband: 0.03,
         }
     }
 }

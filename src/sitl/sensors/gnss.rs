@@ -44,6 +44,7 @@ pub struct Gnss {
     open: (f64, f64),
     drift: Vec3<Ned>,
     multipath: Vec3<Ned>,
+    multipath_m2: f64,
 }
 
 impl Gnss {
@@ -64,6 +65,7 @@ impl Gnss {
             open,
             drift: Vec3::zero(),
             multipath: Vec3::zero(),
+            multipath_m2: 0.0,
             stream: stream.clone(),
         };
         gnss.drift = gnss.scaled(&mut stream, DRIFT_SHARE);
@@ -80,7 +82,7 @@ impl Gnss {
         let visible: Vec<Vec3<Enu>> = self.sky.iter().copied().filter(|d| self.sees(position_m, *d, site, now)).collect();
         let hidden = 1.0 - visible.len() as f64 / self.sky.len() as f64;
         self.wander(hidden);
-        Some(self.fix(rigid, &visible, hidden))
+        Some(self.fix(rigid, &visible))
     }
 
     fn sees<S: Surroundings>(&self, position_m: Vec3<Enu>, direction: Vec3<Enu>, site: &S, now: SimTime) -> bool {
@@ -94,6 +96,7 @@ impl Gnss {
         let keep = math::exp(-self.period_s / MULTIPATH_TIME_S);
         let push = MULTIPATH_M * hidden * (1.0 - keep * keep).sqrt();
         self.multipath = self.multipath * keep + normal3(&mut stream) * push;
+        self.multipath_m2 = self.multipath_m2 * keep * keep + push * push;
         self.stream = stream;
     }
 
@@ -103,7 +106,7 @@ impl Gnss {
         Vec3::new(n * self.horizontal_m, e * self.horizontal_m, d * self.vertical_m) * share
     }
 
-    fn fix(&mut self, rigid: &RigidState, visible: &[Vec3<Enu>], hidden: f64) -> GnssReading {
+    fn fix(&mut self, rigid: &RigidState, visible: &[Vec3<Enu>]) -> GnssReading {
         let mut stream = self.stream.clone();
         let white = self.scaled(&mut stream, WHITE_SHARE);
         let speed = normal3(&mut stream) * self.velocity_m_s;
@@ -115,7 +118,7 @@ impl Gnss {
         };
         let (sh, sv) = (hdop / self.open.0, vdop / self.open.1);
         let stretch = |v: Vec3<Ned>| Vec3::<Ned>::new(v.north() * sh, v.east() * sh, v.down() * sv);
-        let multipath_m = MULTIPATH_M * hidden;
+        let multipath_m = self.multipath_m2.sqrt();
         GnssReading {
             fix: 3,
             satellites,

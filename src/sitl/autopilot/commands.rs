@@ -1,0 +1,184 @@
+//! Requests and their answers.
+
+use super::core::{Autopilot, Severity};
+use super::{Landed, Mode, Outcome, Request};
+use crate::base::frames::{Ned, Vec3};
+use crate::base::time::SimTime;
+
+/// Heights and distances beyond this are mistakes, m.
+const FAR_M: f64 = 20_000.0;
+
+impl Autopilot {
+    /// Asks for something; the answer comes at once.
+    pub fn request(&mut self, request: Request, now: SimTime) -> Outcome {
+        match request {
+            Request::Arm { force } => self.arm(force, now),
+            Request::Disarm { force } => self.disarm_on_request(force),
+            Request::SetMode(mode) => self.set_mode(mode, now),
+            Request::Takeoff { height_m } => self.request_takeoff(height_m, now),
+            Request::Land => self.set_mode(Mode::Land, now),
+            Request::GoTo { north_east_m, up_m, yaw_rad, speed_m_s } => self.go_to(north_east_m, up_m, yaw_rad, speed_m_s, now),
+            Request::StartMission { first } => self.start_mission(first, now),
+            Request::SetSpeed(speed) => self.set_speed(speed),
+            Request::SetHome(home) => self.set_home(home),
+        }
+    }
+
+    fn arm(&mut self, force: bool, now: SimTime) -> Outcome {
+        if self.status.armed {
+            return Outcome::Accepted;
+        }
+        let reasons = self.arming_reasons(now);
+        if !force && !reasons.is_empty() {
+            let text = reasons.join(", ");
+            self.say(Severity::Critical, format!("Arming denied: {text}"));
+            return Outcome::TemporarilyRejected(text);
+        }
+        self.status.armed = true;
+        self.status.landed = Landed::OnGround;
+        self.watch.standing_since = now;
+        self.watch.flown = false;
+        self.watch.upset_since = None;
+        self.watch.tilt_error_rad = 0.0;
+        if self.estimate.position_valid {
+            self.status.home_m = Some(self.estimate.position_m);
+        }
+        // Nobody at the sticks: what flies by itself flies.
+        if self.watch.intended.is_manual() && !self.links.sticks_fresh(self.tuning.manual_loss_s, now) {
+            self.watch.intended = Mode::Hold;
+        }
+        self.enter(self.watch.intended, now);
+        self.say(Severity::Info, "Armed");
+        Outcome::Accepted
+    }
+
+    fn disarm_on_request(&mut self, force: bool) -> Outcome {
+        if self.status.armed && self.status.landed != Landed::OnGround && !force {
+            self.say(Severity::Critical, "Disarming denied: not landed");
+            return Outcome::TemporarilyRejected("not landed".into());
+        }
+        if self.status.armed {
+            self.disarm("Disarmed");
+        }
+        Outcome::Accepted
+    }
+
+    fn set_mode(&mut self, mode: Mode, now: SimTime) -> Outcome {
+        if let Some(refusal) = self.refusal(mode, now) {
+            return refusal;
+        }
+        let again = self.watch.intended == mode && self.status.mode == mode;
+        self.watch.intended = mode;
+        self.watch.overridden = false;
+        if mode == Mode::Mission {
+            self.restart_finished_mission();
+        }
+        if !again {
+            self.enter(mode, now);
+        }
+        Outcome::Accepted
+    }
+
+    fn refusal(&self, mode: Mode, now: SimTime) -> Option<Outcome> {
+        let flying = self.status.armed && self.status.landed != Landed::OnGround;
+        if mode == Mode::Mission && self.mission.is_empty() {
+            return Some(Outcome::Denied("no mission".into()));
+        }
+        if mode == Mode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_loss_s, now) {
+            return Some(Outcome::TemporarilyRejected("no external set-points".into()));
+        }
+        if flying && mode.needs_position() && !self.estimate.position_valid {
+            return Some(Outcome::TemporarilyRejected("no position estimate".into()));
+        }
+        if mode == Mode::Return && self.status.home_m.is_none() {
+            return Some(Outcome::TemporarilyRejected("no home position".into()));
+        }
+        None
+    }
+
+    fn restart_finished_mission(&mut self) {
+        if self.mission.step().is_none() {
+            self.mission.jump(0);
+        }
+        self.status.mission_finished = false;
+        self.status.mission_current = self.mission.current;
+    }
+
+    fn request_takeoff(&mut self, height_m: Option<f64>, now: SimTime) -> Outcome {
+        if height_m.is_some_and(|h| !h.is_finite() || h.abs() > FAR_M) {
+            return Outcome::Denied("take-off height out of range".into());
+        }
+        let home_up = self.status.home_m.map_or(0.0, |h| -h.down());
+        self.course.takeoff_up_m = Some(home_up + height_m.unwrap_or(self.tuning.takeoff_height_m));
+        let up = -self.estimate.position_m.down();
+        let in_air = self.status.armed && self.status.landed != Landed::OnGround;
+        if in_air && self.course.takeoff_up_m.is_some_and(|wanted| up >= wanted) {
+            self.say(Severity::Info, "Already higher than takeoff altitude");
+            return self.set_mode(Mode::Hold, now);
+        }
+        let outcome = self.set_mode(Mode::Takeoff, now);
+        if self.status.mode == Mode::Takeoff {
+            self.enter(Mode::Takeoff, now);
+        }
+        outcome
+    }
+
+    fn go_to(
+        &mut self,
+        north_east_m: Option<(f64, f64)>,
+        up_m: Option<f64>,
+        yaw_rad: Option<f64>,
+        speed_m_s: Option<f64>,
+        now: SimTime,
+    ) -> Outcome {
+        let given = [north_east_m.map(|p| p.0), north_east_m.map(|p| p.1), up_m, yaw_rad, speed_m_s];
+        if given.iter().flatten().any(|v| !v.is_finite() || v.abs() > FAR_M) {
+            return Outcome::Denied("target out of range".into());
+        }
+        if !self.status.armed || self.status.landed == Landed::OnGround {
+            return Outcome::TemporarilyRejected("not flying".into());
+        }
+        if !self.estimate.position_valid {
+            return Outcome::TemporarilyRejected("no position estimate".into());
+        }
+        self.watch.intended = Mode::Hold;
+        self.watch.overridden = false;
+        self.enter(Mode::Hold, now);
+        let held = self.course.target_m;
+        let (n, e) = north_east_m.unwrap_or((held.north(), held.east()));
+        self.course.target_m = Vec3::new(n, e, up_m.map_or(held.down(), |u| -u));
+        self.course.target_yaw_rad = yaw_rad;
+        self.course.speed_m_s = Some(speed_m_s.filter(|s| *s > 0.0).unwrap_or(self.tuning.cruise_m_s));
+        Outcome::Accepted
+    }
+
+    fn start_mission(&mut self, first: Option<usize>, now: SimTime) -> Outcome {
+        if self.mission.is_empty() {
+            self.say(Severity::Critical, "No mission");
+            return Outcome::Denied("no mission".into());
+        }
+        if first.is_some_and(|index| !self.set_mission_current(index)) {
+            return Outcome::Denied("no such mission item".into());
+        }
+        self.set_mode(Mode::Mission, now)
+    }
+
+    fn set_speed(&mut self, speed: f64) -> Outcome {
+        if !(speed.is_finite() && speed > 0.0) {
+            return Outcome::Denied("speed out of range".into());
+        }
+        self.tuning.cruise_m_s = speed.min(self.tuning.horizontal_speed_max_m_s);
+        if self.course.speed_m_s.is_some() {
+            self.course.speed_m_s = Some(self.tuning.cruise_m_s);
+        }
+        Outcome::Accepted
+    }
+
+    fn set_home(&mut self, home_m: Vec3<Ned>) -> Outcome {
+        if !home_m.is_finite() || home_m.norm() > FAR_M {
+            return Outcome::Denied("home out of range".into());
+        }
+        self.status.home_m = Some(home_m);
+        Outcome::Accepted
+    }
+}

@@ -1,0 +1,331 @@
+//! The autopilot as one object: what the outside calls, and one control step.
+
+use super::attitude::AttitudeLoop;
+use super::estimator::Estimator;
+use super::gains::Gains;
+use super::landed::GroundContact;
+use super::link::Links;
+use super::mission::Mission;
+use super::mixer::{Demand, Given, Mixer};
+use super::modes::{Course, Wanted};
+use super::shaper::Shaper;
+use super::supervise::Watch;
+use super::velocity::{Motion, Pull, VelocityLoop};
+use super::{Estimate, Landed, MissionStep, Mode, OffboardSetpoint, Status, Sticks, Tuning};
+use crate::base::frames::{Frd, Ned, Rotation, Vec3};
+use crate::base::geodesy::Geo;
+use crate::base::math;
+use crate::base::time::SimTime;
+use crate::scenario::{BatteryModel, Rules};
+use crate::sitl::physics::Actuators;
+use crate::sitl::sensors::{BatteryReading, Readings};
+use crate::vehicle::{FlightLimits, Vehicle};
+
+/// Rate of the control loops, Hz.
+pub const CONTROL_HZ: f64 = 400.0;
+/// Thrust comes up within this time at take-off, s.
+const SPOOL_UP_S: f64 = 0.6;
+/// Lowest voltage share that the mixer makes up for.
+const VOLTAGE_SHARE_MIN: f64 = 0.6;
+
+/// How grave an event's text is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// As MAV_SEVERITY_CRITICAL.
+    Critical,
+    /// As MAV_SEVERITY_WARNING.
+    Warning,
+    /// As MAV_SEVERITY_INFO.
+    Info,
+}
+
+/// Something that people should read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Event {
+    /// Gravity.
+    pub severity: Severity,
+    /// Words.
+    pub text: String,
+}
+
+/// What the autopilot knows of its aircraft beyond the gains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Airframe {
+    pub mass_kg: f64,
+    pub limits: FlightLimits,
+    pub full_v: f64,
+    /// The voltage's sag reaches the motors.
+    pub sags: bool,
+    /// Height of the centre over the ground when standing, m.
+    pub standing_m: f64,
+}
+
+/// The latest of the sensors that are not fused.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Seen {
+    pub battery: Option<BatteryReading>,
+    pub range_down_m: Option<f64>,
+    pub range_up_m: Option<f64>,
+}
+
+/// The built-in autopilot: plain data, so that a clone is a snapshot.
+#[derive(Debug, Clone)]
+pub struct Autopilot {
+    /// What an operator may change; write freely between steps.
+    pub tuning: Tuning,
+    pub(super) gains: Gains,
+    pub(super) airframe: Airframe,
+    pub(super) low_battery_return: bool,
+    pub(super) estimator: Estimator,
+    pub(super) estimate: Estimate,
+    pub(super) velocity_loop: VelocityLoop,
+    pub(super) attitude_loop: AttitudeLoop,
+    pub(super) mixer: Mixer,
+    pub(super) given: Given,
+    pub(super) shaper: Shaper,
+    pub(super) course: Course,
+    pub(super) mission: Mission,
+    pub(super) links: Links,
+    pub(super) seen: Seen,
+    pub(super) watch: Watch,
+    pub(super) contact: GroundContact,
+    pub(super) status: Status,
+    pub(super) events: Vec<Event>,
+    pub(super) last_step: SimTime,
+}
+
+impl Autopilot {
+    /// Boots on the ground. `origin` is where the local frame lies (for the magnetic model).
+    #[must_use]
+    pub fn new(vehicle: &Vehicle, rules: &Rules, origin: Geo, tuning: Tuning) -> Self {
+        let gains = Gains::new(vehicle);
+        let battery = &vehicle.battery;
+        let standing_m = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max);
+        let estimator = Estimator::new(&vehicle.sensors, origin);
+        Self {
+            tuning,
+            gains,
+            airframe: Airframe {
+                mass_kg: vehicle.mass_kg,
+                limits: vehicle.limits,
+                full_v: f64::from(battery.cells) * battery.ocv_cell_v[10],
+                sags: rules.battery == BatteryModel::Physical,
+                standing_m,
+            },
+            low_battery_return: rules.low_battery_return,
+            estimate: estimator.estimate(),
+            estimator,
+            velocity_loop: VelocityLoop::default(),
+            attitude_loop: AttitudeLoop::default(),
+            mixer: Mixer::new(vehicle, gains.lead),
+            given: Given { tilt: 1.0, yaw: 1.0 },
+            shaper: Shaper::default(),
+            course: Course::default(),
+            mission: Mission::default(),
+            links: Links::default(),
+            seen: Seen::default(),
+            watch: Watch::default(),
+            contact: GroundContact::default(),
+            status: boot_status(),
+            events: Vec::new(),
+            last_step: SimTime::ZERO,
+        }
+    }
+
+    /// The tuning that goes with a job's rules: battery thresholds come from there.
+    #[must_use]
+    pub fn tuning_for(rules: &Rules) -> Tuning {
+        Tuning { battery_low_pct: rules.low_battery_pct, battery_critical_pct: rules.critical_battery_pct, ..Tuning::default() }
+    }
+
+    /// The pilot's sticks, as often as they come. Values beyond [-1, 1] are limited, not-a-numbers are centred.
+    pub fn sticks(&mut self, sticks: Sticks, now: SimTime) {
+        self.links.take_sticks(sticks, self.tuning.stick_deadband, now);
+        self.take_over(now);
+    }
+
+    /// An external set-point.
+    pub fn offboard(&mut self, setpoint: OffboardSetpoint, now: SimTime) {
+        self.links.offboard = Some((setpoint, now));
+    }
+
+    /// A ground station's heartbeat has come.
+    pub fn ground_station_alive(&mut self, now: SimTime) {
+        self.links.ground_station = Some(now);
+    }
+
+    /// Replaces the mission; the first item becomes current.
+    pub fn set_mission(&mut self, steps: Vec<MissionStep>) {
+        self.mission = Mission::new(steps);
+        self.status.mission_current = 0;
+        self.status.mission_finished = false;
+        if self.status.mode == Mode::Mission {
+            self.enter(Mode::Hold, self.last_step);
+            self.watch.intended = Mode::Hold;
+        }
+    }
+
+    /// Jumps to a mission item; false when there is none.
+    pub fn set_mission_current(&mut self, index: usize) -> bool {
+        let known = self.mission.jump(index);
+        if known {
+            self.status.mission_current = index;
+            self.status.mission_finished = false;
+        }
+        known
+    }
+
+    /// One step at the control rate (400 Hz), with what the sensors gave since the last.
+    pub fn step(&mut self, readings: &Readings, now: SimTime) -> Actuators {
+        let dt_s = (now - self.last_step).s().clamp(0.0, 0.05);
+        self.last_step = now;
+        self.estimator.step(readings, now);
+        self.estimate = self.estimator.estimate();
+        self.see(readings);
+        self.supervise(now);
+        if !self.status.armed {
+            self.status.thrust = 0.0;
+            self.status.attitude_target = self.estimate.attitude;
+            return self.mixer.stop();
+        }
+        self.watch_ground(now, dt_s);
+        if !self.status.armed {
+            return self.mixer.stop();
+        }
+        let wanted = self.wanted(now, dt_s);
+        self.drive(wanted, now, dt_s)
+    }
+
+    fn see(&mut self, readings: &Readings) {
+        let seen = &mut self.seen;
+        seen.battery = readings.battery.or(seen.battery);
+        seen.range_down_m = readings.range_down_m.or(seen.range_down_m);
+        seen.range_up_m = readings.range_up_m.or(seen.range_up_m);
+    }
+
+    fn drive(&mut self, wanted: Wanted, now: SimTime, dt_s: f64) -> Actuators {
+        let pull = match wanted {
+            Wanted::Rest => {
+                self.status.thrust = 0.0;
+                self.status.attitude_target = self.estimate.attitude;
+                return self.mixer.idle(dt_s);
+            }
+            Wanted::Fly(motion) => {
+                self.contact.wanted_down_m_s = motion.velocity_m_s.down();
+                self.velocity_loop.fly(&self.gains, self.airframe.mass_kg, &self.estimate, &motion, dt_s)
+            }
+            Wanted::Level { motion, tilt } => {
+                self.contact.wanted_down_m_s = motion.velocity_m_s.down();
+                self.level(&motion, tilt, dt_s)
+            }
+            Wanted::Direct(pull) => pull,
+        };
+        self.turn_rotors(&pull, now, dt_s)
+    }
+
+    fn level(&mut self, motion: &Motion, tilt: (f64, f64), dt_s: f64) -> Pull {
+        self.velocity_loop.reset_horizontal();
+        self.velocity_loop.fly_level(&self.gains, self.airframe.mass_kg, &self.estimate, motion, tilt, dt_s)
+    }
+
+    fn turn_rotors(&mut self, pull: &Pull, now: SimTime, dt_s: f64) -> Actuators {
+        let spool = ((now - self.course.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0);
+        let thrust_n = pull.thrust_n.min(self.gains.thrust_max_n * spool) * self.contact.thrust_share();
+        let g = &self.gains;
+        self.status.attitude_target = pull.attitude;
+        self.status.thrust = thrust_n / g.thrust_max_n;
+        self.watch.tilt_error_rad = tilt_between(self.estimate.attitude, pull.attitude);
+        let torque_n_m =
+            self.attitude_loop.torque(g, &self.estimate, pull.attitude, self.course.yaw_rate_rad_s, self.given, dt_s);
+        let (actuators, given) = self.mixer.mix(&Demand { torque_n_m, thrust_n }, self.voltage_share(), dt_s);
+        self.given = given;
+        actuators
+    }
+
+    fn voltage_share(&self) -> f64 {
+        match self.seen.battery {
+            Some(b) if self.airframe.sags => (b.voltage_v / self.airframe.full_v).clamp(VOLTAGE_SHARE_MIN, 1.0),
+            _ => 1.0,
+        }
+    }
+
+    /// The vehicle was put back in the air by hand: estimator and controllers start there, armed, and hold. The mode stays the pilot's
+    /// where he has one, else Hold.
+    pub fn respawn(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
+        self.estimator.reinitialise(position_m, velocity_m_s, attitude, now);
+        self.estimate = self.estimator.estimate();
+        self.status.armed = true;
+        self.status.landed = Landed::InAir;
+        self.contact = GroundContact::default();
+        self.watch.upset_since = None;
+        let mode = if self.watch.intended.is_manual() { self.watch.intended } else { Mode::Hold };
+        self.reset_loops();
+        self.course.left_ground = now - SimTime::from_s(SPOOL_UP_S);
+        self.watch.intended = mode;
+        self.enter(mode, now);
+        self.say(Severity::Warning, "Put back at the last safe hover");
+    }
+
+    pub(super) fn reset_loops(&mut self) {
+        self.velocity_loop.reset();
+        self.attitude_loop.reset();
+        self.shaper.start(self.estimate.velocity_m_s);
+        self.given = Given { tilt: 1.0, yaw: 1.0 };
+    }
+
+    pub(super) fn say(&mut self, severity: Severity, text: impl Into<String>) {
+        self.events.push(Event { severity, text: text.into() });
+    }
+
+    /// What the estimator believes.
+    #[must_use]
+    pub fn estimate(&self) -> &Estimate {
+        &self.estimate
+    }
+
+    /// The filter itself, for covariance and bias telemetry.
+    #[must_use]
+    pub fn estimator(&self) -> &Estimator {
+        &self.estimator
+    }
+
+    /// What the autopilot tells the world.
+    #[must_use]
+    pub fn status(&self) -> &Status {
+        &self.status
+    }
+
+    /// Events since the last call, in order.
+    pub fn drain_events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.events)
+    }
+
+    /// Mission items reached since the last call, in order, for MISSION_ITEM_REACHED and for payload steps.
+    pub fn drain_reached(&mut self) -> Vec<usize> {
+        self.status.mission_reached = None;
+        std::mem::take(&mut self.mission.reached)
+    }
+}
+
+fn boot_status() -> Status {
+    Status {
+        armed: false,
+        mode: Mode::Position,
+        landed: Landed::OnGround,
+        arming_reasons: vec!["Booting".into()],
+        failsafe: None,
+        home_m: None,
+        target_m: None,
+        attitude_target: Rotation::identity(),
+        thrust: 0.0,
+        mission_current: 0,
+        mission_reached: None,
+        mission_finished: false,
+    }
+}
+
+/// Angle between two attitudes' thrust directions, rad.
+fn tilt_between(a: Rotation<Frd, Ned>, b: Rotation<Frd, Ned>) -> f64 {
+    let z = Vec3::<Frd>::new(0.0, 0.0, 1.0);
+    math::acos((a * z).dot(b * z))
+}

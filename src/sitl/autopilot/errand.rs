@@ -1,0 +1,105 @@
+//! Flying the steps of a mission.
+
+use super::automatic::HEIGHT_REACHED_M;
+use super::core::{Autopilot, Severity};
+use super::modes::{ReturnPhase, Wanted};
+use super::{Landed, MissionStep, Mode};
+use crate::base::frames::Vec3;
+use crate::base::time::SimTime;
+
+/// A landing step descends once this near over its place, m.
+const OVER_PLACE_M: f64 = 0.7;
+
+impl Autopilot {
+    pub(super) fn fly_mission(&mut self, now: SimTime, dt_s: f64) -> Wanted {
+        let Some(step) = self.mission.step() else {
+            self.end_mission(now);
+            return self.go(None, dt_s);
+        };
+        self.status.mission_current = self.mission.current;
+        if !self.mission.begun {
+            self.begin_step(&step);
+        }
+        if let MissionStep::Land { .. } | MissionStep::Return = step {
+            return self.fly_down(&step, dt_s);
+        }
+        if self.step_done(&step, now) {
+            self.status.mission_reached = Some(self.mission.current);
+            if !self.mission.advance(now) {
+                self.end_mission(now);
+            }
+        }
+        let speed = self.mission.speed_m_s.or(Some(self.tuning.cruise_m_s));
+        self.go(speed, dt_s)
+    }
+
+    pub(super) fn begin_step(&mut self, step: &MissionStep) {
+        self.mission.begun = true;
+        let here = self.estimate.position_m;
+        match *step {
+            MissionStep::Waypoint { position_m, yaw_rad, .. } => {
+                self.course.target_m = position_m;
+                self.course.target_yaw_rad = yaw_rad;
+            }
+            MissionStep::Takeoff { up_m } => {
+                self.course.target_m = Vec3::new(here.north(), here.east(), -up_m);
+                self.course.target_yaw_rad = None;
+            }
+            MissionStep::Land { position_m } => {
+                let over = position_m.unwrap_or(here);
+                self.course.target_m = Vec3::new(over.north(), over.east(), here.down());
+                self.course.phase = ReturnPhase::Cruise;
+            }
+            MissionStep::Return => self.begin_return(),
+            _ => {}
+        }
+    }
+
+    /// Lands where the step says, once over the place.
+    pub(super) fn fly_down(&mut self, step: &MissionStep, dt_s: f64) -> Wanted {
+        if *step == MissionStep::Return {
+            return self.go_home(dt_s);
+        }
+        let away = (self.course.target_m - self.estimate.position_m).horizontal_norm();
+        if away < OVER_PLACE_M {
+            self.course.phase = ReturnPhase::Land;
+        }
+        if self.course.phase == ReturnPhase::Land { self.land(dt_s) } else { self.go(self.mission.speed_m_s, dt_s) }
+    }
+
+    pub(super) fn step_done(&mut self, step: &MissionStep, now: SimTime) -> bool {
+        let left = self.course.target_m - self.estimate.position_m;
+        match *step {
+            MissionStep::Waypoint { accept_m, hold_s, .. } => {
+                let accept = if accept_m > 0.0 { accept_m } else { self.tuning.accept_radius_m };
+                if self.mission.wait_until.is_none() && left.norm() < accept {
+                    self.mission.wait_until = Some(now + SimTime::from_s(hold_s.clamp(0.0, 86_400.0)));
+                }
+                self.mission.wait_until.is_some_and(|until| now >= until)
+            }
+            MissionStep::Takeoff { .. } => self.status.landed == Landed::InAir && left.down() > -HEIGHT_REACHED_M,
+            MissionStep::Delay(_) => self.mission.wait_until.is_some_and(|until| now >= until),
+            _ => false,
+        }
+    }
+
+    pub(super) fn end_mission(&mut self, now: SimTime) {
+        if !self.status.mission_finished {
+            self.status.mission_finished = true;
+            self.say(Severity::Info, "Mission finished");
+        }
+        self.watch.intended = Mode::Hold;
+        self.enter(Mode::Hold, now);
+    }
+
+    /// A landing that a mission or a return asked for is complete.
+    pub(super) fn mission_landed(&mut self, now: SimTime) {
+        let landing = matches!(self.mission.step(), Some(MissionStep::Land { .. } | MissionStep::Return));
+        if self.status.mode == Mode::Mission && landing {
+            self.status.mission_reached = Some(self.mission.current);
+            if !self.mission.advance(now) {
+                self.end_mission(now);
+            }
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! The error covariance, 19 by 19, propagated by its few non-zero blocks instead of full products.
+//!
+//! Errors are true minus believed, in this order: position, velocity, attitude (a rotation vector in NED, applied after the
+//! believed attitude), gyroscope bias, accelerometer bias (both body axes), GNSS drift, barometer offset.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// Number of error states.
+pub const STATES: usize = 19;
+/// Index of the position error.
+pub const P: usize = 0;
+/// Index of the velocity error.
+pub const V: usize = 3;
+/// Index of the attitude error.
+pub const THETA: usize = 6;
+/// Index of the gyroscope bias error.
+pub const BG: usize = 9;
+/// Index of the accelerometer bias error.
+pub const BA: usize = 12;
+/// Index of the GNSS drift error.
+pub const DRIFT: usize = 15;
+/// Index of the barometer offset error.
+pub const BARO: usize = 18;
+
+/// Spectral densities of the process noise, all in SI per second.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProcessNoise {
+    /// Accelerometer, (m/s²)²/Hz.
+    pub accel: f64,
+    /// Gyroscope, (rad/s)²/Hz.
+    pub gyro: f64,
+    /// Accelerometer bias walk, (m/s²)²/s.
+    pub accel_walk: f64,
+    /// Gyroscope bias walk, (rad/s)²/s.
+    pub gyro_walk: f64,
+    /// Variance of the GNSS drift, north, east, down, m².
+    pub drift: [f64; 3],
+    /// Time constant of the GNSS drift, s.
+    pub drift_time_s: f64,
+    /// Barometer walk, m²/s.
+    pub baro_walk: f64,
+}
+
+/// A correction of all error states.
+pub type Correction = [f64; STATES];
+
+/// Symmetric covariance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Covariance {
+    m: [[f64; STATES]; STATES],
+}
+
+impl Covariance {
+    /// From the variances alone.
+    #[must_use]
+    pub fn diagonal(variances: &[f64; STATES]) -> Self {
+        let mut m = [[0.0; STATES]; STATES];
+        for (i, v) in variances.iter().enumerate() {
+            m[i][i] = *v;
+        }
+        Self { m }
+    }
+
+    /// Variance of one error.
+    #[must_use]
+    pub fn variance(&self, i: usize) -> f64 {
+        self.m[i][i]
+    }
+
+    /// One element.
+    #[must_use]
+    pub fn at(&self, i: usize, j: usize) -> f64 {
+        self.m[i][j]
+    }
+
+    /// Sets one pair of elements.
+    pub fn set(&mut self, i: usize, j: usize, value: f64) {
+        self.m[i][j] = value;
+        self.m[j][i] = value;
+    }
+
+    /// Forgets all about `count` errors from `first`: independent of the rest, with one variance.
+    pub fn reset(&mut self, first: usize, count: usize, variance: f64) {
+        for i in first..first + count {
+            for j in 0..STATES {
+                self.set(i, j, 0.0);
+            }
+        }
+        for i in first..first + count {
+            self.m[i][i] = variance;
+        }
+    }
+
+    /// One step of `dt_s`. `gained_m_s` is the velocity that specific force gave in the step (NED), `attitude` the rotation matrix from
+    /// body to NED, `jolt` extra velocity variance for shocks, (m/s)².
+    pub fn propagate(&mut self, attitude: &Matrix3<f64>, gained_m_s: &Vector3<f64>, dt_s: f64, noise: &ProcessNoise, jolt: f64) {
+        let g = gained_m_s;
+        // d(velocity)/d(attitude): theta x gained.
+        let a = [[0.0, g.z, -g.y], [-g.z, 0.0, g.x], [g.y, -g.x, 0.0]];
+        let r = attitude * -dt_s;
+        let b = [[r.m11, r.m12, r.m13], [r.m21, r.m22, r.m23], [r.m31, r.m32, r.m33]];
+        self.rows(&a, &b, dt_s);
+        self.columns(&a, &b, dt_s);
+        let keep = 1.0 - dt_s / noise.drift_time_s;
+        for i in 0..3 {
+            self.scale(DRIFT + i, keep);
+        }
+        for i in 0..3 {
+            self.m[V + i][V + i] += noise.accel * dt_s + jolt;
+            self.m[THETA + i][THETA + i] += noise.gyro * dt_s;
+            self.m[BG + i][BG + i] += noise.gyro_walk * dt_s;
+            self.m[BA + i][BA + i] += noise.accel_walk * dt_s;
+            self.m[DRIFT + i][DRIFT + i] += noise.drift[i] * (1.0 - keep * keep);
+        }
+        self.m[BARO][BARO] += noise.baro_walk * dt_s;
+        self.mirror();
+    }
+
+    /// F times the matrix, in place: every row is written before what it depends on changes.
+    fn rows(&mut self, a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], dt_s: f64) {
+        for i in 0..3 {
+            let v = self.m[V + i];
+            for (p, v) in self.m[P + i].iter_mut().zip(v) {
+                *p += dt_s * v;
+            }
+        }
+        for (i, (a, b)) in a.iter().zip(b).enumerate() {
+            let mut row = self.m[V + i];
+            for (j, (a, b)) in a.iter().zip(b).enumerate() {
+                let (theta, bias) = (&self.m[THETA + j], &self.m[BA + j]);
+                for ((v, t), c) in row.iter_mut().zip(theta).zip(bias) {
+                    *v += a * t + b * c;
+                }
+            }
+            self.m[V + i] = row;
+        }
+        for (i, b) in b.iter().enumerate() {
+            let mut row = self.m[THETA + i];
+            for (j, factor) in b.iter().enumerate() {
+                for (t, c) in row.iter_mut().zip(&self.m[BG + j]) {
+                    *t += factor * c;
+                }
+            }
+            self.m[THETA + i] = row;
+        }
+    }
+
+    /// The matrix times F transposed, in place.
+    fn columns(&mut self, a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], dt_s: f64) {
+        for row in &mut self.m {
+            for i in 0..3 {
+                row[P + i] += dt_s * row[V + i];
+            }
+            for (i, (a, b)) in a.iter().zip(b).enumerate() {
+                let theta = a[0] * row[THETA] + a[1] * row[THETA + 1] + a[2] * row[THETA + 2];
+                let bias = b[0] * row[BA] + b[1] * row[BA + 1] + b[2] * row[BA + 2];
+                row[V + i] += theta + bias;
+            }
+            for (i, b) in b.iter().enumerate() {
+                row[THETA + i] += b[0] * row[BG] + b[1] * row[BG + 1] + b[2] * row[BG + 2];
+            }
+        }
+    }
+
+    fn scale(&mut self, i: usize, factor: f64) {
+        for value in &mut self.m[i] {
+            *value *= factor;
+        }
+        for row in &mut self.m {
+            row[i] *= factor;
+        }
+    }
+
+    /// Rounding must not make the two halves drift apart.
+    fn mirror(&mut self) {
+        for i in 1..STATES {
+            for j in 0..i {
+                self.m[i][j] = self.m[j][i];
+            }
+        }
+    }
+
+    /// Fuses one scalar: `slopes` are the few non-zero derivatives of the measurement by the errors, `innovation` is measured minus
+    /// expected. `None` when it lies outside `gate` standard deviations; the covariance then stays.
+    pub fn fuse(&mut self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> Option<Correction> {
+        let mut ph = [0.0; STATES];
+        for (index, slope) in slopes {
+            for (sum, value) in ph.iter_mut().zip(&self.m[*index]) {
+                *sum += slope * value;
+            }
+        }
+        let expected: f64 = variance + slopes.iter().map(|(index, slope)| slope * ph[*index]).sum::<f64>();
+        if !(expected > 0.0 && innovation.is_finite() && innovation * innovation <= gate * gate * expected) {
+            return None;
+        }
+        let inverse = 1.0 / expected;
+        for i in 0..STATES {
+            let gain = ph[i] * inverse;
+            for (value, other) in self.m[i].iter_mut().zip(&ph) {
+                *value -= gain * other;
+            }
+        }
+        let step = innovation * inverse;
+        Some(ph.map(|p| p * step))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::SMatrix;
+
+    type Full = SMatrix<f64, STATES, STATES>;
+    /// Rounding of sums of products of order one, no unit.
+    const ROUNDING: f64 = 1e-12;
+
+    fn full(c: &Covariance) -> Full {
+        Full::from_fn(|i, j| c.m[i][j])
+    }
+
+    fn some_covariance() -> Covariance {
+        let root = Full::from_fn(|i, j| ((i * 7 + j * 13) % 11) as f64 / 11.0 - 0.4);
+        let m = root * root.transpose();
+        let mut c = Covariance::diagonal(&[0.0; STATES]);
+        for i in 0..STATES {
+            for j in 0..STATES {
+                c.m[i][j] = m[(i.min(j), i.max(j))];
+            }
+        }
+        c
+    }
+
+    #[test]
+    fn exact_sparse_propagation_equals_the_full_product() {
+        let noise = ProcessNoise {
+            accel: 0.1,
+            gyro: 0.2,
+            accel_walk: 0.3,
+            gyro_walk: 0.4,
+            drift: [0.5, 0.6, 0.7],
+            drift_time_s: 50.0,
+            baro_walk: 0.8,
+        };
+        let dt = 0.01;
+        let r = *nalgebra::Rotation3::from_euler_angles(0.3, -0.2, 1.1).matrix();
+        let g = Vector3::new(0.02, -0.05, -0.1);
+        let mut f = Full::identity();
+        let cross = Matrix3::new(0.0, g.z, -g.y, -g.z, 0.0, g.x, g.y, -g.x, 0.0);
+        for i in 0..3 {
+            f[(P + i, V + i)] = dt;
+            f[(DRIFT + i, DRIFT + i)] = 1.0 - dt / 50.0;
+            for j in 0..3 {
+                f[(V + i, THETA + j)] = cross[(i, j)];
+                f[(V + i, BA + j)] = -dt * r[(i, j)];
+                f[(THETA + i, BG + j)] = -dt * r[(i, j)];
+            }
+        }
+        let mut c = some_covariance();
+        let mut expected = f * full(&c) * f.transpose();
+        let keep: f64 = 1.0 - dt / 50.0;
+        for i in 0..3 {
+            expected[(V + i, V + i)] += 0.1 * dt + 0.001;
+            expected[(THETA + i, THETA + i)] += 0.2 * dt;
+            expected[(BG + i, BG + i)] += 0.4 * dt;
+            expected[(BA + i, BA + i)] += 0.3 * dt;
+            expected[(DRIFT + i, DRIFT + i)] += noise.drift[i] * (1.0 - keep * keep);
+        }
+        expected[(BARO, BARO)] += 0.8 * dt;
+        c.propagate(&r, &g, dt, &noise, 0.001);
+        assert!((full(&c) - expected).abs().max() < ROUNDING);
+    }
+
+    #[test]
+    fn exact_a_fused_scalar_equals_the_textbook_update() {
+        let mut c = some_covariance();
+        let before = full(&c);
+        let mut h = SMatrix::<f64, 1, STATES>::zeros();
+        h[(0, P)] = 1.0;
+        h[(0, DRIFT)] = 0.5;
+        let s = (h * before * h.transpose())[(0, 0)] + 0.2;
+        let k = before * h.transpose() / s;
+        let dx = c.fuse(&[(P, 1.0), (DRIFT, 0.5)], 0.3, 0.2, 5.0).unwrap_or([0.0; STATES]);
+        assert!((full(&c) - (Full::identity() - k * h) * before).abs().max() < ROUNDING);
+        assert!((0..STATES).all(|i| (dx[i] - k[(i, 0)] * 0.3).abs() < ROUNDING));
+    }
+
+    #[test]
+    fn exact_an_outlier_changes_nothing() {
+        let mut c = some_covariance();
+        let before = c.clone();
+        assert!(c.fuse(&[(P, 1.0)], 1e6, 0.2, 5.0).is_none());
+        assert_eq!(c, before);
+    }
+}

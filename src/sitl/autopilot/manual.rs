@@ -1,0 +1,130 @@
+//! What the sticks want: attitude, height or velocity, and the locks that hold the place once they are let go.
+
+use super::core::Autopilot;
+use super::modes::Wanted;
+use super::shaper::{Limits, stopping_point};
+use super::velocity::Pull;
+use super::{Mode, Sticks};
+use crate::base::frames::{Ned, Rotation, Vec3};
+use crate::base::math;
+
+/// Yaw rate is built up within this time, s.
+const YAW_SPOOL_S: f64 = 0.3;
+/// The wanted heading never runs further ahead of the nose, rad.
+const YAW_LEAD_RAD: f64 = 0.6;
+/// Slower than this the position is locked once the sticks are centred, m/s.
+const LOCK_M_S: f64 = 0.15;
+/// Without position the sticks tilt at most this share of the largest tilt.
+const BLIND_TILT_SHARE: f64 = 0.6;
+/// Share of the slow-down time in which the plan stops; the rest is the loops' lag.
+const SLOW_DOWN_SHARE: f64 = 0.55;
+/// Fastest correction towards a lock, m/s.
+pub(super) const LOCK_SPEED_M_S: f64 = 2.0;
+
+impl Autopilot {
+    pub(super) fn stick_yaw(&mut self, dt_s: f64) {
+        let rate = self.links.sticks.yaw * self.airframe.limits.yaw_rate_rad_s;
+        self.turn_at(rate, dt_s);
+    }
+
+    pub(super) fn turn_at(&mut self, rate: f64, dt_s: f64) {
+        let step = self.airframe.limits.yaw_rate_rad_s / YAW_SPOOL_S * dt_s;
+        let c = &mut self.course;
+        c.yaw_rate_rad_s += (rate - c.yaw_rate_rad_s).clamp(-step, step);
+        let nose = self.estimate.attitude.yaw_rad();
+        let lead = math::wrap_pi(c.yaw_rad + c.yaw_rate_rad_s * dt_s - nose).clamp(-YAW_LEAD_RAD, YAW_LEAD_RAD);
+        c.yaw_rad = math::wrap_pi(nose + lead);
+    }
+
+    pub(super) fn stick_climb(&self) -> f64 {
+        let (up, l) = (self.links.sticks.up, &self.airframe.limits);
+        if up > 0.0 { -up * l.climb_m_s } else { -up * l.descend_m_s }
+    }
+
+    pub(super) fn stabilized(&mut self, dt_s: f64) -> Wanted {
+        self.stick_yaw(dt_s);
+        let Sticks { forward, right, up, .. } = self.links.sticks;
+        let tilt = self.gains.tilt_rad;
+        let hover = self.gains.hover_n;
+        let thrust_n = if up > 0.0 {
+            math::lerp(hover, self.gains.thrust_max_n, up)
+        } else {
+            math::lerp(hover, self.gains.thrust_min_n, -up)
+        };
+        self.contact.wanted_down_m_s = if up < -0.5 { self.airframe.limits.descend_m_s } else { 0.0 };
+        let attitude = Rotation::from_euler(right * tilt, -forward * tilt, self.course.yaw_rad);
+        Wanted::Direct(Pull { attitude, thrust_n })
+    }
+
+    pub(super) fn altitude(&mut self, dt_s: f64) -> Wanted {
+        self.stick_yaw(dt_s);
+        let share = if self.status.mode == Mode::Altitude { 1.0 } else { BLIND_TILT_SHARE };
+        let tilt = self.gains.tilt_rad * share;
+        let Sticks { forward, right, .. } = self.links.sticks;
+        let limits = self.stick_limits();
+        let velocity =
+            self.with_locks(Vec3::new(0.0, 0.0, self.stick_climb()), false, self.links.sticks.up == 0.0, &limits, dt_s);
+        self.course.lock_flat = None;
+        Wanted::Level { motion: self.motion(velocity), tilt: (right * tilt, -forward * tilt) }
+    }
+
+    pub(super) fn position(&mut self, dt_s: f64) -> Wanted {
+        self.stick_yaw(dt_s);
+        let (s, l) = (self.links.sticks, self.airframe.limits);
+        let (sine, cosine) = math::sin_cos(self.estimate.attitude.yaw_rad());
+        let (forward, right) = (s.forward * l.forward_m_s, s.right * l.sideward_m_s);
+        let wish = Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb());
+        let limits = self.stick_limits();
+        let centred = s.forward == 0.0 && s.right == 0.0;
+        let velocity = self.with_locks(wish, centred, s.up == 0.0, &limits, dt_s);
+        if let (Some((n, e)), Some(d)) = (self.course.lock_flat, self.course.lock_down) {
+            self.status.target_m = Some(Vec3::new(n, e, d));
+        }
+        Wanted::Fly(self.motion(velocity))
+    }
+
+    pub(super) fn stick_limits(&self) -> Limits {
+        let l = &self.airframe.limits;
+        let plan_s = (SLOW_DOWN_SHARE * l.slow_down_time_s).max(0.1);
+        Limits {
+            horizontal_m_s2: (l.forward_m_s.max(l.sideward_m_s) / plan_s).min(self.gains.acceleration_m_s2),
+            vertical_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(self.gains.climb_acceleration_m_s2),
+        }
+    }
+
+    /// Shapes a stick velocity; once centred and slow, position and height are locked.
+    pub(super) fn with_locks(
+        &mut self,
+        wish: Vec3<Ned>,
+        flat_free: bool,
+        down_free: bool,
+        limits: &Limits,
+        dt_s: f64,
+    ) -> Vec3<Ned> {
+        let planned = self.shaper.velocity_m_s;
+        self.shaper.advance(wish, limits, dt_s);
+        let e = &self.estimate;
+        let rest = stopping_point(&self.gains, e.position_m, e.velocity_m_s);
+        let c = &mut self.course;
+        if !flat_free {
+            c.lock_flat = None;
+        } else if c.lock_flat.is_none() && planned.horizontal_norm() < LOCK_M_S {
+            c.lock_flat = Some((rest.north(), rest.east()));
+        }
+        if !down_free {
+            c.lock_down = None;
+        } else if c.lock_down.is_none() && planned.down().abs() < LOCK_M_S {
+            c.lock_down = Some(rest.down());
+        }
+        let mut velocity = self.shaper.velocity_m_s;
+        if let Some((n, e_)) = c.lock_flat {
+            let way = Vec3::<Ned>::new(n - e.position_m.north(), e_ - e.position_m.east(), 0.0);
+            velocity += (way * self.gains.position).limited(LOCK_SPEED_M_S);
+        }
+        if let Some(d) = c.lock_down {
+            let speed = self.gains.height * (d - e.position_m.down());
+            velocity += Vec3::new(0.0, 0.0, speed.clamp(-LOCK_SPEED_M_S, LOCK_SPEED_M_S));
+        }
+        velocity
+    }
+}

@@ -1,0 +1,179 @@
+//! What each mode wants of the velocity and attitude loops.
+
+use super::core::Autopilot;
+use super::shaper::stopping_point;
+use super::velocity::{Motion, Pull};
+use super::{Landed, MissionStep, Mode, OffboardSetpoint};
+use crate::base::frames::{Ned, Vec3};
+use crate::base::time::SimTime;
+
+/// The return climbs only when further from home than this, m.
+const NEAR_HOME_M: f64 = 5.0;
+
+/// What a mode asks for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Wanted {
+    /// Motors at idle, on the ground.
+    Rest,
+    /// A velocity.
+    Fly(Motion),
+    /// A vertical velocity with roll and pitch given, rad.
+    Level {
+        /// Vertical velocity and heading.
+        motion: Motion,
+        /// Roll and pitch, rad.
+        tilt: (f64, f64),
+    },
+    /// Attitude and thrust.
+    Direct(Pull),
+}
+
+/// Where a return stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ReturnPhase {
+    /// Up to the return height.
+    #[default]
+    Climb,
+    /// Over to home.
+    Cruise,
+    /// Down.
+    Land,
+}
+
+/// What the guidance remembers from tick to tick.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Course {
+    /// Target of holds, go-to, take-off, landing, return, m.
+    pub target_m: Vec3<Ned>,
+    /// Wanted heading on arrival, rad.
+    pub target_yaw_rad: Option<f64>,
+    /// Speed of a go-to, m/s.
+    pub speed_m_s: Option<f64>,
+    /// Horizontal position lock of the position mode, m.
+    pub lock_flat: Option<(f64, f64)>,
+    /// Height lock, m down.
+    pub lock_down: Option<f64>,
+    /// Wanted heading, rad.
+    pub yaw_rad: f64,
+    /// Wanted heading rate, rad/s.
+    pub yaw_rate_rad_s: f64,
+    /// Asked take-off height, m up about the origin.
+    pub takeoff_up_m: Option<f64>,
+    /// Height of the ground where it last stood, m down.
+    pub ground_down_m: f64,
+    /// When it last left the ground.
+    pub left_ground: SimTime,
+    /// Phase of a return.
+    pub phase: ReturnPhase,
+}
+
+impl Mode {
+    /// Sticks fly.
+    #[must_use]
+    pub fn is_manual(self) -> bool {
+        matches!(self, Self::Stabilized | Self::Altitude | Self::Position)
+    }
+
+    /// Cannot be flown without horizontal position.
+    #[must_use]
+    pub fn needs_position(self) -> bool {
+        !matches!(self, Self::Stabilized | Self::Altitude | Self::Land | Self::Offboard)
+    }
+}
+
+impl Autopilot {
+    /// Begins a mode (again).
+    pub(super) fn enter(&mut self, mode: Mode, now: SimTime) {
+        self.status.mode = mode;
+        self.links.sticks_then = self.links.sticks;
+        self.begin_course(now);
+    }
+
+    pub(super) fn begin_course(&mut self, now: SimTime) {
+        let e = &self.estimate;
+        let c = &mut self.course;
+        c.target_m = stopping_point(&self.gains, e.position_m, e.velocity_m_s);
+        c.target_yaw_rad = None;
+        c.speed_m_s = None;
+        c.lock_flat = None;
+        c.lock_down = None;
+        c.yaw_rad = e.attitude.yaw_rad();
+        c.phase = ReturnPhase::Climb;
+        self.shaper.start(e.velocity_m_s);
+        match self.status.mode {
+            Mode::Takeoff => self.begin_takeoff(),
+            Mode::Return => self.begin_return(),
+            Mode::Mission => {
+                self.mission.begun = false;
+                self.mission.wait_until = None;
+                if !self.mission.skip(now) {
+                    self.end_mission(now);
+                }
+            }
+            _ => {}
+        }
+        if self.status.landed == Landed::Landing {
+            self.status.landed = Landed::InAir;
+        }
+    }
+
+    fn begin_takeoff(&mut self) {
+        let home_up = self.status.home_m.map_or(0.0, |h| -h.down());
+        let up = self.course.takeoff_up_m.unwrap_or(home_up + self.tuning.takeoff_height_m);
+        let here = self.estimate.position_m;
+        self.course.target_m = Vec3::new(here.north(), here.east(), (-up).min(here.down()));
+    }
+
+    pub(super) fn begin_return(&mut self) {
+        let here = self.estimate.position_m;
+        let home = self.status.home_m.unwrap_or(here);
+        let away = (here - home).horizontal_norm();
+        let up = -home.down() + self.tuning.return_height_m;
+        let phase = if away < NEAR_HOME_M { ReturnPhase::Cruise } else { ReturnPhase::Climb };
+        let down = if away < NEAR_HOME_M { here.down() } else { (-up).min(here.down()) };
+        self.course.phase = phase;
+        self.course.target_m = Vec3::new(here.north(), here.east(), down);
+    }
+
+    /// Standing on the ground, the mode wants to leave it.
+    pub(super) fn wants_to_fly(&self, now: SimTime) -> bool {
+        match self.status.mode {
+            Mode::Stabilized | Mode::Altitude | Mode::Position => {
+                self.links.sticks.up > 0.1 && self.links.sticks_fresh(self.tuning.manual_loss_s, now)
+            }
+            Mode::Takeoff => true,
+            Mode::Mission => {
+                matches!(self.mission.step(), Some(MissionStep::Takeoff { .. } | MissionStep::Waypoint { .. }))
+            }
+            Mode::Offboard => self.links.offboard.is_some_and(|(s, _)| rises(&s, self.estimate.position_m.down())),
+            Mode::Hold | Mode::Land | Mode::Return => false,
+        }
+    }
+
+    pub(super) fn wanted(&mut self, now: SimTime, dt_s: f64) -> Wanted {
+        self.status.target_m = None;
+        if self.status.landed == Landed::OnGround {
+            return Wanted::Rest;
+        }
+        let blind = !self.estimate.position_valid;
+        match self.status.mode {
+            Mode::Stabilized => self.stabilized(dt_s),
+            Mode::Position if !blind => self.position(dt_s),
+            Mode::Altitude | Mode::Position => self.altitude(dt_s),
+            Mode::Land => self.land(dt_s),
+            Mode::Offboard => self.follow(now, dt_s),
+            _ if blind => self.sink_blind(dt_s),
+            Mode::Hold => self.go(self.course.speed_m_s, dt_s),
+            Mode::Takeoff => self.take_off(now, dt_s),
+            Mode::Return => self.go_home(dt_s),
+            Mode::Mission => self.fly_mission(now, dt_s),
+        }
+    }
+}
+
+/// An external set-point that leads up from where the vehicle stands.
+fn rises(s: &OffboardSetpoint, down_m: f64) -> bool {
+    s.position_m[2].is_some_and(|d| d < down_m - 0.3)
+        || s.velocity_m_s[2].is_some_and(|v| v < -0.1)
+        || s.attitude.is_some_and(|(_, thrust)| thrust > 0.3)
+}

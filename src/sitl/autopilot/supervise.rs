@@ -1,0 +1,257 @@
+//! Failsafes, arming checks, battery warnings, and the pilot's hand on the sticks.
+
+use super::core::{Autopilot, Severity};
+use super::{Landed, LinkLoss, Mode};
+use crate::base::frames::{Frd, Vec3};
+use crate::base::time::SimTime;
+
+/// Failsafes and checks run this often.
+const PERIOD: SimTime = SimTime::from_ms(50);
+/// Sticks count as centred for arming within this, and take over from automatic modes beyond that.
+const CENTRED: f64 = 0.2;
+const TAKE_OVER: f64 = 0.3;
+/// Level enough to arm, cosine of the tilt (20 degrees).
+const LEVEL: f64 = 0.94;
+/// Something this near above forbids arming, m.
+const HEADROOM_M: f64 = 1.0;
+/// Horizontal accuracy for arming, m (1 sigma).
+const ARMING_ACCURACY_M: f64 = 5.0;
+/// This far from the wanted attitude for this long without flying: crashed, rad and s.
+const UPSET_RAD: f64 = 0.7;
+const UPSET_S: f64 = 2.5;
+/// Still moving faster than this it may yet recover, m/s.
+const UPSET_SPEED_M_S: f64 = 1.5;
+/// Without position this long an automatic mode gives up, s.
+const BLIND_S: f64 = 1.0;
+
+/// What the supervision remembers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Watch {
+    /// The mode that was asked for; a failsafe may fly another one meanwhile.
+    pub intended: Mode,
+    /// A failsafe acts in place of the intended mode.
+    pub overridden: bool,
+    /// Standing on the ground since.
+    pub standing_since: SimTime,
+    /// It has flown since it was armed.
+    pub flown: bool,
+    /// Angle between wanted and believed thrust direction, rad.
+    pub tilt_error_rad: f64,
+    /// Upset since.
+    pub upset_since: Option<SimTime>,
+    due: SimTime,
+    manual_lost: Option<SimTime>,
+    blind_since: Option<SimTime>,
+    low_warned: bool,
+    critical_warned: bool,
+}
+
+impl Default for Watch {
+    fn default() -> Self {
+        Self {
+            intended: Mode::Position,
+            overridden: false,
+            standing_since: SimTime::ZERO,
+            flown: false,
+            tilt_error_rad: 0.0,
+            upset_since: None,
+            due: SimTime::ZERO,
+            manual_lost: None,
+            blind_since: None,
+            low_warned: false,
+            critical_warned: false,
+        }
+    }
+}
+
+/// What a failsafe does, and why.
+type Action = Option<(Mode, &'static str)>;
+
+impl Autopilot {
+    pub(super) fn supervise(&mut self, now: SimTime) {
+        if now < self.watch.due {
+            return;
+        }
+        self.watch.due = now + PERIOD;
+        if self.status.home_m.is_none() && self.estimate.position_valid {
+            self.status.home_m = Some(self.estimate.position_m);
+        }
+        self.warn_of_battery();
+        if !self.status.armed {
+            self.status.arming_reasons = self.arming_reasons(now);
+            self.status.failsafe = None;
+            self.watch.overridden = false;
+            self.watch.manual_lost = None;
+            self.status.mode = self.watch.intended;
+            return;
+        }
+        self.status.arming_reasons.clear();
+        self.watch_attitude(now);
+        if self.status.armed && self.status.landed != Landed::OnGround {
+            self.act_on_failures(now);
+        }
+    }
+
+    fn act_on_failures(&mut self, now: SimTime) {
+        let action = self.blind(now).or_else(|| self.manual_lost(now)).or_else(|| self.link_lost(now));
+        match action {
+            Some((mode, why)) => {
+                if self.status.failsafe.as_deref() != Some(why) {
+                    self.status.failsafe = Some(why.into());
+                    self.say(Severity::Critical, format!("Failsafe: {why}"));
+                }
+                self.watch.overridden = true;
+                if self.status.mode != mode {
+                    self.enter(mode, now);
+                }
+            }
+            None => {
+                if self.status.failsafe.take().is_some() {
+                    self.say(Severity::Info, "Failsafe cleared");
+                }
+                if self.watch.overridden {
+                    self.watch.overridden = false;
+                    self.enter(self.watch.intended, now);
+                }
+            }
+        }
+    }
+
+    /// Position is lost: the pilot gets the altitude mode, an automatic mode sinks where it is.
+    fn blind(&mut self, now: SimTime) -> Action {
+        if self.estimate.position_valid || !self.watch.intended.needs_position() {
+            self.watch.blind_since = None;
+            return None;
+        }
+        let since = *self.watch.blind_since.get_or_insert(now);
+        let pilot = self.links.sticks_fresh(self.tuning.manual_loss_s, now);
+        match (pilot, self.watch.intended) {
+            (true, _) if self.watch.intended.is_manual() || (now - since).s() > BLIND_S => {
+                Some((Mode::Altitude, "position lost, holding height only"))
+            }
+            (false, _) if (now - since).s() > BLIND_S => Some((Mode::Land, "position lost, landing")),
+            _ => None,
+        }
+    }
+
+    fn manual_lost(&mut self, now: SimTime) -> Action {
+        let fresh = self.links.sticks_fresh(self.tuning.manual_loss_s, now);
+        if fresh || !self.watch.intended.is_manual() {
+            self.watch.manual_lost = None;
+            return None;
+        }
+        let since = *self.watch.manual_lost.get_or_insert(now);
+        let hold = if self.estimate.position_valid { Mode::Hold } else { Mode::Land };
+        let why = "manual control lost";
+        if (now - since).s() < self.tuning.failsafe_delay_s {
+            return Some((hold, why));
+        }
+        Some((self.loss_mode(self.tuning.manual_loss, hold), why))
+    }
+
+    fn loss_mode(&self, loss: LinkLoss, hold: Mode) -> Mode {
+        match loss {
+            LinkLoss::Return if self.estimate.position_valid => Mode::Return,
+            LinkLoss::Return | LinkLoss::Land => Mode::Land,
+            LinkLoss::Ignore | LinkLoss::Hold => hold,
+        }
+    }
+
+    fn link_lost(&mut self, now: SimTime) -> Action {
+        let t = &self.tuning;
+        let silent = |at: Option<SimTime>, limit: f64| at.is_some_and(|at| (now - at).s() > limit);
+        if self.watch.intended == Mode::Offboard && !self.links.offboard_fresh(t.offboard_loss_s, now) {
+            let mode = if self.estimate.position_valid { Mode::Hold } else { Mode::Land };
+            return Some((mode, "external set-points lost"));
+        }
+        if t.data_link_loss != LinkLoss::Ignore && silent(self.links.ground_station, t.data_link_loss_s) {
+            return Some((self.loss_mode(t.data_link_loss, Mode::Hold), "ground station lost"));
+        }
+        None
+    }
+
+    fn warn_of_battery(&mut self) {
+        let Some(left) = self.seen.battery.map(|b| b.remaining_pct) else { return };
+        let (low, critical) = (self.tuning.battery_low_pct, self.tuning.battery_critical_pct);
+        let flying = self.status.armed && self.status.landed != Landed::OnGround;
+        if left < low && !self.watch.low_warned {
+            self.watch.low_warned = true;
+            self.say(Severity::Warning, format!("Low battery: {left:.0} %"));
+            if self.low_battery_return && flying && self.estimate.position_valid {
+                self.say(Severity::Warning, "Failsafe: low battery, returning");
+                self.watch.intended = Mode::Return;
+                self.enter(Mode::Return, self.last_step);
+            }
+        }
+        if left < critical && !self.watch.critical_warned {
+            self.watch.critical_warned = true;
+            self.say(Severity::Critical, format!("Critical battery: {left:.0} %"));
+            if self.low_battery_return && flying {
+                self.say(Severity::Critical, "Failsafe: critical battery, landing");
+                self.watch.intended = Mode::Land;
+                self.enter(Mode::Land, self.last_step);
+            }
+        }
+        // A pack that was changed on the ground warns again.
+        if left > low + 5.0 {
+            self.watch.low_warned = false;
+            self.watch.critical_warned = false;
+        }
+    }
+
+    /// Lying somewhere in an attitude that the rotors cannot mend: they stop.
+    fn watch_attitude(&mut self, now: SimTime) {
+        let moving = self.estimate.velocity_m_s.norm() > UPSET_SPEED_M_S;
+        if self.watch.tilt_error_rad < UPSET_RAD || moving || self.status.landed == Landed::OnGround {
+            self.watch.upset_since = None;
+            return;
+        }
+        let since = *self.watch.upset_since.get_or_insert(now);
+        if (now - since).s() > UPSET_S {
+            self.say(Severity::Critical, "Crash detected");
+            self.disarm("Disarmed: crashed");
+        }
+    }
+
+    /// Why arming would be refused now.
+    #[must_use]
+    pub fn arming_reasons(&self, now: SimTime) -> Vec<String> {
+        let mut out: Vec<String> = Vec::new();
+        let e = &self.estimate;
+        if !e.attitude_valid {
+            out.push("Attitude not aligned".into());
+            return out;
+        }
+        if !self.estimator.located() {
+            out.push("No GNSS fix".into());
+        } else if !e.position_valid || e.horizontal_m > ARMING_ACCURACY_M {
+            out.push("Position not accurate enough".into());
+        }
+        if (e.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down() < LEVEL {
+            out.push("Not level".into());
+        }
+        match self.seen.battery {
+            None => out.push("Battery not measured".into()),
+            Some(b) if b.remaining_pct < self.tuning.battery_critical_pct => out.push("Battery too low".into()),
+            Some(_) => {}
+        }
+        if self.links.sticks_fresh(self.tuning.manual_loss_s, now) && self.links.deflection() > CENTRED {
+            out.push("Sticks not centred".into());
+        }
+        if self.seen.range_up_m.is_some_and(|r| r < HEADROOM_M) {
+            out.push("Something stands over the vehicle".into());
+        }
+        out
+    }
+
+    /// Moved sticks take over from automatic flight.
+    pub(super) fn take_over(&mut self, now: SimTime) {
+        let automatic = matches!(self.watch.intended, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Return | Mode::Mission);
+        let flying = self.status.armed && matches!(self.status.landed, Landed::InAir | Landed::Landing);
+        if self.tuning.stick_takeover && automatic && flying && !self.watch.overridden && self.links.moved(TAKE_OVER) {
+            self.say(Severity::Info, "Pilot took over by the sticks");
+            self.watch.intended = Mode::Position;
+            self.enter(Mode::Position, now);
+        }
+    }
+}
