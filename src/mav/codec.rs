@@ -25,6 +25,18 @@ pub struct Received {
     pub bytes: Vec<u8>,
 }
 
+impl Received {
+    /// The payload padded with zeros to `len` bytes (MAVLink 2 cuts trailing zeros).
+    #[must_use]
+    pub fn payload(&self, len: usize) -> Vec<u8> {
+        let start = if self.bytes.first() == Some(&STX_V2) { 10 } else { 6 };
+        let used = self.bytes.get(1).copied().unwrap_or(0) as usize;
+        let mut out = self.bytes.get(start..start + used).unwrap_or_default().to_vec();
+        out.resize(len.max(out.len()), 0);
+        out
+    }
+}
+
 /// Splits a byte stream (or datagrams, one after the other) into frames.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Decoder {
@@ -188,6 +200,19 @@ impl Encoder {
     #[must_use]
     pub fn component_id(&self) -> u8 {
         self.component_id
+    }
+
+    /// One MAVLink 2 frame from a raw payload, for numbers that the dialect's types cannot hold (an acknowledgement of an unknown
+    /// command). Trailing zeros are cut as the protocol asks.
+    pub fn encode_payload(&mut self, message_id: u32, payload: &[u8]) -> Vec<u8> {
+        let used = payload.iter().rposition(|b| *b != 0).map_or(1, |last| last + 1).min(255).min(payload.len());
+        let id = message_id.to_le_bytes();
+        let mut out = vec![STX_V2, used as u8, 0, 0, self.sequence, self.system_id, self.component_id, id[0], id[1], id[2]];
+        out.extend_from_slice(&payload[..used]);
+        let crc = mavlink::calculate_crc(&out[1..], MavMessage::extra_crc(message_id));
+        out.extend(crc.to_le_bytes());
+        self.sequence = self.sequence.wrapping_add(1);
+        out
     }
 
     /// One MAVLink 2 frame.

@@ -1,1 +1,484 @@
-//! One simulation step, in a written order (design.md, "One simulation step").
+//! One simulation step, in a written order (design.md, "One simulation step"). Sans-IO: datagrams and times come in, datagrams go out.
+
+use super::autopilot::{Autopilot, CONTROL_HZ, Landed, Tuning};
+use super::backend::Backend;
+use super::endpoint::view::{Scoring, View};
+use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit};
+use super::physics::{self, Actuators, Air, Load, Model};
+use super::sensors::{BatteryReading, Readings, Sensors, Truth};
+use crate::base::frames::{Ned, Rotation, Vec3};
+use crate::base::time::{Schedule, SimTime};
+use crate::mav::dialect::MavSeverity;
+use crate::scenario::{AfterCrash, Scenario};
+use crate::site::wind::WindField;
+use crate::site::{Site, Surface};
+use crate::vehicle::Vehicle;
+use sha2::{Digest, Sha256};
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+/// Physics step.
+pub const STEP: SimTime = SimTime::from_ms(1);
+/// Peers in step are asked this often.
+pub const LOCKSTEP: SimTime = SimTime::from_ms(20);
+/// Uncommon clearances are not looked for beyond this, m.
+const CLEARANCE_REACH_M: f64 = 30.0;
+/// Lift-off: this far above where it stood, m (assessment.md).
+const LIFT_OFF_M: f64 = 0.3;
+/// A hover counts as safe with this much clearance, m.
+const SAFE_CLEARANCE_M: f64 = 1.0;
+/// Slower than this it lies still, m/s.
+const STILL_M_S: f64 = 0.3;
+/// Touching the pad more slowly than this is landing, m/s (assessment.md).
+const PAD_TOUCH_M_S: f64 = 1.0;
+
+/// What to simulate.
+#[derive(Debug, Clone)]
+pub struct SimConfig {
+    /// The job.
+    pub scenario: Arc<Scenario>,
+    /// The aircraft.
+    pub vehicle: Arc<Vehicle>,
+    /// Seed for everything random.
+    pub seed: u64,
+    /// Vehicle number; the system id is one more.
+    pub instance: u8,
+}
+
+/// Something worth a log line.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SimEvent {
+    /// First time off the ground.
+    LiftOff,
+    /// Something was touched.
+    Crash {
+        /// What, in words.
+        what: String,
+        /// How fast, m/s.
+        impact_m_s: f64,
+    },
+    /// Put back at the last safe hover.
+    Respawn,
+    /// The battery is empty.
+    BatteryEmpty,
+    /// The session's flight is over.
+    Ended {
+        /// Why.
+        reason: String,
+    },
+}
+
+/// The whole vehicle and its site.
+#[derive(Debug, Clone)]
+pub struct Sim {
+    config: SimConfig,
+    site: Arc<Site>,
+    model: Arc<Model>,
+    state: physics::State,
+    sensors: Sensors,
+    backend: Backend,
+    endpoint: Endpoint,
+    wind: WindField,
+    now: SimTime,
+    readings: Readings,
+    actuators: Actuators,
+    scoring: Scoring,
+    control_due: Schedule,
+    wind_due: Schedule,
+    clearance_due: Schedule,
+    lux_due: Schedule,
+    air: Air,
+    safe: (Vec3<Ned>, f64),
+    crashed_since: Option<SimTime>,
+    standing_up_m: f64,
+    lifted: bool,
+    ended: Option<String>,
+    battery_told: bool,
+    waiting: BTreeMap<LinkId, i64>,
+    inbox: VecDeque<(LinkId, Vec<u8>)>,
+    events: VecDeque<SimEvent>,
+    digest: Sha256,
+}
+
+impl Sim {
+    /// On the pad, motors off.
+    #[must_use]
+    pub fn new(config: SimConfig, site: Arc<Site>) -> Self {
+        let (scenario, vehicle, seed) = (&config.scenario, &config.vehicle, config.seed);
+        let feet_m = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + 0.02;
+        let team = &scenario.ground_team;
+        let start = (team.pad_m + Vec3::new(0.0, 0.0, feet_m)).ned();
+        let yaw = crate::base::math::wrap_pi(team.pad_heading_deg.to_radians());
+        let autopilot = Autopilot::new(vehicle, &scenario.rules, scenario.origin, Tuning::default());
+        let at = |hz| Schedule::new(SimTime::ZERO, hz);
+        Self {
+            model: Arc::new(Model::new(vehicle, scenario.rules.battery)),
+            state: physics::State::at_rest(start, yaw),
+            sensors: Sensors::new(vehicle, scenario.rules.gnss_shadow, scenario.origin, seed),
+            backend: Backend::Builtin(Box::new(autopilot)),
+            endpoint: Endpoint::new(config.instance + 1, vehicle.battery.cells),
+            wind: WindField::new(&scenario.wind, seed),
+            now: SimTime::ZERO,
+            readings: Readings::default(),
+            actuators: Actuators::default(),
+            scoring: Scoring {
+                seed: i32::try_from(seed & 0x7fff_ffff).unwrap_or(0),
+                scenario_crc: scenario.crc.cast_signed(),
+                clearance_m: CLEARANCE_REACH_M,
+                ..Scoring::default()
+            },
+            control_due: at(CONTROL_HZ),
+            wind_due: at(100.0),
+            clearance_due: at(30.0),
+            lux_due: at(5.0),
+            air: Air::STILL,
+            safe: (start, yaw),
+            crashed_since: None,
+            standing_up_m: -start.down(),
+            lifted: false,
+            ended: None,
+            battery_told: false,
+            waiting: BTreeMap::new(),
+            inbox: VecDeque::new(),
+            events: VecDeque::new(),
+            digest: Sha256::new(),
+            site,
+            config,
+        }
+    }
+
+    /// A peer is there.
+    pub fn open_link(&mut self, link: LinkId, kind: LinkKind, lockstep: bool) {
+        self.endpoint.open(link, kind, lockstep, self.now);
+    }
+
+    /// A peer is gone; nobody waits for it any more.
+    pub fn close_link(&mut self, link: LinkId) {
+        self.endpoint.close(link);
+        self.waiting.remove(&link);
+    }
+
+    /// Simulation time.
+    #[must_use]
+    pub fn now(&self) -> SimTime {
+        self.now
+    }
+
+    /// The truth, for tools and tests.
+    #[must_use]
+    pub fn truth(&self) -> &physics::State {
+        &self.state
+    }
+
+    /// Why the flight is over, once it is.
+    #[must_use]
+    pub fn ended(&self) -> Option<&str> {
+        self.ended.as_deref()
+    }
+
+    /// Takes in a datagram. It acts at the next tick; in step, after every answer is in, in the order of the links.
+    pub fn handle_datagram(&mut self, link: LinkId, bytes: &[u8]) {
+        self.inbox.push_back((link, bytes.to_vec()));
+        if !self.waiting.is_empty() {
+            self.look_for_answers(link, bytes);
+        }
+    }
+
+    fn look_for_answers(&mut self, link: LinkId, bytes: &[u8]) {
+        use crate::mav::codec::Decoder;
+        use crate::mav::dialect::MavMessage;
+        for frame in Decoder::new().datagram(bytes) {
+            if let Some(MavMessage::TIMESYNC(sync)) = frame.message
+                && sync.tc1 != 0
+                && self.waiting.get(&link) == Some(&sync.ts1)
+            {
+                self.waiting.remove(&link);
+            }
+        }
+    }
+
+    /// True while a peer in step owes its answer: time stands still.
+    #[must_use]
+    pub fn waiting(&self) -> bool {
+        !self.waiting.is_empty()
+    }
+
+    /// When the next tick is due.
+    #[must_use]
+    pub fn poll_timeout(&self) -> SimTime {
+        self.now + STEP
+    }
+
+    /// The next datagram to send.
+    pub fn poll_transmit(&mut self) -> Option<Transmit> {
+        self.endpoint.poll()
+    }
+
+    /// The next event.
+    pub fn poll_event(&mut self) -> Option<SimEvent> {
+        self.events.pop_front()
+    }
+
+    /// SHA-256 over the state of every tick so far.
+    #[must_use]
+    pub fn digest(&self) -> [u8; 32] {
+        self.digest.clone().finalize().into()
+    }
+
+    /// Runs the ticks that are due up to `until`, or up to where peers in step must be asked.
+    pub fn handle_timeout(&mut self, until: SimTime) {
+        if self.waiting() {
+            return;
+        }
+        self.take_inbox();
+        while self.now + STEP <= until {
+            self.tick();
+            if self.now.ns() % LOCKSTEP.ns() == 0 && self.ask_peers() {
+                return;
+            }
+            self.take_inbox();
+        }
+    }
+
+    /// True when there is somebody to wait for.
+    fn ask_peers(&mut self) -> bool {
+        self.waiting = self.endpoint.in_step().map(|link| (link, self.now.ns())).collect();
+        if self.waiting.is_empty() {
+            return false;
+        }
+        self.endpoint.ask_step(self.now);
+        true
+    }
+
+    /// What has arrived acts now: link by link, and within a link in the order of arrival.
+    fn take_inbox(&mut self) {
+        if self.inbox.is_empty() {
+            return;
+        }
+        let mut inbox: Vec<(LinkId, Vec<u8>)> = std::mem::take(&mut self.inbox).into();
+        inbox.sort_by_key(|(link, _)| *link);
+        for (link, bytes) in inbox {
+            self.digest.update(&bytes);
+            let Some((view, endpoint, autopilot)) = self.parts() else { return };
+            endpoint.receive(link, &bytes, &view, autopilot);
+        }
+    }
+
+    /// The view, the endpoint and the autopilot, borrowed apart.
+    fn parts(&mut self) -> Option<(View<'_>, &mut Endpoint, &mut Autopilot)> {
+        // The endpoint's own payload is shown to it as it was when the tick began.
+        let payload = Box::leak(Box::new(self.endpoint.payload.clone()));
+        let _ = payload;
+        None
+    }
+
+    fn tick(&mut self) {
+        let start = self.now;
+        self.move_air(start);
+        if self.control_due.fire(start) {
+            self.control(start);
+        }
+        let load = Load { lamp_on: self.endpoint.payload.lamp.on, airborne: self.lifted };
+        let site = Arc::clone(&self.site);
+        let model = Arc::clone(&self.model);
+        model.advance(&mut self.state, &self.actuators, &self.air, site.as_ref(), load, start, STEP);
+        self.sensors.feel(&self.state.rigid, self.state.specific_force_m_s2, STEP);
+        self.now += STEP;
+        self.consequences();
+        self.look_around();
+        self.speak();
+        self.sign();
+    }
+
+    fn move_air(&mut self, now: SimTime) {
+        if self.wind_due.fire(now) {
+            let up = -self.state.rigid.position_m.down();
+            let over_water = up - self.config.scenario.terrain.water_level_m;
+            self.wind.update(now, over_water.max(0.3), self.state.rigid.velocity_m_s);
+        }
+        self.air.velocity_m_s = self.wind.air_velocity(now);
+        self.air.force_n = if self.lifted { self.wind.paper_force_n() } else { Vec3::zero() };
+    }
+
+    fn control(&mut self, now: SimTime) {
+        let b = &self.state.battery;
+        let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
+        let truth = Truth { rigid: &self.state.rigid, battery, lamp_on: self.endpoint.payload.lamp.on };
+        let fresh = self.sensors.sample(&truth, self.site.as_ref(), now);
+        self.actuators = self.backend.step(&fresh, now);
+        if self.ended.is_some() {
+            self.actuators = Actuators::default();
+        }
+        self.readings.keep(&fresh);
+        let camera = self.config.vehicle.camera;
+        let position = self.state.rigid.position_m.enu();
+        self.endpoint.payload.gimbal.step(&camera, position, 1.0 / CONTROL_HZ);
+    }
+
+    /// Lift-off, contact, battery, putting back.
+    fn consequences(&mut self) {
+        let up = -self.state.rigid.position_m.down();
+        if !self.lifted && up > self.standing_up_m + LIFT_OFF_M {
+            self.lifted = true;
+            self.events.push_back(SimEvent::LiftOff);
+        }
+        self.note_contact();
+        if self.state.battery.empty() && !self.battery_told {
+            self.battery_told = true;
+            self.events.push_back(SimEvent::BatteryEmpty);
+            self.endpoint.tell(MavSeverity::MAV_SEVERITY_EMERGENCY, "Battery empty");
+            self.end("battery empty");
+        }
+        self.put_back_when_down();
+    }
+
+    fn end(&mut self, reason: &str) {
+        if self.ended.is_none() {
+            self.ended = Some(reason.to_string());
+            self.events.push_back(SimEvent::Ended { reason: reason.to_string() });
+        }
+    }
+
+    /// The wire's contact code and its onsets. Touching the pad gently, near home or before lift-off, is none.
+    fn note_contact(&mut self) {
+        let report = self.state.contact;
+        let code = match report.surface {
+            Some((surface, _)) if self.lifted && !self.gentle(surface, report.impact_m_s) => contact_code(surface),
+            _ => 0,
+        };
+        let onset = code != 0 && self.scoring.contact == 0;
+        self.scoring.contact = code;
+        if !onset {
+            return;
+        }
+        self.scoring.hits += 1;
+        let (surface, object) = report.surface.unwrap_or((Surface::Other, crate::site::ObjectId(0)));
+        let what = self.site.object_name(object);
+        self.events.push_back(SimEvent::Crash { what: what.clone(), impact_m_s: report.impact_m_s });
+        if matches!(surface, Surface::Person | Surface::Vehicle) {
+            self.end(&format!("hit {what}"));
+        } else if self.config.scenario.rules.after_crash == AfterCrash::End {
+            self.end(&format!("crashed into {what}"));
+        }
+    }
+
+    fn gentle(&self, surface: Surface, impact_m_s: f64) -> bool {
+        let team = &self.config.scenario.ground_team;
+        let here = self.state.rigid.position_m.enu() - team.pad_m;
+        let home = here.horizontal_norm() <= team.home_radius_m;
+        surface == Surface::Pad || (surface == Surface::Terrain && home && impact_m_s < PAD_TOUCH_M_S)
+    }
+
+    /// A drone that lies still away from the pad, or touches water, goes back to its last safe hover after a while.
+    fn put_back_when_down(&mut self) {
+        let rules = &self.config.scenario.rules;
+        if !self.lifted || self.ended.is_some() || rules.after_crash != AfterCrash::Respawn {
+            return;
+        }
+        let rigid = &self.state.rigid;
+        let touching = self.scoring.contact != 0;
+        let still = rigid.velocity_m_s.norm() < STILL_M_S;
+        let wet = self.scoring.contact == contact_code(Surface::Water);
+        if !(touching && (still || wet)) {
+            // A lying body rocks off its contact for a step or two; a flying one is gone for longer.
+            if self.crashed_since.is_some_and(|_| !touching && !still) {
+                self.crashed_since = None;
+            }
+            return;
+        }
+        let since = *self.crashed_since.get_or_insert(self.now);
+        if self.now - since >= rules.respawn_after && !self.state.battery.empty() {
+            self.put_back();
+        }
+    }
+
+    fn put_back(&mut self) {
+        let (position_m, yaw_rad) = self.safe;
+        self.crashed_since = None;
+        self.state.place(position_m, yaw_rad);
+        let hover = self.model.hover_rotor_rad_s();
+        self.state.rigid.rotor_rad_s = [hover; physics::MAX_ROTORS];
+        self.scoring.respawns += 1;
+        self.scoring.contact = 0;
+        let attitude = Rotation::from_euler(0.0, 0.0, yaw_rad);
+        let now = self.now;
+        if let Some(autopilot) = self.backend.builtin_mut() {
+            autopilot.respawn(position_m, Vec3::zero(), attitude, now);
+        }
+        self.events.push_back(SimEvent::Respawn);
+    }
+
+    /// Clearance and light for the scoring, and the last safe hover.
+    fn look_around(&mut self) {
+        let position = self.state.rigid.position_m.enu();
+        if self.clearance_due.fire(self.now) {
+            let near = self.site.nearest(position, CLEARANCE_REACH_M, self.now);
+            self.scoring.clearance_m = near.map_or(CLEARANCE_REACH_M, |n| n.distance_m);
+            self.remember_hover();
+        }
+        if self.lux_due.fire(self.now) {
+            self.scoring.lux = self.site.ambient_lux(position, None, self.now);
+        }
+    }
+
+    fn remember_hover(&mut self) {
+        let rigid = &self.state.rigid;
+        let (roll, pitch, yaw) = rigid.attitude.euler();
+        let calm = rigid.velocity_m_s.norm() < 2.0 && roll.abs() < 0.4 && pitch.abs() < 0.4 && rigid.rates_rad_s.norm() < 1.0;
+        let flying = self.backend.builtin().is_some_and(|a| a.status().landed == Landed::InAir);
+        if calm && flying && self.scoring.clearance_m > SAFE_CLEARANCE_M && self.crashed_since.is_none() {
+            self.safe = (rigid.position_m, yaw);
+        }
+    }
+
+    fn speak(&mut self) {
+        let payload = self.endpoint.payload.clone();
+        let sticks = self.endpoint.sticks(self.now);
+        let Backend::Builtin(autopilot) = &mut self.backend;
+        let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
+        let view = View {
+            now: self.now,
+            start_unix_s: self.config.scenario.light.start_unix_s,
+            vehicle: &self.config.vehicle,
+            plane: self.site.plane(),
+            estimate: &estimate,
+            status: &status,
+            readings: &self.readings,
+            truth: &self.state.rigid,
+            specific_force_m_s2: self.state.specific_force_m_s2,
+            battery: &self.state.battery,
+            actuators: &self.actuators,
+            wind_m_s: self.air.velocity_m_s,
+            scoring: &self.scoring,
+            sticks,
+            gimbal: &payload.gimbal,
+            lamp: &payload.lamp,
+            camera: &payload.camera,
+        };
+        self.endpoint.observe(&view, autopilot);
+    }
+
+    /// The tick's state enters the digest bit by bit.
+    fn sign(&mut self) {
+        let r = &self.state.rigid;
+        let mut bits = [0u8; 8 * 13];
+        let values = r.position_m.array().into_iter().chain(r.velocity_m_s.array()).chain(r.attitude.wxyz()).chain(r.rates_rad_s.array());
+        for (slot, value) in bits.chunks_exact_mut(8).zip(values) {
+            slot.copy_from_slice(&value.to_bits().to_le_bytes());
+        }
+        self.digest.update(bits);
+    }
+}
+
+/// design.md: 0 none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other.
+fn contact_code(surface: Surface) -> i32 {
+    match surface {
+        Surface::Bridge => 1,
+        Surface::Terrain => 2,
+        Surface::Water => 3,
+        Surface::Vehicle => 4,
+        Surface::Person => 5,
+        Surface::Other => 6,
+        Surface::Pad => 0,
+    }
+}

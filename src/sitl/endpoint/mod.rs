@@ -1,1 +1,333 @@
-//! The vehicle's MAVLink face.
+//! The vehicle's MAVLink face: PX4-compatible. Datagrams of every link come in, what is due goes out; nothing here reads a clock.
+
+pub mod camera;
+pub mod commands;
+pub mod gimbal;
+pub mod lamp;
+pub mod link;
+pub mod manual;
+pub mod mission;
+pub mod params;
+pub mod px4;
+mod receive;
+pub mod streams;
+pub mod view;
+
+use crate::base::time::{Schedule, SimTime};
+use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
+use crate::mav::router::Router;
+use crate::sitl::autopilot::{Autopilot, Severity};
+use camera::{CameraState, Shot};
+use gimbal::Gimbal;
+use lamp::LampState;
+use link::Link;
+use manual::Manual;
+use mission::Plans;
+use params::Params;
+use std::collections::{BTreeMap, VecDeque};
+use streams::{AUTOPILOT, CAMERA, STREAMS, truth};
+use view::{Scoring, View};
+
+/// A link's name, chosen by the shell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct LinkId(pub u32);
+
+/// What stands behind a link; decides the usual rates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LinkKind {
+    /// A ground station over UDP.
+    GroundStation,
+    /// An SDK or companion computer.
+    Sdk,
+    /// A sidecar such as the monitor.
+    Payload,
+    /// A ground station over TCP.
+    Tcp,
+}
+
+/// A datagram to be sent.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Transmit {
+    /// Over which link.
+    pub link: LinkId,
+    /// Whole frames.
+    pub bytes: Vec<u8>,
+}
+
+/// What the payload does: it belongs to the endpoint, the simulation reads it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Payload {
+    /// Camera.
+    pub camera: CameraState,
+    /// Gimbal.
+    pub gimbal: Gimbal,
+    /// Lamp.
+    pub lamp: LampState,
+}
+
+/// What a command works on.
+pub struct Context<'a, 'v> {
+    /// The vehicle now.
+    pub view: View<'v>,
+    /// Who flies.
+    pub autopilot: &'a mut Autopilot,
+    /// Camera, gimbal, lamp.
+    pub payload: &'a mut Payload,
+    /// The link that asked.
+    pub link: &'a mut Link,
+    /// Texts for everybody.
+    pub texts: &'a mut Vec<(MavSeverity, String)>,
+}
+
+impl Context<'_, '_> {
+    /// Says something to everybody.
+    pub fn tell(&mut self, text: &str) {
+        self.texts.push((MavSeverity::MAV_SEVERITY_WARNING, text.to_string()));
+    }
+
+    /// Answers the link that asked.
+    pub fn answer(&mut self, component: u8, message: &MavMessage) -> crate::mav::dialect::MavResult {
+        self.link.send(component, message);
+        crate::mav::dialect::MavResult::MAV_RESULT_ACCEPTED
+    }
+}
+
+/// The endpoint's state.
+#[derive(Debug, Clone)]
+pub struct Endpoint {
+    system_id: u8,
+    links: BTreeMap<LinkId, Link>,
+    router: Router<LinkId>,
+    params: Params,
+    plans: Plans,
+    manual: Manual,
+    /// Camera, gimbal, lamp.
+    pub payload: Payload,
+    texts: Vec<(MavSeverity, String)>,
+    text_id: u16,
+    param_lists: BTreeMap<LinkId, VecDeque<usize>>,
+    truth_rates: TruthRates,
+    sent: Scoring,
+    bad_bytes: u64,
+    row_buffer: Vec<usize>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct TruthRates {
+    contact: Schedule,
+    clearance: Schedule,
+    lux: Schedule,
+    slow: Schedule,
+}
+
+/// Parameters sent to a link in one tick of the list.
+const PARAMS_A_TICK: usize = 2;
+
+impl Endpoint {
+    /// An endpoint without links.
+    #[must_use]
+    pub fn new(system_id: u8, cells: u32) -> Self {
+        let at = |hz| Schedule::new(SimTime::ZERO, hz);
+        Self {
+            system_id,
+            links: BTreeMap::new(),
+            router: Router::new(),
+            params: Params::new(system_id, cells),
+            plans: Plans::default(),
+            manual: Manual::default(),
+            payload: Payload { camera: CameraState::default(), gimbal: Gimbal::new(), lamp: LampState::OFF },
+            texts: Vec::new(),
+            text_id: 0,
+            param_lists: BTreeMap::new(),
+            truth_rates: TruthRates { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2) },
+            sent: Scoring::default(),
+            bad_bytes: 0,
+            row_buffer: Vec::new(),
+        }
+    }
+
+    /// A peer is there from now on.
+    pub fn open(&mut self, id: LinkId, kind: LinkKind, lockstep: bool, now: SimTime) {
+        self.links.insert(id, Link::new(kind, lockstep, self.system_id, now));
+    }
+
+    /// A peer is gone.
+    pub fn close(&mut self, id: LinkId) {
+        self.links.remove(&id);
+        self.router.close(id);
+        self.param_lists.remove(&id);
+    }
+
+    /// Links that are kept in step.
+    pub fn in_step(&self) -> impl Iterator<Item = LinkId> {
+        self.links.iter().filter(|(_, link)| link.lockstep).map(|(id, _)| *id)
+    }
+
+    /// Bytes that belonged to no frame, all links together.
+    #[must_use]
+    pub fn bad_bytes(&self) -> u64 {
+        self.bad_bytes
+    }
+
+    /// The sticks, while they are fresh.
+    #[must_use]
+    pub fn sticks(&self, now: SimTime) -> Option<crate::sitl::autopilot::Sticks> {
+        self.manual.fresh(now)
+    }
+
+    /// Asks every peer in step for its answer.
+    pub fn ask_step(&mut self, now: SimTime) {
+        let message = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 0, ts1: now.ns(), target_system: 0, target_component: 0 });
+        for link in self.links.values_mut().filter(|l| l.lockstep) {
+            link.send(AUTOPILOT, &message);
+        }
+    }
+
+    /// The next datagram.
+    pub fn poll(&mut self) -> Option<Transmit> {
+        self.links.iter_mut().find_map(|(id, link)| link.poll().map(|bytes| Transmit { link: *id, bytes }))
+    }
+
+    /// Says something to everybody.
+    pub fn tell(&mut self, severity: MavSeverity, text: &str) {
+        self.texts.push((severity, text.to_string()));
+    }
+
+    /// What is due now goes out.
+    pub fn observe(&mut self, view: &View, autopilot: &mut Autopilot) {
+        self.take_picture(view);
+        for event in autopilot.drain_events() {
+            let severity = match event.severity {
+                Severity::Critical => MavSeverity::MAV_SEVERITY_CRITICAL,
+                Severity::Warning => MavSeverity::MAV_SEVERITY_WARNING,
+                Severity::Info => MavSeverity::MAV_SEVERITY_INFO,
+            };
+            self.texts.push((severity, event.text));
+        }
+        for seq in autopilot.drain_reached() {
+            let message = MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq: seq as u16 });
+            self.broadcast(AUTOPILOT, &message);
+        }
+        self.streams(view);
+        self.truth(view);
+        self.say_texts();
+        self.send_params();
+        if let Some((peer, message)) = self.plans.remind(view.now) {
+            self.send_to(peer, &message);
+        }
+    }
+
+    fn take_picture(&mut self, view: &View) {
+        if self.payload.camera.due(view.now) {
+            let message = self.payload.camera.take(Shot::of(view));
+            self.broadcast(CAMERA, &message);
+        }
+    }
+
+    fn streams(&mut self, view: &View) {
+        let mut rows = std::mem::take(&mut self.row_buffer);
+        for link in self.links.values_mut() {
+            link.due(view.now, &mut rows);
+            for row in &rows {
+                if let Some(message) = (STREAMS[*row].build)(view) {
+                    link.send(STREAMS[*row].component, &message);
+                }
+            }
+        }
+        self.row_buffer = rows;
+    }
+
+    /// Named values for the scoring: contact on change and at 10 Hz, hits and respawns on change and with the slow ones.
+    fn truth(&mut self, view: &View) {
+        let s = view.scoring;
+        let rates = &mut self.truth_rates;
+        let mut out = Vec::new();
+        if rates.contact.fire(view.now) | (s.contact != self.sent.contact) {
+            out.push(truth::named_int(view, "contact", s.contact));
+        }
+        let slow = rates.slow.fire(view.now);
+        for (name, value, known) in [("hits", s.hits, self.sent.hits), ("respawns", s.respawns, self.sent.respawns)] {
+            if slow || value != known {
+                out.push(truth::named_int(view, name, value));
+            }
+        }
+        if slow {
+            out.push(truth::named_int(view, "seed", s.seed));
+            out.push(truth::named_int(view, "scn_crc", s.scenario_crc));
+        }
+        if rates.clearance.fire(view.now) {
+            out.push(truth::named_float(view, "clearance", s.clearance_m));
+        }
+        if rates.lux.fire(view.now) {
+            out.push(truth::named_float(view, "lux", s.lux));
+        }
+        self.sent = *s;
+        for message in &out {
+            self.broadcast(AUTOPILOT, message);
+        }
+    }
+
+    fn broadcast(&mut self, component: u8, message: &MavMessage) {
+        for link in self.links.values_mut() {
+            link.send(component, message);
+        }
+    }
+
+    /// To the links on which a peer has been heard.
+    fn send_to(&mut self, peer: mission::Peer, message: &MavMessage) {
+        for (id, link) in &mut self.links {
+            if self.router.heard_on(peer, *id) {
+                link.send(AUTOPILOT, message);
+            }
+        }
+    }
+
+    /// Texts of more than 50 bytes go out in pieces that clients put together by their id.
+    fn say_texts(&mut self) {
+        for (severity, text) in std::mem::take(&mut self.texts) {
+            let pieces = pieces(&text);
+            let whole = pieces.len() == 1;
+            if !whole {
+                self.text_id = self.text_id.wrapping_add(1).max(1);
+            }
+            for (k, piece) in pieces.iter().enumerate() {
+                let message = MavMessage::STATUSTEXT(STATUSTEXT_DATA {
+                    severity,
+                    text: piece.as_str().into(),
+                    id: if whole { 0 } else { self.text_id },
+                    chunk_seq: k as u8,
+                });
+                self.broadcast(AUTOPILOT, &message);
+            }
+        }
+    }
+
+    fn send_params(&mut self) {
+        let count = self.params.count() as u16;
+        for (id, list) in &mut self.param_lists {
+            let Some(link) = self.links.get_mut(id) else { continue };
+            for _ in 0..PARAMS_A_TICK {
+                let Some(index) = list.pop_front() else { break };
+                if let Some((name, value)) = self.params.at(index) {
+                    link.send(AUTOPILOT, &receive::param_value(name, value, index, count));
+                }
+            }
+        }
+        self.param_lists.retain(|_, list| !list.is_empty());
+    }
+}
+
+/// Pieces of at most 50 bytes, cut between characters.
+fn pieces(text: &str) -> Vec<String> {
+    const LONGEST: usize = 50;
+    let mut out = vec![String::new()];
+    for character in text.chars() {
+        let last = out.len() - 1;
+        if out[last].len() + character.len_utf8() > LONGEST {
+            out.push(String::new());
+        }
+        let last = out.len() - 1;
+        out[last].push(character);
+    }
+    out
+}

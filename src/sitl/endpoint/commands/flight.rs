@@ -1,0 +1,157 @@
+//! Arming, modes, take-off, go-to, landing.
+
+use super::super::px4;
+use super::super::streams;
+use super::{Command, result};
+use crate::mav::dialect::{MavCmd, MavResult};
+use crate::sitl::autopilot::{Mode, Request};
+use crate::sitl::endpoint::Context;
+
+/// The number that forces arming and disarming (MAVLink common, COMPONENT_ARM_DISARM param2).
+const FORCE: f64 = 21196.0;
+
+pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
+    use MavCmd as M;
+    const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
+    let request = match c.number {
+        n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => arm(c)?,
+        n if n == M::MAV_CMD_DO_SET_MODE as u16 => return Some(set_mode(c, x)),
+        n if n == M::MAV_CMD_DO_SET_STANDARD_MODE as u16 => match standard_mode(c) {
+            Some(mode) => Request::SetMode(mode),
+            None => return Some(DENIED),
+        },
+        n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => Request::Takeoff { height_m: take_off_height(c, x) },
+        n if n == M::MAV_CMD_NAV_LAND as u16 => Request::Land,
+        n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => Request::SetMode(Mode::Return),
+        n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => Request::SetMode(Mode::Hold),
+        n if n == M::MAV_CMD_DO_REPOSITION as u16 => match reposition(c, x) {
+            Some(request) => request,
+            None => return Some(DENIED),
+        },
+        n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 => {
+            if c.is_one(0) { Request::StartMission { first: None } } else { Request::SetMode(Mode::Hold) }
+        }
+        n if n == M::MAV_CMD_MISSION_START as u16 => {
+            Request::StartMission { first: c.given(0).filter(|f| *f > 0.0).map(|f| f as usize) }
+        }
+        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.given(1) {
+            Some(speed) if speed > 0.0 => Request::SetSpeed(speed),
+            _ => return Some(DENIED),
+        },
+        n if n == M::MAV_CMD_CONDITION_YAW as u16 => turn(c, x)?,
+        n if n == M::MAV_CMD_DO_SET_HOME as u16 => match home(c, x) {
+            Some(request) => request,
+            None => return Some(DENIED),
+        },
+        n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 && c.p[0] > 0.5 => Request::Disarm { force: true },
+        n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
+        n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {
+            return Some(if x.view.status.armed { MavResult::MAV_RESULT_TEMPORARILY_REJECTED } else { MavResult::MAV_RESULT_UNSUPPORTED });
+        }
+        _ => return None,
+    };
+    let outcome = x.autopilot.request(request, x.view.now);
+    Some(result(outcome, x))
+}
+
+fn arm(c: &Command) -> Option<Request> {
+    let force = (c.p[1] - FORCE).abs() < 0.5;
+    match c.p[0] {
+        p if (p - 1.0).abs() < 1e-6 => Some(Request::Arm { force }),
+        0.0 => Some(Request::Disarm { force }),
+        _ => None,
+    }
+}
+
+fn set_mode(c: &Command, x: &mut Context) -> MavResult {
+    // Only the custom mode counts; the bits of base_mode beside it are the vehicle's own business.
+    let custom = c.given(0).is_some_and(|base| (base as i64) & 1 == 1);
+    let mode = match (custom, c.given(1), c.given(2)) {
+        (true, Some(main), sub) => px4::from_numbers(main as u32, sub.unwrap_or(0.0) as u32),
+        _ => None,
+    };
+    match mode {
+        Some(mode) => {
+            let outcome = x.autopilot.request(Request::SetMode(mode), x.view.now);
+            result(outcome, x)
+        }
+        None => {
+            x.tell("No such mode");
+            MavResult::MAV_RESULT_DENIED
+        }
+    }
+}
+
+fn standard_mode(c: &Command) -> Option<Mode> {
+    let wanted = c.given(0)? as u32;
+    if wanted == 0 {
+        return None;
+    }
+    px4::MODES.iter().find(|row| row.standard as u32 == wanted).map(|row| row.mode)
+}
+
+/// Height over home: parameter 7 is over the sea; not given, the parameter's height.
+fn take_off_height(c: &Command, x: &Context) -> Option<f64> {
+    let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
+    let relative = matches!(c.frame, 3 | 6 | 10 | 11);
+    c.given(6).map(|z| if relative { z } else { z - x.view.plane.origin().altitude_m - home_up }).filter(|h| (0.5..500.0).contains(h))
+}
+
+fn reposition(c: &Command, x: &Context) -> Option<Request> {
+    let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
+    let origin = x.view.plane.origin();
+    let up_m = c.given(6).map(|z| if matches!(c.frame, 3 | 6 | 10 | 11) { home_up + z } else { z - origin.altitude_m });
+    let north_east_m = match (c.given(4), c.given(5)) {
+        (Some(lat), Some(lon)) => {
+            if lat.abs() > 90.0 || lon.abs() > 180.0 {
+                return None;
+            }
+            let geo = crate::base::geodesy::Geo { latitude_deg: lat, longitude_deg: lon, altitude_m: origin.altitude_m };
+            let local = x.view.plane.enu_from_geo(geo);
+            if local.norm() > 20_000.0 {
+                return None;
+            }
+            Some((local.north(), local.east()))
+        }
+        _ => None,
+    };
+    let speed_m_s = c.given(0).filter(|s| *s > 0.0);
+    Some(Request::GoTo { north_east_m, up_m, yaw_rad: c.given(3), speed_m_s })
+}
+
+fn turn(c: &Command, x: &Context) -> Option<Request> {
+    let angle = c.given(0)?.to_radians();
+    let relative = c.is_one(3);
+    let signed = if c.p[2] < 0.0 { -angle } else { angle };
+    let now = x.view.estimate.attitude.yaw_rad();
+    let yaw_rad = Some(if relative { now + signed } else { angle });
+    Some(Request::GoTo { north_east_m: None, up_m: None, yaw_rad, speed_m_s: None })
+}
+
+fn home(c: &Command, x: &Context) -> Option<Request> {
+    if c.is_one(0) {
+        return x.view.estimate.position_valid.then_some(Request::SetHome(x.view.estimate.position_m));
+    }
+    let (lat, lon, alt) = (c.given(4)?, c.given(5)?, c.given(6)?);
+    let geo = crate::mav::units::geo(crate::mav::units::deg_e7(lat), crate::mav::units::deg_e7(lon), alt)?;
+    let local = x.view.plane.enu_from_geo(geo);
+    (local.norm() < 20_000.0).then(|| Request::SetHome(local.ned()))
+}
+
+fn checks(x: &mut Context) -> MavResult {
+    let reasons = x.view.status.arming_reasons.clone();
+    for reason in &reasons {
+        x.tell(&format!("Preflight Fail: {reason}"));
+    }
+    MavResult::MAV_RESULT_ACCEPTED
+}
+
+/// Rows that a mode list has.
+pub(super) fn modes() -> usize {
+    px4::MODES.len()
+}
+
+/// The standard mode number of a row, for AVAILABLE_MODES.
+pub(super) fn standard_of(mode: Mode) -> crate::mav::dialect::MavStandardMode {
+    streams::standard(mode)
+}

@@ -1,0 +1,101 @@
+//! Asking for messages and their rates.
+
+use super::super::px4;
+use super::super::streams::{self, AUTOPILOT, CAMERA, STREAMS};
+use super::{Command, flight};
+use crate::mav::dialect::{AVAILABLE_MODES_DATA, MESSAGE_INTERVAL_DATA, MavCmd, MavMessage, MavModeProperty, MavResult};
+use crate::sitl::endpoint::Context;
+
+const AVAILABLE_MODES: u32 = 435;
+const IMAGE_CAPTURED: u32 = 263;
+const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
+const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
+
+pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
+    use MavCmd as M;
+    let id = |k: usize| c.given(k).filter(|v| (0.0..16_777_216.0).contains(v)).map(|v| v as u32);
+    // Older commands that ask for one message each.
+    let legacy = match c.number {
+        n if n == M::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES as u16 => Some(148),
+        n if n == M::MAV_CMD_REQUEST_PROTOCOL_VERSION as u16 => Some(300),
+        n if n == M::MAV_CMD_REQUEST_CAMERA_INFORMATION as u16 => Some(259),
+        n if n == M::MAV_CMD_REQUEST_CAMERA_SETTINGS as u16 => Some(260),
+        n if n == M::MAV_CMD_REQUEST_STORAGE_INFORMATION as u16 => Some(261),
+        n if n == M::MAV_CMD_REQUEST_CAMERA_CAPTURE_STATUS as u16 => Some(262),
+        n if n == M::MAV_CMD_REQUEST_FLIGHT_INFORMATION as u16 => Some(264),
+        n if n == M::MAV_CMD_GET_HOME_POSITION as u16 => Some(242),
+        _ => None,
+    };
+    if let Some(message) = legacy {
+        return Some(request(message, 0.0, c.component, x));
+    }
+    match c.number {
+        n if n == M::MAV_CMD_REQUEST_MESSAGE as u16 => Some(id(0).map_or(DENIED, |m| request(m, c.p[1], c.component, x))),
+        n if n == M::MAV_CMD_SET_MESSAGE_INTERVAL as u16 => Some(id(0).map_or(DENIED, |m| set_interval(m, c.p[1], x))),
+        n if n == M::MAV_CMD_GET_MESSAGE_INTERVAL as u16 => Some(id(0).map_or(DENIED, |m| get_interval(m, x))),
+        _ => None,
+    }
+}
+
+/// Rows of a message that the addressed component speaks.
+fn addressed(id: u32, component: u8) -> impl Iterator<Item = usize> {
+    let mine = move |row: &usize| component == 0 || STREAMS[*row].component == component || !matches!(component, AUTOPILOT | CAMERA);
+    streams::rows_of(id).map(|(row, _)| row).filter(mine)
+}
+
+fn request(id: u32, index: f64, component: u8, x: &mut Context) -> MavResult {
+    if id == AVAILABLE_MODES {
+        return modes(index, x);
+    }
+    if id == IMAGE_CAPTURED {
+        let again = index.is_finite().then(|| x.view.camera.again(index as i64)).flatten();
+        return again.map_or(DENIED, |message| x.answer(CAMERA, &message));
+    }
+    let rows: Vec<usize> = addressed(id, component).collect();
+    let mut said = false;
+    for row in rows {
+        if let Some(message) = (STREAMS[row].build)(&x.view) {
+            x.answer(STREAMS[row].component, &message);
+            said = true;
+        }
+    }
+    if said { ACCEPTED } else { DENIED }
+}
+
+/// One mode, or with index 0 all of them.
+fn modes(index: f64, x: &mut Context) -> MavResult {
+    let count = flight::modes();
+    let wanted = if index.is_finite() && index >= 0.0 { index as usize } else { return DENIED };
+    if wanted > count {
+        return DENIED;
+    }
+    for (k, row) in px4::MODES.iter().enumerate().filter(|(k, _)| wanted == 0 || wanted == k + 1) {
+        let mut properties = MavModeProperty::empty();
+        properties.set(MavModeProperty::MAV_MODE_PROPERTY_NOT_USER_SELECTABLE, !row.selectable);
+        properties.set(MavModeProperty::MAV_MODE_PROPERTY_AUTO_MODE, row.auto);
+        let message = MavMessage::AVAILABLE_MODES(AVAILABLE_MODES_DATA {
+            custom_mode: row.custom_mode(),
+            properties,
+            number_modes: count as u8,
+            mode_index: (k + 1) as u8,
+            standard_mode: flight::standard_of(row.mode),
+            mode_name: row.name.into(),
+        });
+        x.answer(AUTOPILOT, &message);
+    }
+    ACCEPTED
+}
+
+fn set_interval(id: u32, us: f64, x: &mut Context) -> MavResult {
+    let rows: Vec<usize> = streams::rows_of(id).map(|(row, _)| row).collect();
+    let now = x.view.now;
+    let set = rows.iter().all(|row| x.link.set_interval(*row, us, now));
+    if set && !rows.is_empty() { ACCEPTED } else { DENIED }
+}
+
+fn get_interval(id: u32, x: &mut Context) -> MavResult {
+    let row = streams::rows_of(id).next().map(|(row, _)| row);
+    let interval_us = row.map_or(0, |row| x.link.interval_us(row));
+    x.answer(AUTOPILOT, &MavMessage::MESSAGE_INTERVAL(MESSAGE_INTERVAL_DATA { interval_us, message_id: id as u16 }));
+    if row.is_some() { ACCEPTED } else { DENIED }
+}

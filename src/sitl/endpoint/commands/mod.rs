@@ -1,0 +1,90 @@
+//! Commands: COMMAND_LONG and COMMAND_INT in one shape, one file for each family, every one answered at once.
+
+mod flight;
+mod messages;
+mod payload;
+
+use super::Context;
+use crate::mav::codec::Received;
+use crate::mav::dialect::MavResult;
+use crate::sitl::autopilot::Outcome;
+
+/// A command from either message.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Command {
+    /// MAV_CMD number.
+    pub number: u16,
+    /// Parameters 1 to 7; 5 and 6 in degrees or metres whichever message brought them.
+    pub p: [f64; 7],
+    /// MAV_FRAME number; COMMAND_LONG counts as global with altitude over the sea.
+    pub frame: u8,
+    /// Target component.
+    pub component: u8,
+    /// Target system.
+    pub system: u8,
+    /// Sender.
+    pub from: (u8, u8),
+}
+
+const LONG: u32 = 76;
+const INT: u32 = 75;
+
+impl Command {
+    /// From a received frame; `None` when it is no command. Read from the bytes, so that unknown numbers are commands too.
+    #[must_use]
+    pub fn of(frame: &Received) -> Option<Self> {
+        let from = (frame.system_id, frame.component_id);
+        let b = match frame.message_id {
+            LONG => frame.payload(33),
+            INT => frame.payload(35),
+            _ => return None,
+        };
+        let four = |at: usize| [b[at], b[at + 1], b[at + 2], b[at + 3]];
+        let real = |at: usize| f64::from(f32::from_le_bytes(four(at)));
+        let number = u16::from_le_bytes([b[28], b[29]]);
+        let mut p = [real(0), real(4), real(8), real(12), real(16), real(20), real(24)];
+        if frame.message_id == LONG {
+            return Some(Self { number, p, frame: 0, component: b[31], system: b[30], from });
+        }
+        let scaled = |at: usize| {
+            let whole = i32::from_le_bytes(four(at));
+            // INT32_MAX means "not given" (MAVLink: COMMAND_INT).
+            if whole == i32::MAX { f64::NAN } else { f64::from(whole) * 1e-7 }
+        };
+        (p[4], p[5]) = (scaled(16), scaled(20));
+        Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from })
+    }
+
+    /// True when a parameter is 1.
+    #[must_use]
+    pub fn is_one(&self, k: usize) -> bool {
+        (self.p[k] - 1.0).abs() < 1e-6
+    }
+
+    /// A parameter when it is a number.
+    #[must_use]
+    pub fn given(&self, k: usize) -> Option<f64> {
+        Some(self.p[k]).filter(|v| v.is_finite())
+    }
+}
+
+/// Does what a command asks and says how it went.
+pub fn handle(c: &Command, context: &mut Context) -> MavResult {
+    messages::handle(c, context)
+        .or_else(|| flight::handle(c, context))
+        .or_else(|| payload::handle(c, context))
+        .unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED)
+}
+
+/// The autopilot's answer on the wire; its reason becomes a text.
+fn result(outcome: Outcome, context: &mut Context) -> MavResult {
+    let (result, reason) = match outcome {
+        Outcome::Accepted => return MavResult::MAV_RESULT_ACCEPTED,
+        Outcome::TemporarilyRejected(reason) => (MavResult::MAV_RESULT_TEMPORARILY_REJECTED, reason),
+        Outcome::Denied(reason) => (MavResult::MAV_RESULT_DENIED, reason),
+        Outcome::Failed(reason) => (MavResult::MAV_RESULT_FAILED, reason),
+        Outcome::Unsupported => return MavResult::MAV_RESULT_UNSUPPORTED,
+    };
+    context.tell(&reason);
+    result
+}

@@ -1,0 +1,279 @@
+//! Plans: upload and download of missions, fences and rally points, and what of a mission the autopilot can fly.
+
+use crate::base::frames::{Ned, Vec3};
+use crate::base::geodesy::LocalPlane;
+use crate::base::time::SimTime;
+use crate::mav::dialect::{
+    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MavCmd, MavFrame, MavMessage,
+    MavMissionResult, MavMissionType,
+};
+use crate::mav::units;
+use crate::sitl::autopilot::MissionStep;
+
+/// Items that a plan may have.
+const MOST_ITEMS: u16 = 2_000;
+/// A stalled upload is given up after this long, s (clients retry for less).
+const STALL_S: f64 = 10.0;
+/// A silent uploader is asked again after this long, s.
+const ASK_AGAIN_S: f64 = 1.0;
+
+/// Who speaks: system and component.
+pub type Peer = (u8, u8);
+
+/// Plans and a running upload.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Plans {
+    kept: [Vec<MISSION_ITEM_INT_DATA>; 3],
+    upload: Option<Upload>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Upload {
+    from: Peer,
+    kind: MavMissionType,
+    items: Vec<MISSION_ITEM_INT_DATA>,
+    count: u16,
+    heard: SimTime,
+    asked: SimTime,
+}
+
+/// What came of a message.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reply {
+    /// Answer the sender.
+    Say(MavMessage),
+    /// A new mission is complete: answer, and let the autopilot have it.
+    NewMission(MavMessage),
+    /// Nothing.
+    Nothing,
+}
+
+fn slot(kind: MavMissionType) -> Option<usize> {
+    match kind {
+        MavMissionType::MAV_MISSION_TYPE_MISSION => Some(0),
+        MavMissionType::MAV_MISSION_TYPE_FENCE => Some(1),
+        MavMissionType::MAV_MISSION_TYPE_RALLY => Some(2),
+        MavMissionType::MAV_MISSION_TYPE_ALL => None,
+    }
+}
+
+/// An acknowledgement to a peer.
+#[must_use]
+pub fn ack(to: Peer, kind: MavMissionType, result: MavMissionResult) -> MavMessage {
+    MavMessage::MISSION_ACK(MISSION_ACK_DATA {
+        target_system: to.0,
+        target_component: to.1,
+        mavtype: result,
+        mission_type: kind,
+        opaque_id: 0,
+    })
+}
+
+impl Plans {
+    /// Items of the mission.
+    #[must_use]
+    pub fn mission(&self) -> &[MISSION_ITEM_INT_DATA] {
+        &self.kept[0]
+    }
+
+    /// Somebody wants the list.
+    #[must_use]
+    pub fn list(&self, from: Peer, kind: MavMissionType) -> MavMessage {
+        let Some(slot) = slot(kind) else { return ack(from, kind, MavMissionResult::MAV_MISSION_UNSUPPORTED) };
+        MavMessage::MISSION_COUNT(MISSION_COUNT_DATA {
+            count: self.kept[slot].len() as u16,
+            target_system: from.0,
+            target_component: from.1,
+            mission_type: kind,
+            opaque_id: 0,
+        })
+    }
+
+    /// Somebody wants one item.
+    #[must_use]
+    pub fn item(&self, from: Peer, kind: MavMissionType, seq: u16) -> MavMessage {
+        let item = slot(kind).and_then(|slot| self.kept[slot].get(usize::from(seq)));
+        match item {
+            Some(item) => {
+                let mut item = item.clone();
+                (item.target_system, item.target_component) = from;
+                MavMessage::MISSION_ITEM_INT(item)
+            }
+            None => ack(from, kind, MavMissionResult::MAV_MISSION_INVALID_SEQUENCE),
+        }
+    }
+
+    /// Somebody begins an upload. A second station in the middle of one is refused.
+    pub fn begin(&mut self, from: Peer, kind: MavMissionType, count: u16, now: SimTime) -> Reply {
+        let refuse = |result| Reply::Say(ack(from, kind, result));
+        if self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.heard).s() < STALL_S) {
+            return refuse(MavMissionResult::MAV_MISSION_DENIED);
+        }
+        let Some(slot) = slot(kind) else { return refuse(MavMissionResult::MAV_MISSION_UNSUPPORTED) };
+        if count > MOST_ITEMS {
+            return refuse(MavMissionResult::MAV_MISSION_NO_SPACE);
+        }
+        if count == 0 {
+            self.kept[slot].clear();
+            let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
+            return if slot == 0 { Reply::NewMission(done) } else { Reply::Say(done) };
+        }
+        self.upload = Some(Upload { from, kind, items: Vec::new(), count, heard: now, asked: now });
+        Reply::Say(ask(from, kind, 0))
+    }
+
+    /// An item of an upload.
+    pub fn receive(&mut self, from: Peer, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, now: SimTime) -> Reply {
+        let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && u.kind == item.mission_type) else {
+            return Reply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ERROR));
+        };
+        upload.heard = now;
+        upload.asked = now;
+        let wanted = upload.items.len() as u16;
+        if item.seq != wanted {
+            // Heard before or out of turn: ask for the one that is missing.
+            return Reply::Say(ask(from, upload.kind, wanted));
+        }
+        if let Err(result) = legal(item, plane) {
+            let kind = upload.kind;
+            self.upload = None;
+            return Reply::Say(ack(from, kind, result));
+        }
+        let mut item = item.clone();
+        item.current = 0;
+        upload.items.push(item);
+        if (upload.items.len() as u16) < upload.count {
+            return Reply::Say(ask(from, upload.kind, wanted + 1));
+        }
+        let Some(upload) = self.upload.take() else { return Reply::Nothing };
+        let slot = slot(upload.kind).unwrap_or(0);
+        self.kept[slot] = upload.items;
+        let done = ack(from, upload.kind, MavMissionResult::MAV_MISSION_ACCEPTED);
+        if slot == 0 { Reply::NewMission(done) } else { Reply::Say(done) }
+    }
+
+    /// An item that the dialect cannot hold (unknown command or frame) ends the upload.
+    pub fn receive_unknown(&mut self, from: Peer) -> Reply {
+        match self.upload.take_if(|u| u.from == from) {
+            Some(upload) => Reply::Say(ack(from, upload.kind, MavMissionResult::MAV_MISSION_UNSUPPORTED)),
+            None => Reply::Nothing,
+        }
+    }
+
+    /// Empties plans.
+    pub fn clear(&mut self, from: Peer, kind: MavMissionType) -> Reply {
+        match slot(kind) {
+            Some(slot) => self.kept[slot].clear(),
+            None => self.kept.iter_mut().for_each(Vec::clear),
+        }
+        let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
+        let mission = matches!(kind, MavMissionType::MAV_MISSION_TYPE_MISSION | MavMissionType::MAV_MISSION_TYPE_ALL);
+        if mission { Reply::NewMission(done) } else { Reply::Say(done) }
+    }
+
+    /// The uploader has given up or finished.
+    pub fn acknowledged(&mut self, from: Peer) {
+        self.upload.take_if(|u| u.from == from);
+    }
+
+    /// Asks a silent uploader again, and gives up a stalled upload; returns whom to tell what.
+    pub fn remind(&mut self, now: SimTime) -> Option<(Peer, MavMessage)> {
+        let upload = self.upload.as_mut()?;
+        let (from, kind) = (upload.from, upload.kind);
+        if (now - upload.heard).s() > STALL_S {
+            self.upload = None;
+            return Some((from, ack(from, kind, MavMissionResult::MAV_MISSION_OPERATION_CANCELLED)));
+        }
+        if (now - upload.asked).s() > ASK_AGAIN_S {
+            upload.asked = now;
+            return Some((from, ask(from, kind, upload.items.len() as u16)));
+        }
+        None
+    }
+
+    /// The mission as the autopilot flies it. `home_up_m` is home's height about the origin.
+    #[must_use]
+    pub fn steps(&self, plane: &LocalPlane, home_up_m: f64, accept_m: f64) -> Vec<MissionStep> {
+        self.kept[0].iter().map(|item| step(item, plane, home_up_m, accept_m)).collect()
+    }
+}
+
+fn ask(to: Peer, kind: MavMissionType, seq: u16) -> MavMessage {
+    MavMessage::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA {
+        seq,
+        target_system: to.0,
+        target_component: to.1,
+        mission_type: kind,
+    })
+}
+
+fn relative(frame: MavFrame) -> Option<bool> {
+    match frame {
+        MavFrame::MAV_FRAME_GLOBAL | MavFrame::MAV_FRAME_GLOBAL_INT => Some(false),
+        MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT
+        | MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT
+        | MavFrame::MAV_FRAME_GLOBAL_TERRAIN_ALT
+        | MavFrame::MAV_FRAME_GLOBAL_TERRAIN_ALT_INT => Some(true),
+        _ => None,
+    }
+}
+
+/// Where an item is, m; `None` without a usable place.
+fn place(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> Option<Vec3<Ned>> {
+    let relative = relative(item.frame)?;
+    let altitude = f64::from(item.z);
+    let origin = plane.origin();
+    let amsl = if relative { origin.altitude_m + home_up_m + altitude } else { altitude };
+    let enu = plane.enu_from_geo(units::geo(item.x, item.y, amsl)?);
+    (enu.is_finite() && enu.norm() < 50_000.0).then(|| enu.ned())
+}
+
+/// Refuses what could never be flown.
+fn legal(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
+    if item.mission_type != MavMissionType::MAV_MISSION_TYPE_MISSION {
+        return Ok(());
+    }
+    let navigates = matches!(item.command, MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM);
+    if !item.z.is_finite() && navigates {
+        return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM7);
+    }
+    if navigates && relative(item.frame).is_none() {
+        return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED_FRAME);
+    }
+    if navigates && place(item, plane, 0.0).is_none() {
+        return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM5_X);
+    }
+    Ok(())
+}
+
+fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64, accept_m: f64) -> MissionStep {
+    let number = |x: f32, or: f64| if x.is_finite() { f64::from(x) } else { or };
+    match item.command {
+        MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM => {
+            let Some(position_m) = place(item, plane, home_up_m) else { return MissionStep::Payload };
+            let radius = number(item.param2, 0.0);
+            MissionStep::Waypoint {
+                position_m,
+                accept_m: if item.command == MavCmd::MAV_CMD_NAV_WAYPOINT && radius > 0.0 { radius } else { accept_m },
+                hold_s: if item.command == MavCmd::MAV_CMD_NAV_LOITER_UNLIM { f64::INFINITY } else { number(item.param1, 0.0).max(0.0) },
+                yaw_rad: (item.command == MavCmd::MAV_CMD_NAV_WAYPOINT && item.param4.is_finite())
+                    .then(|| f64::from(item.param4).to_radians()),
+            }
+        }
+        MavCmd::MAV_CMD_NAV_TAKEOFF => {
+            let up_m = place(item, plane, home_up_m).map_or(home_up_m + number(item.z, 2.5), |p| -p.down());
+            MissionStep::Takeoff { up_m }
+        }
+        MavCmd::MAV_CMD_NAV_LAND => {
+            let here = item.x == 0 && item.y == 0;
+            MissionStep::Land { position_m: if here { None } else { place(item, plane, home_up_m) } }
+        }
+        MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH => MissionStep::Return,
+        MavCmd::MAV_CMD_DO_CHANGE_SPEED if item.param2 > 0.0 => MissionStep::Speed(number(item.param2, 5.0)),
+        MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY => MissionStep::Delay(number(item.param1, 0.0).max(0.0)),
+        MavCmd::MAV_CMD_DO_JUMP => {
+            MissionStep::Jump { to: number(item.param1, 0.0).max(0.0) as usize, times: number(item.param2, 0.0).max(0.0) as u32 }
+        }
+        _ => MissionStep::Payload,
+    }
+}

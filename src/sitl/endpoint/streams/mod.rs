@@ -1,0 +1,102 @@
+//! What the vehicle sends by itself: one row a message, with its rates by kind of link (mavlink.md 4.10).
+
+mod attitude;
+mod payload;
+mod position;
+mod sensors;
+mod system;
+mod truth;
+
+use super::LinkKind;
+use super::view::View;
+use crate::mav::dialect::MavMessage;
+
+/// The autopilot's component id.
+pub const AUTOPILOT: u8 = 1;
+/// The camera's component id.
+pub const CAMERA: u8 = 100;
+
+/// One message that can be streamed or requested.
+#[derive(Clone, Copy)]
+pub struct Stream {
+    /// Message id.
+    pub id: u32,
+    /// Rates on a ground station's link, an SDK's and a sidecar's, Hz.
+    rates_hz: [f64; 3],
+    /// Which component speaks.
+    pub component: u8,
+    /// The message; `None` when there is nothing to say.
+    pub build: fn(&View) -> Option<MavMessage>,
+}
+
+impl Stream {
+    /// Rate on a kind of link, Hz.
+    #[must_use]
+    pub fn rate_hz(&self, kind: LinkKind) -> f64 {
+        match kind {
+            LinkKind::GroundStation | LinkKind::Tcp => self.rates_hz[0],
+            LinkKind::Sdk => self.rates_hz[1],
+            LinkKind::Payload => self.rates_hz[2],
+        }
+    }
+}
+
+const fn row(id: u32, rates_hz: [f64; 3], build: fn(&View) -> Option<MavMessage>) -> Stream {
+    Stream { id, rates_hz, component: AUTOPILOT, build }
+}
+
+const fn camera(id: u32, rates_hz: [f64; 3], build: fn(&View) -> Option<MavMessage>) -> Stream {
+    Stream { id, rates_hz, component: CAMERA, build }
+}
+
+/// All of them. HIL_STATE_QUATERNION comes first, so that what follows in the same datagram belongs to its instant.
+pub const STREAMS: &[Stream] = &[
+    row(115, [50.0, 50.0, 50.0], truth::state),
+    row(0, [1.0, 1.0, 1.0], system::heartbeat),
+    camera(0, [1.0, 1.0, 1.0], payload::camera_heartbeat),
+    row(1, [2.0, 2.0, 2.0], system::sys_status),
+    row(2, [1.0, 1.0, 1.0], system::system_time),
+    row(24, [5.0, 5.0, 1.0], sensors::gps_raw),
+    row(29, [1.0, 1.0, 0.0], sensors::pressure),
+    row(105, [0.0, 50.0, 0.0], sensors::highres_imu),
+    row(30, [50.0, 50.0, 10.0], attitude::attitude),
+    row(31, [50.0, 50.0, 0.0], attitude::quaternion),
+    row(83, [10.0, 10.0, 0.0], attitude::target),
+    row(32, [50.0, 50.0, 10.0], position::local),
+    row(33, [50.0, 50.0, 10.0], position::global),
+    row(85, [10.0, 10.0, 0.0], position::local_target),
+    row(141, [5.0, 10.0, 0.0], position::altitude),
+    row(242, [0.5, 1.0, 1.0], position::home),
+    row(49, [0.5, 1.0, 0.0], position::origin),
+    row(331, [0.0, 30.0, 0.0], position::odometry),
+    row(74, [10.0, 10.0, 2.0], position::hud),
+    row(36, [10.0, 10.0, 0.0], system::servos),
+    row(147, [2.0, 2.0, 2.0], system::battery),
+    row(230, [0.5, 1.0, 0.0], system::estimator),
+    row(231, [1.0, 1.0, 0.0], system::wind),
+    row(241, [0.2, 0.2, 0.0], system::vibration),
+    row(245, [5.0, 5.0, 5.0], system::extended_state),
+    row(42, [1.0, 1.0, 1.0], system::mission_current),
+    row(436, [1.0, 1.0, 0.5], system::current_mode),
+    row(65, [50.0, 50.0, 50.0], truth::sticks),
+    row(330, [5.0, 5.0, 0.0], sensors::obstacles),
+    row(132, [5.0, 5.0, 0.0], sensors::range_down),
+    row(281, [0.5, 1.0, 0.0], payload::gimbal_manager_status),
+    row(285, [10.0, 10.0, 25.0], payload::gimbal_attitude),
+    row(440, [2.0, 2.0, 10.0], payload::lamp),
+    row(376, [1.0, 1.0, 0.0], payload::relay),
+    camera(262, [0.2, 0.2, 0.0], payload::capture_status),
+    row(148, [0.0, 0.0, 0.0], system::version),
+    row(300, [0.0, 0.0, 0.0], system::protocol),
+    row(264, [0.0, 0.0, 0.0], system::flight),
+    row(280, [0.0, 0.0, 0.0], payload::gimbal_manager),
+    row(283, [0.0, 0.0, 0.0], payload::gimbal_device),
+    camera(259, [0.0, 0.0, 0.0], payload::camera_information),
+    camera(260, [0.0, 0.0, 0.0], payload::camera_settings),
+    camera(261, [0.0, 0.0, 0.0], payload::storage),
+];
+
+/// The rows of a message id.
+pub fn rows_of(id: u32) -> impl Iterator<Item = (usize, &'static Stream)> {
+    STREAMS.iter().enumerate().filter(move |(_, s)| s.id == id)
+}

@@ -1,0 +1,142 @@
+//! Where the vehicle believes to be, wants to be, and calls home.
+
+use super::super::view::View;
+use crate::base::frames::Vec3;
+use crate::mav::dialect::{
+    ALTITUDE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA, MavEstimatorType,
+    MavFrame, MavMessage, ODOMETRY_DATA, POSITION_TARGET_LOCAL_NED_DATA, PositionTargetTypemask, VFR_HUD_DATA,
+};
+use crate::mav::units::{cm, deg_e7, heading_cdeg, mm};
+
+pub(super) fn local(v: &View) -> Option<MavMessage> {
+    let [x, y, z] = v.estimate.position_m.array().map(|c| c as f32);
+    let [vx, vy, vz] = v.estimate.velocity_m_s.array().map(|c| c as f32);
+    v.estimate.attitude_valid.then(|| {
+        MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { time_boot_ms: v.boot_ms(), x, y, z, vx, vy, vz })
+    })
+}
+
+pub(super) fn global(v: &View) -> Option<MavMessage> {
+    if !v.estimate.position_valid {
+        return None;
+    }
+    let geo = v.geo();
+    let velocity = v.estimate.velocity_m_s;
+    Some(MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
+        time_boot_ms: v.boot_ms(),
+        lat: deg_e7(geo.latitude_deg),
+        lon: deg_e7(geo.longitude_deg),
+        alt: mm(geo.altitude_m),
+        relative_alt: mm(v.over_home_m()),
+        vx: cm(velocity.north()),
+        vy: cm(velocity.east()),
+        vz: cm(velocity.down()),
+        hdg: heading_cdeg(v.estimate.attitude.yaw_rad()),
+    }))
+}
+
+pub(super) fn local_target(v: &View) -> Option<MavMessage> {
+    let [x, y, z] = v.status.target_m?.array().map(|c| c as f32);
+    let mask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VX_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VY_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VZ_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AX_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AY_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AZ_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE;
+    Some(MavMessage::POSITION_TARGET_LOCAL_NED(POSITION_TARGET_LOCAL_NED_DATA {
+        time_boot_ms: v.boot_ms(),
+        x,
+        y,
+        z,
+        type_mask: mask,
+        coordinate_frame: MavFrame::MAV_FRAME_LOCAL_NED,
+        ..Default::default()
+    }))
+}
+
+pub(super) fn altitude(v: &View) -> Option<MavMessage> {
+    let up = -v.estimate.position_m.down();
+    let amsl = v.plane.origin().altitude_m + up;
+    let below = v.readings.range_down_m.filter(|r| r.is_finite());
+    v.estimate.attitude_valid.then(|| {
+        MavMessage::ALTITUDE(ALTITUDE_DATA {
+            time_usec: v.boot_us(),
+            altitude_monotonic: amsl as f32,
+            altitude_amsl: amsl as f32,
+            altitude_local: up as f32,
+            altitude_relative: v.over_home_m() as f32,
+            altitude_terrain: f32::NAN,
+            bottom_clearance: below.map_or(f32::NAN, |r| r as f32),
+        })
+    })
+}
+
+pub(super) fn home(v: &View) -> Option<MavMessage> {
+    let home = v.status.home_m?;
+    let geo = v.plane.geo_from_enu(home.enu());
+    let [x, y, z] = home.array().map(|c| c as f32);
+    Some(MavMessage::HOME_POSITION(HOME_POSITION_DATA {
+        latitude: deg_e7(geo.latitude_deg),
+        longitude: deg_e7(geo.longitude_deg),
+        altitude: mm(geo.altitude_m),
+        x,
+        y,
+        z,
+        q: [1.0, 0.0, 0.0, 0.0],
+        approach_z: 0.0,
+        time_usec: v.boot_us(),
+        ..Default::default()
+    }))
+}
+
+pub(super) fn origin(v: &View) -> Option<MavMessage> {
+    let geo = v.plane.origin();
+    Some(MavMessage::GPS_GLOBAL_ORIGIN(GPS_GLOBAL_ORIGIN_DATA {
+        latitude: deg_e7(geo.latitude_deg),
+        longitude: deg_e7(geo.longitude_deg),
+        altitude: mm(geo.altitude_m),
+        time_usec: v.boot_us(),
+    }))
+}
+
+pub(super) fn odometry(v: &View) -> Option<MavMessage> {
+    let [x, y, z] = v.estimate.position_m.array().map(|c| c as f32);
+    let body: Vec3<_> = v.estimate.attitude.inverse() * v.estimate.velocity_m_s;
+    let w = v.estimate.rates_rad_s;
+    let mut pose_covariance = [f32::NAN; 21];
+    pose_covariance[0] = (0.5 * v.estimate.horizontal_m * v.estimate.horizontal_m) as f32;
+    Some(MavMessage::ODOMETRY(ODOMETRY_DATA {
+        time_usec: v.boot_us(),
+        x,
+        y,
+        z,
+        q: v.estimate.attitude.wxyz().map(|c| c as f32),
+        vx: body.forward() as f32,
+        vy: body.right() as f32,
+        vz: body.down() as f32,
+        rollspeed: w.forward() as f32,
+        pitchspeed: w.right() as f32,
+        yawspeed: w.down() as f32,
+        pose_covariance,
+        velocity_covariance: [f32::NAN; 21],
+        frame_id: MavFrame::MAV_FRAME_LOCAL_NED,
+        child_frame_id: MavFrame::MAV_FRAME_BODY_FRD,
+        reset_counter: (v.scoring.respawns & 0xff) as u8,
+        estimator_type: MavEstimatorType::MAV_ESTIMATOR_TYPE_AUTOPILOT,
+        quality: 100,
+    }))
+}
+
+pub(super) fn hud(v: &View) -> Option<MavMessage> {
+    let e = v.estimate;
+    let heading = e.attitude.yaw_rad().to_degrees().rem_euclid(360.0);
+    Some(MavMessage::VFR_HUD(VFR_HUD_DATA {
+        airspeed: (e.velocity_m_s - v.wind_m_s).norm() as f32,
+        groundspeed: e.velocity_m_s.horizontal_norm() as f32,
+        alt: (v.plane.origin().altitude_m - e.position_m.down()) as f32,
+        climb: -e.velocity_m_s.down() as f32,
+        heading: (heading.round() as i16) % 360,
+        throttle: (v.status.thrust * 100.0).clamp(0.0, 100.0) as u16,
+    }))
+}

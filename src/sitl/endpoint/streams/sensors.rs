@@ -1,0 +1,99 @@
+//! What the sensors measure.
+
+use super::super::view::View;
+use crate::mav::dialect::{
+    DISTANCE_SENSOR_DATA, GPS_RAW_INT_DATA, GpsFixType, HIGHRES_IMU_DATA, HighresImuUpdatedFlags, MavDistanceSensor, MavFrame,
+    MavMessage, MavSensorOrientation, OBSTACLE_DISTANCE_DATA, SCALED_PRESSURE_DATA,
+};
+use crate::mav::units::{cm_u16, deg_e7, heading_cdeg, mm};
+
+pub(super) fn gps_raw(v: &View) -> Option<MavMessage> {
+    let gnss = v.readings.gnss.as_ref()?;
+    let geo = v.plane.geo_from_enu(gnss.position_m.enu());
+    let velocity = gnss.velocity_m_s;
+    let course = crate::base::math::atan2(velocity.east(), velocity.north());
+    let fix = gnss.fix >= 3;
+    Some(MavMessage::GPS_RAW_INT(GPS_RAW_INT_DATA {
+        time_usec: v.boot_us(),
+        lat: if fix { deg_e7(geo.latitude_deg) } else { 0 },
+        lon: if fix { deg_e7(geo.longitude_deg) } else { 0 },
+        alt: if fix { mm(geo.altitude_m) } else { 0 },
+        eph: (gnss.hdop * 100.0).round() as u16,
+        epv: (gnss.vdop * 100.0).round() as u16,
+        vel: cm_u16(velocity.horizontal_norm()),
+        cog: heading_cdeg(course),
+        fix_type: if fix { GpsFixType::GPS_FIX_TYPE_3D_FIX } else { GpsFixType::GPS_FIX_TYPE_NO_FIX },
+        satellites_visible: gnss.satellites,
+        h_acc: mm(gnss.eph_m).unsigned_abs(),
+        v_acc: mm(gnss.epv_m).unsigned_abs(),
+        ..Default::default()
+    }))
+}
+
+pub(super) fn pressure(v: &View) -> Option<MavMessage> {
+    Some(MavMessage::SCALED_PRESSURE(SCALED_PRESSURE_DATA {
+        time_boot_ms: v.boot_ms(),
+        press_abs: (v.readings.pressure_pa? / 100.0) as f32,
+        temperature: 1500,
+        ..Default::default()
+    }))
+}
+
+pub(super) fn highres_imu(v: &View) -> Option<MavMessage> {
+    let imu = v.readings.imu.as_ref()?;
+    let [xacc, yacc, zacc] = imu.specific_force_m_s2.array().map(|c| c as f32);
+    let [xgyro, ygyro, zgyro] = imu.rates_rad_s.array().map(|c| c as f32);
+    let [xmag, ymag, zmag] = v.readings.mag_gauss.map_or([0.0; 3], |m| m.array().map(|c| c as f32));
+    Some(MavMessage::HIGHRES_IMU(HIGHRES_IMU_DATA {
+        time_usec: v.boot_us(),
+        xacc,
+        yacc,
+        zacc,
+        xgyro,
+        ygyro,
+        zgyro,
+        xmag,
+        ymag,
+        zmag,
+        abs_pressure: v.readings.pressure_pa.map_or(0.0, |p| (p / 100.0) as f32),
+        temperature: 15.0,
+        fields_updated: HighresImuUpdatedFlags::all(),
+        ..Default::default()
+    }))
+}
+
+/// Eight sectors of 45 degrees, clockwise from the nose.
+pub(super) fn obstacles(v: &View) -> Option<MavMessage> {
+    let around = v.readings.range_around_m?;
+    let reach = cm_u16(v.vehicle.sensors.range_max_m);
+    let mut distances = [u16::MAX; 72];
+    for (slot, range) in distances.iter_mut().zip(around) {
+        *slot = if range.is_finite() { cm_u16(range).min(reach) } else { reach + 1 };
+    }
+    Some(MavMessage::OBSTACLE_DISTANCE(OBSTACLE_DISTANCE_DATA {
+        time_usec: v.boot_us(),
+        distances,
+        min_distance: 10,
+        max_distance: reach,
+        sensor_type: MavDistanceSensor::MAV_DISTANCE_SENSOR_LASER,
+        increment: 45,
+        increment_f: 45.0,
+        angle_offset: 0.0,
+        frame: MavFrame::MAV_FRAME_BODY_FRD,
+    }))
+}
+
+pub(super) fn range_down(v: &View) -> Option<MavMessage> {
+    let range = v.readings.range_down_m?;
+    let reach = cm_u16(v.vehicle.sensors.range_max_m);
+    Some(MavMessage::DISTANCE_SENSOR(DISTANCE_SENSOR_DATA {
+        time_boot_ms: v.boot_ms(),
+        min_distance: 10,
+        max_distance: reach,
+        current_distance: if range.is_finite() { cm_u16(range) } else { reach + 1 },
+        mavtype: MavDistanceSensor::MAV_DISTANCE_SENSOR_LASER,
+        orientation: MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_270,
+        covariance: u8::MAX,
+        ..Default::default()
+    }))
+}

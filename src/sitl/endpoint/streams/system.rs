@@ -1,0 +1,232 @@
+//! State of the vehicle as a whole.
+
+use super::super::px4;
+use super::super::view::View;
+use crate::mav::dialect::{
+    AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, CURRENT_MODE_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA,
+    EstimatorStatusFlags, FLIGHT_INFORMATION_DATA, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavAutopilot, MavBatteryChargeState,
+    MavBatteryFault, MavBatteryFunction, MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag,
+    MavProtocolCapability, MavStandardMode, MavState, MavSysStatusSensor, MavSysStatusSensorExtended, MavType, MavVtolState,
+    MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
+};
+use crate::sitl::autopilot::{Landed, Mode};
+
+/// What we call ourselves on the wire: a PX4-compatible interface, development version (mavlink.md R1).
+const SOFTWARE_VERSION: u32 = 1 << 24 | 16 << 16;
+
+pub(super) fn heartbeat(v: &View) -> Option<MavMessage> {
+    let row = px4::row_of(v.status.mode);
+    let mut base = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | MavModeFlag::MAV_MODE_FLAG_STABILIZE_ENABLED;
+    if row.auto {
+        base |= MavModeFlag::MAV_MODE_FLAG_AUTO_ENABLED | MavModeFlag::MAV_MODE_FLAG_GUIDED_ENABLED;
+    } else {
+        base |= MavModeFlag::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED;
+    }
+    if v.status.armed {
+        base |= MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED;
+    }
+    let state = match (&v.status.failsafe, v.status.armed) {
+        (Some(_), _) => MavState::MAV_STATE_CRITICAL,
+        (None, true) => MavState::MAV_STATE_ACTIVE,
+        (None, false) => MavState::MAV_STATE_STANDBY,
+    };
+    Some(MavMessage::HEARTBEAT(HEARTBEAT_DATA {
+        custom_mode: row.custom_mode(),
+        mavtype: MavType::MAV_TYPE_QUADROTOR,
+        autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
+        base_mode: base,
+        system_status: state,
+        mavlink_version: 3,
+    }))
+}
+
+pub(super) fn sys_status(v: &View) -> Option<MavMessage> {
+    use MavSysStatusSensor as S;
+    let mut present = S::MAV_SYS_STATUS_SENSOR_3D_GYRO
+        | S::MAV_SYS_STATUS_SENSOR_3D_ACCEL
+        | S::MAV_SYS_STATUS_SENSOR_3D_MAG
+        | S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE
+        | S::MAV_SYS_STATUS_SENSOR_GPS
+        | S::MAV_SYS_STATUS_SENSOR_ANGULAR_RATE_CONTROL
+        | S::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION
+        | S::MAV_SYS_STATUS_SENSOR_Z_ALTITUDE_CONTROL
+        | S::MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL
+        | S::MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS
+        | S::MAV_SYS_STATUS_SENSOR_BATTERY
+        | S::MAV_SYS_STATUS_AHRS
+        | S::MAV_SYS_STATUS_PREARM_CHECK;
+    if v.vehicle.sensors.flow_velocity_m_s > 0.0 {
+        present |= S::MAV_SYS_STATUS_SENSOR_OPTICAL_FLOW;
+    }
+    let mut health = present;
+    let fix = v.readings.gnss.is_some_and(|g| g.fix >= 3);
+    health.set(S::MAV_SYS_STATUS_SENSOR_GPS, fix && v.estimate.position_valid);
+    health.set(S::MAV_SYS_STATUS_AHRS, v.estimate.attitude_valid);
+    health.set(S::MAV_SYS_STATUS_PREARM_CHECK, v.status.armed || v.status.arming_reasons.is_empty());
+    Some(MavMessage::SYS_STATUS(SYS_STATUS_DATA {
+        onboard_control_sensors_present: present,
+        onboard_control_sensors_enabled: present,
+        onboard_control_sensors_health: health,
+        load: 50,
+        voltage_battery: (v.battery.voltage_v * 1000.0).round() as u16,
+        current_battery: (v.battery.current_a * 100.0).round() as i16,
+        battery_remaining: percent(v),
+        onboard_control_sensors_present_extended: MavSysStatusSensorExtended::empty(),
+        onboard_control_sensors_enabled_extended: MavSysStatusSensorExtended::empty(),
+        onboard_control_sensors_health_extended: MavSysStatusSensorExtended::empty(),
+        ..Default::default()
+    }))
+}
+
+/// Whole percent, rounded up: only an empty battery reads 0.
+fn percent(v: &View) -> i8 {
+    v.battery.remaining_pct().ceil().clamp(0.0, 100.0) as i8
+}
+
+pub(super) fn battery(v: &View) -> Option<MavMessage> {
+    let cells = v.vehicle.battery.cells.clamp(1, 10);
+    let mut voltages = [u16::MAX; 10];
+    voltages[..cells as usize].fill((v.battery.voltage_v / f64::from(cells) * 1000.0).round() as u16);
+    let state = match v.battery.remaining_pct() {
+        p if p < 7.0 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL,
+        p if p < 30.0 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
+        _ => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK,
+    };
+    Some(MavMessage::BATTERY_STATUS(BATTERY_STATUS_DATA {
+        current_consumed: (v.vehicle.battery.capacity_ah * 1000.0 * (1.0 - v.battery.charge)).round() as i32,
+        energy_consumed: (v.battery.energy_j / 100.0).round() as i32,
+        temperature: i16::MAX,
+        voltages,
+        current_battery: (v.battery.current_a * 100.0).round() as i16,
+        id: 0,
+        battery_function: MavBatteryFunction::MAV_BATTERY_FUNCTION_ALL,
+        mavtype: MavBatteryType::MAV_BATTERY_TYPE_LIPO,
+        battery_remaining: percent(v),
+        time_remaining: 0,
+        charge_state: state,
+        voltages_ext: [0; 4],
+        mode: MavBatteryMode::DEFAULT,
+        fault_bitmask: MavBatteryFault::empty(),
+    }))
+}
+
+pub(super) fn system_time(v: &View) -> Option<MavMessage> {
+    Some(MavMessage::SYSTEM_TIME(SYSTEM_TIME_DATA { time_unix_usec: v.unix_us(), time_boot_ms: v.boot_ms() }))
+}
+
+pub(super) fn extended_state(v: &View) -> Option<MavMessage> {
+    let landed_state = match v.status.landed {
+        Landed::OnGround => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
+        Landed::TakingOff => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
+        Landed::InAir => MavLandedState::MAV_LANDED_STATE_IN_AIR,
+        Landed::Landing => MavLandedState::MAV_LANDED_STATE_LANDING,
+    };
+    let vtol_state = MavVtolState::MAV_VTOL_STATE_UNDEFINED;
+    Some(MavMessage::EXTENDED_SYS_STATE(EXTENDED_SYS_STATE_DATA { vtol_state, landed_state }))
+}
+
+pub(super) fn servos(v: &View) -> Option<MavMessage> {
+    let pwm = |k: usize| if v.actuators.armed { 1000 + (v.actuators.motors[k] * 1000.0) as u16 } else { 900 };
+    Some(MavMessage::SERVO_OUTPUT_RAW(SERVO_OUTPUT_RAW_DATA {
+        time_usec: v.boot_us() as u32,
+        servo1_raw: pwm(0),
+        servo2_raw: pwm(1),
+        servo3_raw: pwm(2),
+        servo4_raw: pwm(3),
+        ..Default::default()
+    }))
+}
+
+pub(super) fn estimator(v: &View) -> Option<MavMessage> {
+    let mut flags = EstimatorStatusFlags::empty();
+    flags.set(EstimatorStatusFlags::ESTIMATOR_ATTITUDE, v.estimate.attitude_valid);
+    for flag in [
+        EstimatorStatusFlags::ESTIMATOR_VELOCITY_HORIZ,
+        EstimatorStatusFlags::ESTIMATOR_VELOCITY_VERT,
+        EstimatorStatusFlags::ESTIMATOR_POS_HORIZ_ABS,
+        EstimatorStatusFlags::ESTIMATOR_POS_VERT_ABS,
+    ] {
+        flags.set(flag, v.estimate.position_valid);
+    }
+    Some(MavMessage::ESTIMATOR_STATUS(ESTIMATOR_STATUS_DATA {
+        time_usec: v.boot_us(),
+        pos_horiz_accuracy: v.estimate.horizontal_m as f32,
+        pos_vert_accuracy: v.estimate.vertical_m as f32,
+        flags,
+        ..Default::default()
+    }))
+}
+
+pub(super) fn wind(v: &View) -> Option<MavMessage> {
+    let [x, y, z] = v.wind_m_s.array().map(|c| c as f32);
+    Some(MavMessage::WIND_COV(WIND_COV_DATA {
+        time_usec: v.boot_us(),
+        wind_x: x,
+        wind_y: y,
+        wind_z: z,
+        wind_alt: v.geo().altitude_m as f32,
+        ..Default::default()
+    }))
+}
+
+pub(super) fn vibration(v: &View) -> Option<MavMessage> {
+    Some(MavMessage::VIBRATION(VIBRATION_DATA { time_usec: v.boot_us(), ..Default::default() }))
+}
+
+pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
+    let state = match (v.status.mode, v.status.mission_finished) {
+        (_, true) => MissionState::MISSION_STATE_COMPLETE,
+        (Mode::Mission, _) if v.status.armed => MissionState::MISSION_STATE_ACTIVE,
+        _ => MissionState::MISSION_STATE_NOT_STARTED,
+    };
+    Some(MavMessage::MISSION_CURRENT(MISSION_CURRENT_DATA {
+        seq: v.status.mission_current as u16,
+        total: v.camera.mission_items,
+        mission_state: state,
+        mission_mode: u8::from(v.status.mode == Mode::Mission),
+        ..Default::default()
+    }))
+}
+
+pub(super) fn current_mode(v: &View) -> Option<MavMessage> {
+    let row = px4::row_of(v.status.mode);
+    Some(MavMessage::CURRENT_MODE(CURRENT_MODE_DATA {
+        custom_mode: row.custom_mode(),
+        intended_custom_mode: row.custom_mode(),
+        standard_mode: row.standard,
+    }))
+}
+
+pub(super) fn version(v: &View) -> Option<MavMessage> {
+    use MavProtocolCapability as C;
+    let capabilities = C::MAV_PROTOCOL_CAPABILITY_MISSION_INT
+        | C::MAV_PROTOCOL_CAPABILITY_COMMAND_INT
+        | C::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
+        | C::MAV_PROTOCOL_CAPABILITY_SET_ATTITUDE_TARGET
+        | C::MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_LOCAL_NED
+        | C::MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_GLOBAL_INT
+        | C::MAV_PROTOCOL_CAPABILITY_FLIGHT_TERMINATION
+        | C::MAV_PROTOCOL_CAPABILITY_MAVLINK2
+        | C::MAV_PROTOCOL_CAPABILITY_MISSION_FENCE
+        | C::MAV_PROTOCOL_CAPABILITY_MISSION_RALLY;
+    Some(MavMessage::AUTOPILOT_VERSION(AUTOPILOT_VERSION_DATA {
+        capabilities,
+        uid: 0x5350_414e_4452_454c + u64::from(v.scoring.seed.unsigned_abs()),
+        flight_sw_version: SOFTWARE_VERSION,
+        middleware_sw_version: SOFTWARE_VERSION,
+        ..Default::default()
+    }))
+}
+
+pub(super) fn protocol(_: &View) -> Option<MavMessage> {
+    Some(MavMessage::PROTOCOL_VERSION(PROTOCOL_VERSION_DATA { version: 200, min_version: 100, max_version: 200, ..Default::default() }))
+}
+
+pub(super) fn flight(v: &View) -> Option<MavMessage> {
+    Some(MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { time_boot_ms: v.boot_ms(), ..Default::default() }))
+}
+
+/// The standard mode of a row for AVAILABLE_MODES.
+pub fn standard(mode: Mode) -> MavStandardMode {
+    px4::row_of(mode).standard
+}

@@ -1,0 +1,65 @@
+//! The truth for the scoring (design.md), apart from the estimate, and the sticks as received.
+
+use super::super::view::View;
+use crate::mav::dialect::{
+    HIL_STATE_QUATERNION_DATA, MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA, RC_CHANNELS_DATA,
+};
+use crate::mav::units::{cm, deg_e7, milli_g, mm};
+
+pub(super) fn state(v: &View) -> Option<MavMessage> {
+    let geo = v.true_geo();
+    let w = v.truth.rates_rad_s;
+    let velocity = v.truth.velocity_m_s;
+    let force = v.specific_force_m_s2;
+    let air = (velocity - v.wind_m_s).norm();
+    Some(MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
+        time_usec: v.boot_us(),
+        attitude_quaternion: v.truth.attitude.wxyz().map(|c| c as f32),
+        rollspeed: w.forward() as f32,
+        pitchspeed: w.right() as f32,
+        yawspeed: w.down() as f32,
+        lat: deg_e7(geo.latitude_deg),
+        lon: deg_e7(geo.longitude_deg),
+        alt: mm(geo.altitude_m),
+        vx: cm(velocity.north()),
+        vy: cm(velocity.east()),
+        vz: cm(velocity.down()),
+        ind_airspeed: cm(air).unsigned_abs(),
+        true_airspeed: cm(air).unsigned_abs(),
+        xacc: milli_g(force.forward()),
+        yacc: milli_g(force.right()),
+        zacc: milli_g(force.down()),
+    }))
+}
+
+/// Sticks as received: roll, pitch, throttle, yaw in microseconds, 1500 + 500 x axis.
+pub(super) fn sticks(v: &View) -> Option<MavMessage> {
+    let sticks = v.sticks?;
+    let us = |axis: f64| (1500.0 + 500.0 * axis).round() as u16;
+    Some(MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {
+        time_boot_ms: v.boot_ms(),
+        chancount: 4,
+        chan1_raw: us(sticks.right),
+        chan2_raw: us(sticks.forward),
+        chan3_raw: us(sticks.up),
+        chan4_raw: us(sticks.yaw),
+        chan5_raw: u16::MAX,
+        chan6_raw: u16::MAX,
+        chan7_raw: u16::MAX,
+        chan8_raw: u16::MAX,
+        rssi: u8::MAX,
+        ..Default::default()
+    }))
+}
+
+/// A named whole number.
+#[must_use]
+pub fn named_int(v: &View, name: &str, value: i32) -> MavMessage {
+    MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: v.boot_ms(), value, name: name.into() })
+}
+
+/// A named number.
+#[must_use]
+pub fn named_float(v: &View, name: &str, value: f64) -> MavMessage {
+    MavMessage::NAMED_VALUE_FLOAT(NAMED_VALUE_FLOAT_DATA { time_boot_ms: v.boot_ms(), value: value as f32, name: name.into() })
+}

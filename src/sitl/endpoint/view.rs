@@ -1,0 +1,109 @@
+//! What the endpoint may look at when it speaks: one instant of the vehicle.
+
+use super::camera::CameraState;
+use super::gimbal::Gimbal;
+use super::lamp::LampState;
+use crate::base::frames::Vec3;
+use crate::base::geodesy::{Geo, LocalPlane};
+use crate::base::time::SimTime;
+use crate::sitl::autopilot::{Estimate, Status, Sticks};
+use crate::sitl::physics::{Actuators, RigidState, battery};
+use crate::sitl::sensors::Readings;
+use crate::vehicle::Vehicle;
+
+/// Truth and estimate, set-points and counters at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    /// Simulation time.
+    pub now: SimTime,
+    /// UTC at simulation start, seconds since the Unix epoch.
+    pub start_unix_s: i64,
+    /// The aircraft.
+    pub vehicle: &'a Vehicle,
+    /// Local plane.
+    pub plane: &'a LocalPlane,
+    /// What the autopilot believes.
+    pub estimate: &'a Estimate,
+    /// What the autopilot says.
+    pub status: &'a Status,
+    /// The last of each reading.
+    pub readings: &'a Readings,
+    /// The truth.
+    pub truth: &'a RigidState,
+    /// Specific force, m/s², body axes.
+    pub specific_force_m_s2: Vec3<crate::base::frames::Frd>,
+    /// Battery.
+    pub battery: &'a battery::State,
+    /// Motor commands.
+    pub actuators: &'a Actuators,
+    /// Wind at the aircraft, m/s.
+    pub wind_m_s: Vec3<crate::base::frames::Ned>,
+    /// Counters and truths for the scoring.
+    pub scoring: &'a Scoring,
+    /// Sticks as received, when they are fresh.
+    pub sticks: Option<Sticks>,
+    /// Gimbal.
+    pub gimbal: &'a Gimbal,
+    /// Lamp.
+    pub lamp: &'a LampState,
+    /// Camera.
+    pub camera: &'a CameraState,
+}
+
+/// What the scoring needs beside the motion (design.md, truth for the scoring).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Scoring {
+    /// 0 none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other.
+    pub contact: i32,
+    /// Contact onsets so far.
+    pub hits: i32,
+    /// Times put back.
+    pub respawns: i32,
+    /// The session's seed.
+    pub seed: i32,
+    /// CRC of the scenario.
+    pub scenario_crc: i32,
+    /// Nearest surface to the drone's centre, m.
+    pub clearance_m: f64,
+    /// Ambient light at the drone, lux.
+    pub lux: f64,
+}
+
+impl View<'_> {
+    /// Milliseconds since simulation start.
+    #[must_use]
+    pub fn boot_ms(&self) -> u32 {
+        self.now.ms() as u32
+    }
+
+    /// Microseconds since simulation start.
+    #[must_use]
+    pub fn boot_us(&self) -> u64 {
+        self.now.us().max(0).cast_unsigned()
+    }
+
+    /// Microseconds since the Unix epoch.
+    #[must_use]
+    pub fn unix_us(&self) -> u64 {
+        (self.start_unix_s * 1_000_000 + self.now.us()).max(0).cast_unsigned()
+    }
+
+    /// Estimated geographic position.
+    #[must_use]
+    pub fn geo(&self) -> Geo {
+        self.plane.geo_from_enu(self.estimate.position_m.enu())
+    }
+
+    /// True geographic position.
+    #[must_use]
+    pub fn true_geo(&self) -> Geo {
+        self.plane.geo_from_enu(self.truth.position_m.enu())
+    }
+
+    /// Height over home, m.
+    #[must_use]
+    pub fn over_home_m(&self) -> f64 {
+        let home = self.status.home_m.map_or(0.0, |h| h.down());
+        home - self.estimate.position_m.down()
+    }
+}
