@@ -50,9 +50,10 @@ impl<L: Copy + Ord> Router<L> {
         let (system, component) = target(frame);
         let reaches = |link: &L| {
             system == 0
-                || self.heard.iter().any(|((s, c), links)| {
-                    *s == system && (component == 0 || *c == component) && links.contains(link)
-                })
+                || self
+                    .heard
+                    .iter()
+                    .any(|((s, c), links)| *s == system && (component == 0 || *c == component) && links.contains(link))
         };
         all.iter().copied().filter(|l| *l != from).filter(reaches).collect()
     }

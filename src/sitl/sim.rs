@@ -100,6 +100,31 @@ pub struct Sim {
     digest: Sha256,
 }
 
+/// One instant of the vehicle, borrowing each of its parts on its own, so that endpoint and autopilot stay free to change.
+macro_rules! view {
+    ($sim:expr, $estimate:expr, $status:expr) => {
+        View {
+            now: $sim.now,
+            start_unix_s: $sim.config.scenario.light.start_unix_s,
+            vehicle: &$sim.config.vehicle,
+            plane: $sim.site.plane(),
+            estimate: $estimate,
+            status: $status,
+            readings: &$sim.readings,
+            truth: &$sim.state.rigid,
+            specific_force_m_s2: $sim.state.specific_force_m_s2,
+            battery: &$sim.state.battery,
+            actuators: &$sim.actuators,
+            wind_m_s: $sim.air.velocity_m_s,
+            scoring: &$sim.scoring,
+            sticks: $sim.endpoint.sticks($sim.now),
+            gimbal: $sim.endpoint.payload.gimbal,
+            lamp: $sim.endpoint.payload.lamp,
+            camera: $sim.endpoint.payload.camera.summary(),
+        }
+    };
+}
+
 impl Sim {
     /// On the pad, motors off.
     #[must_use]
@@ -259,17 +284,15 @@ impl Sim {
         inbox.sort_by_key(|(link, _)| *link);
         for (link, bytes) in inbox {
             self.digest.update(&bytes);
-            let Some((view, endpoint, autopilot)) = self.parts() else { return };
-            endpoint.receive(link, &bytes, &view, autopilot);
+            self.read(link, &bytes);
         }
     }
 
-    /// The view, the endpoint and the autopilot, borrowed apart.
-    fn parts(&mut self) -> Option<(View<'_>, &mut Endpoint, &mut Autopilot)> {
-        // The endpoint's own payload is shown to it as it was when the tick began.
-        let payload = Box::leak(Box::new(self.endpoint.payload.clone()));
-        let _ = payload;
-        None
+    fn read(&mut self, link: LinkId, bytes: &[u8]) {
+        let Backend::Builtin(autopilot) = &mut self.backend;
+        let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
+        let view = view!(self, &estimate, &status);
+        self.endpoint.receive(link, bytes, &view, autopilot);
     }
 
     fn tick(&mut self) {
@@ -432,37 +455,18 @@ impl Sim {
     }
 
     fn speak(&mut self) {
-        let payload = self.endpoint.payload.clone();
-        let sticks = self.endpoint.sticks(self.now);
         let Backend::Builtin(autopilot) = &mut self.backend;
-        let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
-        let view = View {
-            now: self.now,
-            start_unix_s: self.config.scenario.light.start_unix_s,
-            vehicle: &self.config.vehicle,
-            plane: self.site.plane(),
-            estimate: &estimate,
-            status: &status,
-            readings: &self.readings,
-            truth: &self.state.rigid,
-            specific_force_m_s2: self.state.specific_force_m_s2,
-            battery: &self.state.battery,
-            actuators: &self.actuators,
-            wind_m_s: self.air.velocity_m_s,
-            scoring: &self.scoring,
-            sticks,
-            gimbal: &payload.gimbal,
-            lamp: &payload.lamp,
-            camera: &payload.camera,
-        };
-        self.endpoint.observe(&view, autopilot);
+        let (events, reached) = (autopilot.drain_events(), autopilot.drain_reached());
+        let view = view!(self, autopilot.estimate(), autopilot.status());
+        self.endpoint.observe(&view, events, reached);
     }
 
     /// The tick's state enters the digest bit by bit.
     fn sign(&mut self) {
         let r = &self.state.rigid;
         let mut bits = [0u8; 8 * 13];
-        let values = r.position_m.array().into_iter().chain(r.velocity_m_s.array()).chain(r.attitude.wxyz()).chain(r.rates_rad_s.array());
+        let values =
+            r.position_m.array().into_iter().chain(r.velocity_m_s.array()).chain(r.attitude.wxyz()).chain(r.rates_rad_s.array());
         for (slot, value) in bits.chunks_exact_mut(8).zip(values) {
             slot.copy_from_slice(&value.to_bits().to_le_bytes());
         }

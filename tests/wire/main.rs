@@ -1,3 +1,5 @@
 //! The program as a user meets it: processes, sockets, files, exit codes.
 
 mod program;
+mod station;
+mod vehicle;

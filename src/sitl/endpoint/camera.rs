@@ -1,6 +1,6 @@
 //! The camera component: pictures, their geotags, picture series.
 
-use super::view::View;
+use super::view::{CameraSummary, View};
 use crate::base::frames::Rotation;
 use crate::base::time::SimTime;
 use crate::mav::dialect::{CAMERA_IMAGE_CAPTURED_DATA, MavBool, MavMessage};
@@ -31,6 +31,12 @@ const MOST_SHOTS: usize = 5_000;
 const LEAST_INTERVAL_S: f64 = 0.2;
 
 impl CameraState {
+    /// The counters.
+    #[must_use]
+    pub fn summary(&self) -> CameraSummary {
+        CameraSummary { pictures: self.shots.len(), interval_s: self.interval_s, mission_items: self.mission_items }
+    }
+
     /// Starts a series or takes one picture: `count` 0 means until stopped. False when the numbers make no sense.
     pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> bool {
         let whole = count.is_finite() && (0.0..=1e6).contains(&count);
@@ -92,7 +98,7 @@ impl Shot {
                 alt: mm(geo.altitude_m),
                 relative_alt: mm(v.over_home_m()),
                 q: attitude.wxyz().map(|c| c as f32),
-                image_index: v.camera.shots.len() as i32,
+                image_index: v.camera.pictures as i32,
                 camera_id: 0,
                 capture_result: MavBool::MAV_BOOL_TRUE,
                 file_url: "".into(),

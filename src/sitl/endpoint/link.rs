@@ -110,9 +110,10 @@ impl Link {
     /// Queues a whole frame.
     pub fn queue(&mut self, frame: Vec<u8>) {
         const MOST_WAITING: usize = 4_000;
+        let full = self.out.len() >= MOST_WAITING;
         match self.out.back_mut() {
             Some(last) if last.len() + frame.len() <= DATAGRAM => last.extend(frame),
-            _ if self.out.len() >= MOST_WAITING => {}
+            _ if full => {}
             _ => self.out.push_back(frame),
         }
     }

@@ -1,4 +1,5 @@
 //! Plans: upload and download of missions, fences and rally points, and what of a mission the autopilot can fly.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use crate::base::frames::{Ned, Vec3};
 use crate::base::geodesy::LocalPlane;
@@ -233,7 +234,8 @@ fn legal(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMiss
     if item.mission_type != MavMissionType::MAV_MISSION_TYPE_MISSION {
         return Ok(());
     }
-    let navigates = matches!(item.command, MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM);
+    let navigates =
+        matches!(item.command, MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM);
     if !item.z.is_finite() && navigates {
         return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM7);
     }
@@ -255,7 +257,11 @@ fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64, accept
             MissionStep::Waypoint {
                 position_m,
                 accept_m: if item.command == MavCmd::MAV_CMD_NAV_WAYPOINT && radius > 0.0 { radius } else { accept_m },
-                hold_s: if item.command == MavCmd::MAV_CMD_NAV_LOITER_UNLIM { f64::INFINITY } else { number(item.param1, 0.0).max(0.0) },
+                hold_s: if item.command == MavCmd::MAV_CMD_NAV_LOITER_UNLIM {
+                    f64::INFINITY
+                } else {
+                    number(item.param1, 0.0).max(0.0)
+                },
                 yaw_rad: (item.command == MavCmd::MAV_CMD_NAV_WAYPOINT && item.param4.is_finite())
                     .then(|| f64::from(item.param4).to_radians()),
             }

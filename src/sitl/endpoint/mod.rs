@@ -16,7 +16,7 @@ pub mod view;
 use crate::base::time::{Schedule, SimTime};
 use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use crate::mav::router::Router;
-use crate::sitl::autopilot::{Autopilot, Severity};
+use crate::sitl::autopilot::{Autopilot, Event, Severity};
 use camera::{CameraState, Shot};
 use gimbal::Gimbal;
 use lamp::LampState;
@@ -194,9 +194,9 @@ impl Endpoint {
     }
 
     /// What is due now goes out.
-    pub fn observe(&mut self, view: &View, autopilot: &mut Autopilot) {
+    pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
         self.take_picture(view);
-        for event in autopilot.drain_events() {
+        for event in events {
             let severity = match event.severity {
                 Severity::Critical => MavSeverity::MAV_SEVERITY_CRITICAL,
                 Severity::Warning => MavSeverity::MAV_SEVERITY_WARNING,
@@ -204,7 +204,7 @@ impl Endpoint {
             };
             self.texts.push((severity, event.text));
         }
-        for seq in autopilot.drain_reached() {
+        for seq in reached {
             let message = MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq: seq as u16 });
             self.broadcast(AUTOPILOT, &message);
         }

@@ -22,7 +22,15 @@ pub struct ModeRow {
     pub selectable: bool,
 }
 
-const fn row(mode: Mode, main: u8, sub: u8, name: &'static str, standard: MavStandardMode, auto: bool, selectable: bool) -> ModeRow {
+const fn row(
+    mode: Mode,
+    main: u8,
+    sub: u8,
+    name: &'static str,
+    standard: MavStandardMode,
+    auto: bool,
+    selectable: bool,
+) -> ModeRow {
     ModeRow { mode, main, sub, name, standard, auto, selectable }
 }
 

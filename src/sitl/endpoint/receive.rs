@@ -1,4 +1,5 @@
 //! What comes in: routing first, then what is meant for us.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::commands::{self, Command};
 use super::mission::Reply;
@@ -9,8 +10,8 @@ use super::{Context, Endpoint, LinkId, px4};
 use crate::base::frames::Rotation;
 use crate::mav::codec::Received;
 use crate::mav::dialect::{
-    FILE_TRANSFER_PROTOCOL_DATA, MavMessage, MavMissionResult, MavMissionType, MavParamError, MavParamType, MavType, PARAM_ERROR_DATA,
-    PARAM_SET_DATA, PARAM_VALUE_DATA, PING_DATA, PositionTargetTypemask, SET_ATTITUDE_TARGET_DATA,
+    FILE_TRANSFER_PROTOCOL_DATA, MavMessage, MavMissionResult, MavMissionType, MavParamError, MavParamType, MavType,
+    PARAM_ERROR_DATA, PARAM_SET_DATA, PARAM_VALUE_DATA, PING_DATA, PositionTargetTypemask, SET_ATTITUDE_TARGET_DATA,
     SET_POSITION_TARGET_GLOBAL_INT_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA, TIMESYNC_DATA,
 };
 use crate::mav::{router, units};
@@ -128,7 +129,9 @@ impl Endpoint {
             MavMessage::TIMESYNC(sync) => self.answer(id, &timesync(sync, from, view)),
             MavMessage::PING(ping) if ping.target_system == 0 => self.answer(id, &pong(ping, from)),
             MavMessage::FILE_TRANSFER_PROTOCOL(request) => self.answer(id, &ftp_refusal(request, from)),
-            MavMessage::REQUEST_DATA_STREAM(r) => self.data_stream(id, r.req_stream_id as u8, r.req_message_rate, r.start_stop, view),
+            MavMessage::REQUEST_DATA_STREAM(r) => {
+                self.data_stream(id, r.req_stream_id as u8, r.req_message_rate, r.start_stop, view)
+            }
             other => self.protocol(id, from, other, view, autopilot),
         }
     }
@@ -276,7 +279,12 @@ fn param_error(to: (u8, u8), name: &str, index: i16, error: MavParamError) -> Ma
 }
 
 fn timesync(sync: &TIMESYNC_DATA, from: (u8, u8), view: &View) -> MavMessage {
-    MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: view.now.ns().max(1), ts1: sync.ts1, target_system: from.0, target_component: from.1 })
+    MavMessage::TIMESYNC(TIMESYNC_DATA {
+        tc1: view.now.ns().max(1),
+        ts1: sync.ts1,
+        target_system: from.0,
+        target_component: from.1,
+    })
 }
 
 fn pong(ping: &PING_DATA, from: (u8, u8)) -> MavMessage {
@@ -320,8 +328,10 @@ fn axes(values: [f32; 3], ignored: [bool; 3]) -> Option<[Option<f64>; 3]> {
 fn mask(m: PositionTargetTypemask) -> ([bool; 3], [bool; 3], bool, bool) {
     use PositionTargetTypemask as P;
     (
-        [P::POSITION_TARGET_TYPEMASK_X_IGNORE, P::POSITION_TARGET_TYPEMASK_Y_IGNORE, P::POSITION_TARGET_TYPEMASK_Z_IGNORE].map(|f| m.contains(f)),
-        [P::POSITION_TARGET_TYPEMASK_VX_IGNORE, P::POSITION_TARGET_TYPEMASK_VY_IGNORE, P::POSITION_TARGET_TYPEMASK_VZ_IGNORE].map(|f| m.contains(f)),
+        [P::POSITION_TARGET_TYPEMASK_X_IGNORE, P::POSITION_TARGET_TYPEMASK_Y_IGNORE, P::POSITION_TARGET_TYPEMASK_Z_IGNORE]
+            .map(|f| m.contains(f)),
+        [P::POSITION_TARGET_TYPEMASK_VX_IGNORE, P::POSITION_TARGET_TYPEMASK_VY_IGNORE, P::POSITION_TARGET_TYPEMASK_VZ_IGNORE]
+            .map(|f| m.contains(f)),
         m.contains(P::POSITION_TARGET_TYPEMASK_YAW_IGNORE),
         m.contains(P::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE),
     )

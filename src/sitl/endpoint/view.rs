@@ -1,6 +1,5 @@
 //! What the endpoint may look at when it speaks: one instant of the vehicle.
 
-use super::camera::CameraState;
 use super::gimbal::Gimbal;
 use super::lamp::LampState;
 use crate::base::frames::Vec3;
@@ -43,11 +42,22 @@ pub struct View<'a> {
     /// Sticks as received, when they are fresh.
     pub sticks: Option<Sticks>,
     /// Gimbal.
-    pub gimbal: &'a Gimbal,
+    pub gimbal: Gimbal,
     /// Lamp.
-    pub lamp: &'a LampState,
+    pub lamp: LampState,
     /// Camera.
-    pub camera: &'a CameraState,
+    pub camera: CameraSummary,
+}
+
+/// The camera's counters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraSummary {
+    /// Pictures taken.
+    pub pictures: usize,
+    /// Seconds between pictures of a running series.
+    pub interval_s: Option<f64>,
+    /// Items of the uploaded mission.
+    pub mission_items: u16,
 }
 
 /// What the scoring needs beside the motion (design.md, truth for the scoring).

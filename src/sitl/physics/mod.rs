@@ -232,11 +232,17 @@ impl Model {
         math::exp(-0.5 * dt_s / self.rotor.time_constant_s)
     }
 
+    /// Rotor speed that carries the weight, rad/s.
+    #[must_use]
+    pub fn hover_rotor_rad_s(&self) -> f64 {
+        let per_rotor = self.mass_kg * math::GRAVITY_M_S2 / self.rotors.len() as f64;
+        (per_rotor / self.rotor.thrust_coefficient_n_s2).sqrt()
+    }
+
     /// Motor command (0..1) at which the rotors carry the weight, with a full battery.
     #[must_use]
     pub fn hover_command(&self) -> f64 {
-        let per_rotor = self.mass_kg * math::GRAVITY_M_S2 / self.rotors.len() as f64;
-        let speed = (per_rotor / self.rotor.thrust_coefficient_n_s2).sqrt();
+        let speed = self.hover_rotor_rad_s();
         (speed - self.rotor.idle_speed_rad_s) / (self.rotor.max_speed_rad_s - self.rotor.idle_speed_rad_s)
     }
 

@@ -70,6 +70,22 @@ pub struct Readings {
     pub battery: Option<BatteryReading>,
 }
 
+impl Readings {
+    /// Takes over what is new, keeps the rest: the last of every reading.
+    pub fn keep(&mut self, fresh: &Self) {
+        self.imu = fresh.imu.or(self.imu);
+        self.gnss = fresh.gnss.or(self.gnss);
+        self.baro_up_m = fresh.baro_up_m.or(self.baro_up_m);
+        self.pressure_pa = fresh.pressure_pa.or(self.pressure_pa);
+        self.mag_gauss = fresh.mag_gauss.or(self.mag_gauss);
+        self.range_down_m = fresh.range_down_m.or(self.range_down_m);
+        self.range_up_m = fresh.range_up_m.or(self.range_up_m);
+        self.range_around_m = fresh.range_around_m.or(self.range_around_m);
+        self.flow = fresh.flow.or(self.flow);
+        self.battery = fresh.battery.or(self.battery);
+    }
+}
+
 /// Optical-flow velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlowReading {

@@ -1,7 +1,6 @@
 //! Arming, modes, take-off, go-to, landing.
 
 use super::super::px4;
-use super::super::streams;
 use super::{Command, result};
 use crate::mav::dialect::{MavCmd, MavResult};
 use crate::sitl::autopilot::{Mode, Request};
@@ -29,7 +28,11 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             None => return Some(DENIED),
         },
         n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 => {
-            if c.is_one(0) { Request::StartMission { first: None } } else { Request::SetMode(Mode::Hold) }
+            if c.is_one(0) {
+                Request::StartMission { first: None }
+            } else {
+                Request::SetMode(Mode::Hold)
+            }
         }
         n if n == M::MAV_CMD_MISSION_START as u16 => {
             Request::StartMission { first: c.given(0).filter(|f| *f > 0.0).map(|f| f as usize) }
@@ -46,7 +49,11 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 && c.p[0] > 0.5 => Request::Disarm { force: true },
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {
-            return Some(if x.view.status.armed { MavResult::MAV_RESULT_TEMPORARILY_REJECTED } else { MavResult::MAV_RESULT_UNSUPPORTED });
+            return Some(if x.view.status.armed {
+                MavResult::MAV_RESULT_TEMPORARILY_REJECTED
+            } else {
+                MavResult::MAV_RESULT_UNSUPPORTED
+            });
         }
         _ => return None,
     };
@@ -94,7 +101,9 @@ fn standard_mode(c: &Command) -> Option<Mode> {
 fn take_off_height(c: &Command, x: &Context) -> Option<f64> {
     let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
     let relative = matches!(c.frame, 3 | 6 | 10 | 11);
-    c.given(6).map(|z| if relative { z } else { z - x.view.plane.origin().altitude_m - home_up }).filter(|h| (0.5..500.0).contains(h))
+    c.given(6)
+        .map(|z| if relative { z } else { z - x.view.plane.origin().altitude_m - home_up })
+        .filter(|h| (0.5..500.0).contains(h))
 }
 
 fn reposition(c: &Command, x: &Context) -> Option<Request> {
@@ -144,14 +153,4 @@ fn checks(x: &mut Context) -> MavResult {
         x.tell(&format!("Preflight Fail: {reason}"));
     }
     MavResult::MAV_RESULT_ACCEPTED
-}
-
-/// Rows that a mode list has.
-pub(super) fn modes() -> usize {
-    px4::MODES.len()
-}
-
-/// The standard mode number of a row, for AVAILABLE_MODES.
-pub(super) fn standard_of(mode: Mode) -> crate::mav::dialect::MavStandardMode {
-    streams::standard(mode)
 }

@@ -1,8 +1,9 @@
-//! Asking for messages and their rates.
+//! Asking for messages and their rates, by the present commands and by the older ones that clients still send.
+#![allow(deprecated, reason = "clients still send the superseded commands")]
 
 use super::super::px4;
 use super::super::streams::{self, AUTOPILOT, CAMERA, STREAMS};
-use super::{Command, flight};
+use super::Command;
 use crate::mav::dialect::{AVAILABLE_MODES_DATA, MESSAGE_INTERVAL_DATA, MavCmd, MavMessage, MavModeProperty, MavResult};
 use crate::sitl::endpoint::Context;
 
@@ -39,7 +40,8 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
 
 /// Rows of a message that the addressed component speaks.
 fn addressed(id: u32, component: u8) -> impl Iterator<Item = usize> {
-    let mine = move |row: &usize| component == 0 || STREAMS[*row].component == component || !matches!(component, AUTOPILOT | CAMERA);
+    let mine =
+        move |row: &usize| component == 0 || STREAMS[*row].component == component || !matches!(component, AUTOPILOT | CAMERA);
     streams::rows_of(id).map(|(row, _)| row).filter(mine)
 }
 
@@ -48,7 +50,7 @@ fn request(id: u32, index: f64, component: u8, x: &mut Context) -> MavResult {
         return modes(index, x);
     }
     if id == IMAGE_CAPTURED {
-        let again = index.is_finite().then(|| x.view.camera.again(index as i64)).flatten();
+        let again = index.is_finite().then(|| x.payload.camera.again(index as i64)).flatten();
         return again.map_or(DENIED, |message| x.answer(CAMERA, &message));
     }
     let rows: Vec<usize> = addressed(id, component).collect();
@@ -64,7 +66,7 @@ fn request(id: u32, index: f64, component: u8, x: &mut Context) -> MavResult {
 
 /// One mode, or with index 0 all of them.
 fn modes(index: f64, x: &mut Context) -> MavResult {
-    let count = flight::modes();
+    let count = px4::MODES.len();
     let wanted = if index.is_finite() && index >= 0.0 { index as usize } else { return DENIED };
     if wanted > count {
         return DENIED;
@@ -78,7 +80,7 @@ fn modes(index: f64, x: &mut Context) -> MavResult {
             properties,
             number_modes: count as u8,
             mode_index: (k + 1) as u8,
-            standard_mode: flight::standard_of(row.mode),
+            standard_mode: row.standard,
             mode_name: row.name.into(),
         });
         x.answer(AUTOPILOT, &message);

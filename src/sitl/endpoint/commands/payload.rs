@@ -1,4 +1,5 @@
 //! Camera, gimbal and lamp.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::super::gimbal::{Aim, DEVICE};
 use super::Command;
@@ -33,7 +34,11 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         n if n == M::MAV_CMD_ILLUMINATOR_ON_OFF as u16 => lamp(c.p[0], x),
         n if n == M::MAV_CMD_DO_ILLUMINATOR_CONFIGURE as u16 => brightness(c, x),
         n if n == M::MAV_CMD_DO_SET_RELAY as u16 => {
-            if c.p[0] == 0.0 { lamp(c.p[1], x) } else { DENIED }
+            if c.p[0] == 0.0 {
+                lamp(c.p[1], x)
+            } else {
+                DENIED
+            }
         }
         n if n == M::MAV_CMD_DO_SET_ACTUATOR as u16 => match c.given(0) {
             Some(value) => lamp(if value > 0.0 { 1.0 } else { 0.0 }, x),

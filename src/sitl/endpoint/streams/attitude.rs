@@ -1,9 +1,7 @@
 //! Attitude as estimated and as wanted.
 
 use super::super::view::View;
-use crate::mav::dialect::{
-    ATTITUDE_DATA, ATTITUDE_QUATERNION_DATA, ATTITUDE_TARGET_DATA, AttitudeTargetTypemask, MavMessage,
-};
+use crate::mav::dialect::{ATTITUDE_DATA, ATTITUDE_QUATERNION_DATA, ATTITUDE_TARGET_DATA, AttitudeTargetTypemask, MavMessage};
 
 pub(super) fn attitude(v: &View) -> Option<MavMessage> {
     let (roll, pitch, yaw) = v.estimate.attitude.euler();

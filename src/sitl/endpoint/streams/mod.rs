@@ -5,7 +5,7 @@ mod payload;
 mod position;
 mod sensors;
 mod system;
-mod truth;
+pub mod truth;
 
 use super::LinkKind;
 use super::view::View;

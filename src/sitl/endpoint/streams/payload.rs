@@ -5,10 +5,10 @@ use super::super::view::View;
 use crate::base::math;
 use crate::mav::dialect::{
     CAMERA_CAPTURE_STATUS_DATA, CAMERA_INFORMATION_DATA, CAMERA_SETTINGS_DATA, CameraCapFlags, CameraMode,
-    GIMBAL_DEVICE_ATTITUDE_STATUS_DATA, GIMBAL_DEVICE_INFORMATION_DATA, GIMBAL_MANAGER_INFORMATION_DATA, GIMBAL_MANAGER_STATUS_DATA,
-    GimbalDeviceErrorFlags, GimbalDeviceFlags, GimbalManagerCapFlags, GimbalManagerFlags, HEARTBEAT_DATA, ILLUMINATOR_STATUS_DATA,
-    IlluminatorErrorFlags, IlluminatorMode, MavAutopilot, MavMessage, MavModeFlag, MavState, MavType, RELAY_STATUS_DATA,
-    STORAGE_INFORMATION_DATA, StorageStatus, StorageType,
+    GIMBAL_DEVICE_ATTITUDE_STATUS_DATA, GIMBAL_DEVICE_INFORMATION_DATA, GIMBAL_MANAGER_INFORMATION_DATA,
+    GIMBAL_MANAGER_STATUS_DATA, GimbalDeviceErrorFlags, GimbalDeviceFlags, GimbalManagerCapFlags, GimbalManagerFlags,
+    HEARTBEAT_DATA, ILLUMINATOR_STATUS_DATA, IlluminatorErrorFlags, IlluminatorMode, MavAutopilot, MavMessage, MavModeFlag,
+    MavState, MavType, RELAY_STATUS_DATA, STORAGE_INFORMATION_DATA, StorageStatus, StorageType,
 };
 
 /// A memory card of this size, MiB (estimate).
@@ -63,7 +63,7 @@ pub(super) fn camera_settings(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn storage(v: &View) -> Option<MavMessage> {
-    let used = v.camera.shots.len() as f32 * PICTURE_MIB;
+    let used = v.camera.pictures as f32 * PICTURE_MIB;
     Some(MavMessage::STORAGE_INFORMATION(STORAGE_INFORMATION_DATA {
         time_boot_ms: v.boot_ms(),
         total_capacity: CARD_MIB,
@@ -84,9 +84,9 @@ pub(super) fn capture_status(v: &View) -> Option<MavMessage> {
     Some(MavMessage::CAMERA_CAPTURE_STATUS(CAMERA_CAPTURE_STATUS_DATA {
         time_boot_ms: v.boot_ms(),
         image_interval: v.camera.interval_s.unwrap_or(0.0) as f32,
-        available_capacity: CARD_MIB - v.camera.shots.len() as f32 * PICTURE_MIB,
+        available_capacity: CARD_MIB - v.camera.pictures as f32 * PICTURE_MIB,
         image_status: if busy { 2 } else { 0 },
-        image_count: v.camera.shots.len() as i32,
+        image_count: v.camera.pictures as i32,
         ..Default::default()
     }))
 }

@@ -3,17 +3,17 @@
 use super::super::view::View;
 use crate::base::frames::Vec3;
 use crate::mav::dialect::{
-    ALTITUDE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA, MavEstimatorType,
-    MavFrame, MavMessage, ODOMETRY_DATA, POSITION_TARGET_LOCAL_NED_DATA, PositionTargetTypemask, VFR_HUD_DATA,
+    ALTITUDE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA,
+    MavEstimatorType, MavFrame, MavMessage, ODOMETRY_DATA, POSITION_TARGET_LOCAL_NED_DATA, PositionTargetTypemask, VFR_HUD_DATA,
 };
 use crate::mav::units::{cm, deg_e7, heading_cdeg, mm};
 
 pub(super) fn local(v: &View) -> Option<MavMessage> {
     let [x, y, z] = v.estimate.position_m.array().map(|c| c as f32);
     let [vx, vy, vz] = v.estimate.velocity_m_s.array().map(|c| c as f32);
-    v.estimate.attitude_valid.then(|| {
-        MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { time_boot_ms: v.boot_ms(), x, y, z, vx, vy, vz })
-    })
+    v.estimate
+        .attitude_valid
+        .then(|| MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { time_boot_ms: v.boot_ms(), x, y, z, vx, vy, vz }))
 }
 
 pub(super) fn global(v: &View) -> Option<MavMessage> {

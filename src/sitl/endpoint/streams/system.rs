@@ -1,4 +1,5 @@
 //! State of the vehicle as a whole.
+#![allow(deprecated, reason = "clients still ask for PROTOCOL_VERSION")]
 
 use super::super::px4;
 use super::super::view::View;
@@ -6,8 +7,8 @@ use crate::mav::dialect::{
     AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, CURRENT_MODE_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA,
     EstimatorStatusFlags, FLIGHT_INFORMATION_DATA, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavAutopilot, MavBatteryChargeState,
     MavBatteryFault, MavBatteryFunction, MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag,
-    MavProtocolCapability, MavStandardMode, MavState, MavSysStatusSensor, MavSysStatusSensorExtended, MavType, MavVtolState,
-    MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
+    MavProtocolCapability, MavState, MavSysStatusSensor, MavSysStatusSensorExtended, MavType, MavVtolState, MissionState,
+    PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
 };
 use crate::sitl::autopilot::{Landed, Mode};
 
@@ -219,14 +220,14 @@ pub(super) fn version(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn protocol(_: &View) -> Option<MavMessage> {
-    Some(MavMessage::PROTOCOL_VERSION(PROTOCOL_VERSION_DATA { version: 200, min_version: 100, max_version: 200, ..Default::default() }))
+    Some(MavMessage::PROTOCOL_VERSION(PROTOCOL_VERSION_DATA {
+        version: 200,
+        min_version: 100,
+        max_version: 200,
+        ..Default::default()
+    }))
 }
 
 pub(super) fn flight(v: &View) -> Option<MavMessage> {
     Some(MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { time_boot_ms: v.boot_ms(), ..Default::default() }))
-}
-
-/// The standard mode of a row for AVAILABLE_MODES.
-pub fn standard(mode: Mode) -> MavStandardMode {
-    px4::row_of(mode).standard
 }

@@ -1,0 +1,126 @@
+//! A ground station and a monitor's place on an in-process vehicle: no sockets, no clock.
+
+use spandrel::base::time::SimTime;
+use spandrel::mav::codec::{Decoder, Encoder, Received};
+use spandrel::mav::dialect::{
+    COMMAND_LONG_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavModeFlag, MavResult, MavType,
+};
+use spandrel::scenario::Scenario;
+use spandrel::site::Site;
+use spandrel::sitl::endpoint::{LinkId, LinkKind};
+use spandrel::sitl::sim::{Sim, SimConfig};
+use std::path::Path;
+use std::sync::Arc;
+
+pub const GCS: LinkId = LinkId(1);
+
+pub fn shipped(path: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+pub fn scenario(name: &str) -> Scenario {
+    let file = format!("scenarios/{name}.toml");
+    spandrel::scenario::read(&file, &shipped(&file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+pub struct Station {
+    pub sim: Sim,
+    encoder: Encoder,
+    decoder: Decoder,
+    pub heard: Vec<Received>,
+}
+
+impl Station {
+    pub fn new(scenario_name: &str, seed: u64) -> Self {
+        let scenario = Arc::new(scenario(scenario_name));
+        let file = "vehicle-params/phantom2.toml";
+        let vehicle = Arc::new(spandrel::vehicle::read(file, &shipped(file)).unwrap());
+        let site = Arc::new(Site::build(&scenario, seed));
+        let mut sim = Sim::new(SimConfig { scenario, vehicle, seed, instance: 0 }, site);
+        sim.open_link(GCS, LinkKind::GroundStation, false);
+        Self { sim, encoder: Encoder::new(255, 190), decoder: Decoder::new(), heard: Vec::new() }
+    }
+
+    pub fn send(&mut self, message: &MavMessage) {
+        let bytes = self.encoder.encode(message);
+        self.sim.handle_datagram(GCS, &bytes);
+    }
+
+    /// Runs for a while and collects what the vehicle says.
+    pub fn run_ms(&mut self, ms: i64) {
+        let until = self.sim.now() + SimTime::from_ms(ms);
+        self.sim.handle_timeout(until);
+        while let Some(transmit) = self.sim.poll_transmit() {
+            let frames = self.decoder.datagram(&transmit.bytes);
+            assert_eq!(self.decoder.bad_bytes(), 0, "whole frames only");
+            self.heard.extend(frames);
+        }
+    }
+
+    pub fn beat(&mut self) {
+        self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
+            mavtype: MavType::MAV_TYPE_GCS,
+            base_mode: MavModeFlag::empty(),
+            ..HEARTBEAT_DATA::default()
+        }));
+    }
+
+    /// The last message that a filter likes.
+    pub fn last<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Option<T> {
+        self.heard.iter().rev().filter_map(|f| f.message.as_ref()).find_map(pick)
+    }
+
+    /// Sends a command and returns the result of its acknowledgement, which must come at once.
+    pub fn command(&mut self, component: u8, command: MavCmd, p: [f32; 7]) -> MavResult {
+        self.heard.clear();
+        self.send(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+            command,
+            param1: p[0],
+            param2: p[1],
+            param3: p[2],
+            param4: p[3],
+            param5: p[4],
+            param6: p[5],
+            param7: p[6],
+            target_system: 1,
+            target_component: component,
+            confirmation: 0,
+        }));
+        self.run_ms(2);
+        self.last(|m| match m {
+            MavMessage::COMMAND_ACK(ack) if ack.command == command && ack.target_system == 255 => Some(ack.result),
+            _ => None,
+        })
+        .unwrap_or_else(|| panic!("{command:?} was not acknowledged"))
+    }
+
+    pub fn sticks(&mut self, forward: i16, right: i16, z: i16, yaw: i16) {
+        self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
+            target: 1,
+            x: forward,
+            y: right,
+            z,
+            r: yaw,
+            ..MANUAL_CONTROL_DATA::default()
+        }));
+    }
+
+    /// Armed and climbing by hand to about five metres.
+    pub fn airborne(scenario_name: &str, seed: u64) -> Self {
+        let mut station = Self::new(scenario_name, seed);
+        station.run_ms(2500);
+        station.sticks(0, 0, 500, 0);
+        station.run_ms(20);
+        assert_eq!(
+            station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+            MavResult::MAV_RESULT_ACCEPTED
+        );
+        let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
+        for _ in 0..150 {
+            station.sticks(0, 0, 750, 0);
+            station.run_ms(20);
+        }
+        station
+    }
+}
