@@ -22,26 +22,7 @@ fn wire_the_first_heartbeat_comes_at_once_and_the_vehicle_is_armable_within_two_
 fn wire_every_command_is_answered_at_once() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(500);
-    for number in 0..3000u32 {
-        let Some(command) = MavCmd::from_number(number) else { continue };
-        for component in [1, 100] {
-            station.command(component, command, [f32::NAN, 1e30, -1.0, 0.0, f32::INFINITY, 91.0, 5.0]);
-        }
-    }
-}
-
-trait FromNumber: Sized {
-    fn from_number(number: u32) -> Option<Self>;
-}
-
-impl FromNumber for MavCmd {
-    fn from_number(number: u32) -> Option<Self> {
-        num_traits_from(number)
-    }
-}
-
-fn num_traits_from(number: u32) -> Option<MavCmd> {
-    [
+    let commands = [
         MavCmd::MAV_CMD_NAV_TAKEOFF,
         MavCmd::MAV_CMD_NAV_LAND,
         MavCmd::MAV_CMD_DO_REPOSITION,
@@ -56,9 +37,12 @@ fn num_traits_from(number: u32) -> Option<MavCmd> {
         MavCmd::MAV_CMD_DO_CHANGE_SPEED,
         MavCmd::MAV_CMD_INJECT_FAILURE,
         MavCmd::MAV_CMD_DO_SET_ROI_LOCATION,
-    ]
-    .into_iter()
-    .find(|c| *c as u32 == number)
+    ];
+    for command in commands {
+        for component in [1, 100] {
+            station.command(component, command, [f32::NAN, 1e30, -1.0, 0.0, f32::INFINITY, 91.0, 5.0]);
+        }
+    }
 }
 
 #[test]
