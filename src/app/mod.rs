@@ -12,15 +12,13 @@ mod export;
 mod files;
 mod logging;
 mod monitor;
-#[allow(dead_code, reason = "the sim subcommand uses the rest")]
 mod net;
-#[allow(dead_code, reason = "the sim subcommand uses the rest")]
 mod pace;
 mod pilot;
-#[allow(dead_code, reason = "the sim subcommand uses the rest")]
 mod ports;
 mod progress;
 mod session_folder;
+mod sim;
 mod stop;
 mod table;
 mod train;
@@ -49,6 +47,7 @@ pub struct Cli {
 enum Command {
     Train(train::Args),
     Demo(demo::Args),
+    Sim(sim::Args),
     Monitor(monitor::Args),
     Pilot(pilot::Args),
     Assess(assess::Args),
@@ -64,6 +63,7 @@ pub fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Train(args) => train::run(args, cli.log),
         Command::Demo(args) => demo::run(args, cli.log),
+        Command::Sim(args) => sim::run(args),
         Command::Monitor(args) => monitor::run(args),
         Command::Pilot(args) => pilot::run(args),
         Command::Assess(args) => assess::run(args),

@@ -138,8 +138,10 @@ fn local(port: u16) -> SocketAddr {
 /// What kind of peer is behind a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Face {
-    /// A ground station.
+    /// A ground station over UDP.
     GroundStation,
+    /// A ground station over TCP.
+    Tcp,
     /// An SDK or another onboard program.
     Sdk,
     /// The monitor and other sidecars.
@@ -176,7 +178,7 @@ pub enum Change {
 enum Route {
     Fixed { socket: SocketId, peer: SocketAddr },
     Learned { socket: SocketId, peer: SocketAddr, heard: Duration },
-    Stream { stream: StreamId, from: SocketAddr, decoder: Decoder },
+    Stream { stream: StreamId, decoder: Decoder },
 }
 
 /// All links of the vehicle.
@@ -289,15 +291,6 @@ impl Links {
         }
     }
 
-    /// Who is behind a link, for messages.
-    pub fn name(&self, link: u32) -> String {
-        match self.routes.get(&link) {
-            Some(Route::Fixed { peer, .. } | Route::Learned { peer, .. }) => peer.to_string(),
-            Some(Route::Stream { from, .. }) => from.to_string(),
-            None => "a peer that is gone".to_owned(),
-        }
-    }
-
     /// What found a queue full.
     pub fn dropped(&self) -> u64 {
         self.hub.dropped()
@@ -325,9 +318,9 @@ impl Links {
             Arrival::Connected(stream, from) => {
                 let link = self.number();
                 tracing::info!("TCP client {from} is connected");
-                self.routes.insert(link, Route::Stream { stream, from, decoder: Decoder::new() });
+                self.routes.insert(link, Route::Stream { stream, decoder: Decoder::new() });
                 self.by_stream.insert(stream, link);
-                self.changes.push_back(Change::Opened { link, face: Face::GroundStation, lockstep: false });
+                self.changes.push_back(Change::Opened { link, face: Face::Tcp, lockstep: false });
             }
             Arrival::Bytes(stream, bytes) => {
                 let Some(link) = self.by_stream.get(&stream).copied() else { return };

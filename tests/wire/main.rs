@@ -1,5 +1,6 @@
 //! The program as a user meets it: processes, sockets, files, exit codes.
 
+mod flights;
 mod program;
 mod station;
 mod vehicle;

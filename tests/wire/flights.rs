@@ -1,0 +1,193 @@
+//! Whole flights by separate processes over real UDP: demos that repeat, demos side by side, a monitor that is killed, children that
+//! outlive nobody.
+
+use serde_json::Value;
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdout, Command, Output, Stdio};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_spandrel");
+
+fn demo(sessions: &Path, seed: &str) -> Command {
+    let mut command = Command::new(PROGRAM);
+    command.args(["demo", "--scenario", "drill-hover", "--skill", "expert", "--speed", "max", "--seed", seed, "--sessions"]);
+    command.arg(sessions).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn only_session(sessions: &Path) -> PathBuf {
+    let folders: Vec<PathBuf> = std::fs::read_dir(sessions).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(folders.len(), 1, "{folders:?}");
+    folders[0].clone()
+}
+
+fn well(output: &Output) -> String {
+    let out = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{out}{}", String::from_utf8_lossy(&output.stderr));
+    out
+}
+
+fn printed(args: &[&str]) -> String {
+    well(&Command::new(PROGRAM).args(args).output().unwrap())
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+}
+
+#[test]
+fn wire_a_demo_leaves_a_whole_session_that_scores_the_same_again_and_repeats_bit_by_bit() {
+    let (first, second) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let out = well(&demo(first.path(), "7").output().unwrap());
+    well(&demo(second.path(), "7").output().unwrap());
+    let (a, b) = (only_session(first.path()), only_session(second.path()));
+    for line in ["conformity", "efficiency", "safety", "accuracy", "overall", "crashes", "snapshots", "session"] {
+        assert!(out.lines().any(|text| text.starts_with(line)), "no {line} in\n{out}");
+    }
+    assert!(out.contains(&a.display().to_string()));
+    for file in ["telemetry.tlog", "scenario.toml", "vehicle.toml", "session.json", "events.jsonl", "assessment.json"] {
+        assert!(std::fs::metadata(a.join(file)).is_ok_and(|file| file.len() > 0), "{file} is missing");
+    }
+    let (a, b) = (a.display().to_string(), b.display().to_string());
+    let again = printed(&["assess", &a, "--json", "-"]);
+    assert_eq!(again.into_bytes(), std::fs::read(Path::new(&a).join("assessment.json")).unwrap());
+    let frames = printed(&["export", &a, "--frames", "-"]);
+    assert!(frames.lines().count() > 30);
+    assert_eq!(frames, printed(&["export", &b, "--frames", "-"]));
+    assert_eq!(json(&Path::new(&a).join("assessment.json"))["end"]["reason"], "landed");
+}
+
+#[test]
+fn wire_four_demos_side_by_side_all_end_well() {
+    let folders: Vec<_> = (0..4).map(|_| tempfile::tempdir().unwrap()).collect();
+    let running: Vec<Child> =
+        folders.iter().zip(["1", "2", "3", "4"]).map(|(folder, seed)| demo(folder.path(), seed).spawn().unwrap()).collect();
+    for (child, folder) in running.into_iter().zip(&folders) {
+        well(&child.wait_with_output().unwrap());
+        assert!(only_session(folder.path()).join("assessment.json").is_file());
+    }
+}
+
+/// A process of ours on a leash, with its announcement.
+struct Process {
+    child: Child,
+    out: BufReader<ChildStdout>,
+    announced: Value,
+}
+
+impl Process {
+    fn start(args: &[&str]) -> Self {
+        let mut child = Command::new(PROGRAM)
+            .args(args)
+            .args(["--announce", "--leash", "--log", "warn"])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut out = BufReader::new(child.stdout.take().unwrap());
+        let mut line = String::new();
+        out.read_line(&mut line).unwrap();
+        let announced = serde_json::from_str(&line).unwrap_or_else(|error| panic!("{args:?} announced '{line}': {error}"));
+        Self { child, out, announced }
+    }
+
+    fn port(&self) -> String {
+        self.announced["port"].to_string()
+    }
+
+    /// Lets it finish and returns what it printed; a child that does not finish hangs the test, and that is a failure too.
+    fn finish(mut self) -> (bool, String) {
+        drop(self.child.stdin.take());
+        let mut rest = String::new();
+        self.out.read_to_string(&mut rest).unwrap();
+        (self.child.wait().unwrap().success(), rest)
+    }
+}
+
+#[test]
+fn wire_a_killed_monitor_goes_on_where_it_stopped() {
+    let sessions = tempfile::tempdir().unwrap();
+    let folder = sessions.path().display().to_string();
+    let job = ["--scenario", "drill-hover", "--seed", "5"];
+    let mut monitor = Process::start(&[&["monitor", "--port", "0", "--sessions", &folder], &job[..]].concat());
+    let pilot = Process::start(&[&["pilot", "--port", "0", "--skill", "expert"], &job[..]].concat());
+    let (monitor_port, pilot_at) = (monitor.port(), format!("127.0.0.1:{}", pilot.port()));
+    // The pilot keeps step and the monitor does not: its absence must not stop the flight.
+    let calls = ["--gcs", &pilot_at, "--lockstep", &pilot_at, "--monitor-port", &monitor_port, "--speed", "8"];
+    let sim = Process::start(&[&["sim", "--ports", "ephemeral"], &job[..], &calls[..]].concat());
+
+    let session = PathBuf::from(monitor.announced["session"].as_str().unwrap());
+    let log = session.join("telemetry.tlog");
+    let flying = || std::fs::read_to_string(session.join("events.jsonl")).is_ok_and(|events| events.contains("lift"));
+    while !flying() {
+        assert!(monitor.child.try_wait().unwrap().is_none(), "the monitor ended before lift-off");
+        std::thread::yield_now();
+    }
+    monitor.child.kill().unwrap();
+    monitor.child.wait().unwrap();
+    let before = std::fs::read(&log).unwrap();
+
+    let session_text = session.display().to_string();
+    let again = Process::start(&["monitor", "--port", &monitor_port, "--session", &session_text]);
+    let mut again = again;
+    let ended = again.child.wait().unwrap();
+    assert!(ended.success());
+    let whole = spandrel::telemetry::tlog::whole_len(&before);
+    assert_eq!(std::fs::read(&log).unwrap()[..whole], before[..whole], "what was received is lost");
+    assert_eq!(json(&session.join("session.json"))["monitor_starts"], 2);
+    assert_eq!(json(&session.join("assessment.json"))["end"]["reason"], "landed");
+    let (_, report) = pilot.finish();
+    assert!(report.contains("landed"), "{report}");
+    assert!(sim.finish().0);
+}
+
+#[test]
+fn wire_a_peer_that_vanishes_in_lockstep_ends_the_run_with_its_reason() {
+    let deaf = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
+    let peer = deaf.local_addr().unwrap().to_string();
+    let output = Command::new(PROGRAM)
+        .args(["sim", "--ports", "ephemeral", "--scenario", "drill-hover", "--seed", "1", "--gcs", &peer, "--lockstep", &peer])
+        .output()
+        .unwrap();
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(err.contains("has not answered TIMESYNC"), "{err}");
+}
+
+#[test]
+fn wire_the_same_seed_gives_the_same_digest_without_anybody_listening() {
+    let run = |seed: &str| {
+        printed(&[
+            "sim", "--ports", "ephemeral", "--speed", "max", "--end-after", "5", "--digest", "--scenario", "drill-hover", "--seed", seed,
+        ])
+    };
+    let digest = run("3");
+    assert_eq!(digest.trim().len(), 64, "{digest}");
+    assert_eq!(digest, run("3"));
+    assert_ne!(digest, run("4"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn wire_children_end_with_a_parent_that_is_killed() {
+    let sessions = tempfile::tempdir().unwrap();
+    let mut command = demo(sessions.path(), "9");
+    let mut parent = command.args(["--log", "error"]).spawn().unwrap();
+    let children = |of: u32| {
+        let text = std::fs::read_to_string(format!("/proc/{of}/task/{of}/children")).unwrap_or_default();
+        text.split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let mut family = children(parent.id());
+    while family.len() < 3 {
+        assert!(parent.try_wait().unwrap().is_none(), "the demo ended early");
+        family = children(parent.id());
+        std::thread::yield_now();
+    }
+    parent.kill().unwrap();
+    parent.wait().unwrap();
+    // A zombie without a parent is reaped by init; a process that runs on keeps its command line.
+    let alive = |pid: &String| std::fs::read(format!("/proc/{pid}/cmdline")).is_ok_and(|line| !line.is_empty());
+    while family.iter().any(alive) {
+        std::thread::yield_now();
+    }
+}
