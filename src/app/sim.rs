@@ -65,7 +65,11 @@ pub struct Args {
 
 fn seconds(text: &str) -> Result<SimTime, String> {
     let s: f64 = text.parse().map_err(|_| format!("'{text}' is no number of seconds"))?;
-    if (0.0..=1e6).contains(&s) { Ok(SimTime::from_s(s)) } else { Err(format!("'{text}' is out of range (allowed: 0 to 1000000 s)")) }
+    if (0.0..=1e6).contains(&s) {
+        Ok(SimTime::from_s(s))
+    } else {
+        Err(format!("'{text}' is out of range (allowed: 0 to 1000000 s)"))
+    }
 }
 
 /// Runs the subcommand.

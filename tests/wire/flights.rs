@@ -95,6 +95,12 @@ impl Process {
         self.announced["port"].to_string()
     }
 
+    /// Waits until it ends by itself: its output closes then. The leash is held until that moment.
+    fn by_itself(mut self) -> bool {
+        self.out.read_to_string(&mut String::new()).unwrap();
+        self.child.wait().unwrap().success()
+    }
+
     /// Lets it finish and returns what it printed; a child that does not finish hangs the test, and that is a failure too.
     fn finish(mut self) -> (bool, String) {
         drop(self.child.stdin.take());
@@ -129,9 +135,7 @@ fn wire_a_killed_monitor_goes_on_where_it_stopped() {
 
     let session_text = session.display().to_string();
     let again = Process::start(&["monitor", "--port", &monitor_port, "--session", &session_text]);
-    let mut again = again;
-    let ended = again.child.wait().unwrap();
-    assert!(ended.success());
+    assert!(again.by_itself(), "the second monitor failed");
     let whole = spandrel::telemetry::tlog::whole_len(&before);
     assert_eq!(std::fs::read(&log).unwrap()[..whole], before[..whole], "what was received is lost");
     assert_eq!(json(&session.join("session.json"))["monitor_starts"], 2);
@@ -158,7 +162,18 @@ fn wire_a_peer_that_vanishes_in_lockstep_ends_the_run_with_its_reason() {
 fn wire_the_same_seed_gives_the_same_digest_without_anybody_listening() {
     let run = |seed: &str| {
         printed(&[
-            "sim", "--ports", "ephemeral", "--speed", "max", "--end-after", "5", "--digest", "--scenario", "drill-hover", "--seed", seed,
+            "sim",
+            "--ports",
+            "ephemeral",
+            "--speed",
+            "max",
+            "--end-after",
+            "5",
+            "--digest",
+            "--scenario",
+            "drill-hover",
+            "--seed",
+            seed,
         ])
     };
     let digest = run("3");
