@@ -2,9 +2,7 @@
 
 use spandrel::base::time::SimTime;
 use spandrel::mav::codec::{Decoder, Encoder, Received};
-use spandrel::mav::dialect::{
-    COMMAND_LONG_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavModeFlag, MavResult, MavType,
-};
+use spandrel::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavResult};
 use spandrel::scenario::Scenario;
 use spandrel::site::Site;
 use spandrel::sitl::endpoint::{LinkId, LinkKind};
@@ -55,14 +53,6 @@ impl Station {
             assert_eq!(self.decoder.bad_bytes(), 0, "whole frames only");
             self.heard.extend(frames);
         }
-    }
-
-    pub fn beat(&mut self) {
-        self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
-            mavtype: MavType::MAV_TYPE_GCS,
-            base_mode: MavModeFlag::empty(),
-            ..HEARTBEAT_DATA::default()
-        }));
     }
 
     /// The last message that a filter likes.
