@@ -2,7 +2,7 @@
 
 use spandrel::base::frames::{Ned, Vec3};
 use spandrel::base::time::{Schedule, SimTime};
-use spandrel::scenario::{BatteryModel, Scenario};
+use spandrel::scenario::{BatteryModel, Rules, Scenario};
 use spandrel::site::Site;
 use spandrel::sitl::autopilot::{Autopilot, CONTROL_HZ, Landed, Mode, Outcome, Request, Sticks, Tuning};
 use spandrel::sitl::physics::{Actuators, Air, Load, Model, State};
@@ -37,13 +37,22 @@ pub struct Bench {
     pub now: SimTime,
     pub sticks: Option<Sticks>,
     pub actuators: Actuators,
+    /// The receiver hears nothing.
+    pub jammed: bool,
+    /// The flow sensor sees nothing.
+    pub dark: bool,
     control: Schedule,
     stick_clock: Schedule,
 }
 
 impl Bench {
     pub fn new(vehicle: &Vehicle, seed: u64) -> Self {
-        let scenario = scenario("drill-hover");
+        Self::with_rules(vehicle, seed, |_| ())
+    }
+
+    pub fn with_rules(vehicle: &Vehicle, seed: u64, change: impl Fn(&mut Rules)) -> Self {
+        let mut scenario = scenario("drill-hover");
+        change(&mut scenario.rules);
         let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
         Self {
             site: Site::build(&scenario, seed),
@@ -55,6 +64,8 @@ impl Bench {
             now: SimTime::ZERO,
             sticks: None,
             actuators: Actuators::default(),
+            jammed: false,
+            dark: false,
             control: Schedule::new(SimTime::ZERO, CONTROL_HZ),
             stick_clock: Schedule::new(SimTime::ZERO, 25.0),
         }
@@ -72,7 +83,9 @@ impl Bench {
                 let b = &self.state.battery;
                 let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
                 let truth = Truth { rigid: &self.state.rigid, battery, lamp_on: false };
-                let readings = self.sensors.sample(&truth, &self.site, self.now);
+                let mut readings = self.sensors.sample(&truth, &self.site, self.now);
+                readings.gnss = readings.gnss.filter(|_| !self.jammed);
+                readings.flow = readings.flow.filter(|_| !self.dark);
                 self.actuators = self.autopilot.step(&readings, self.now);
             }
             let load = Load { lamp_on: false, airborne: true };
@@ -94,13 +107,35 @@ impl Bench {
     /// Ready, armed and hovering at a height.
     pub fn airborne(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
         let mut bench = Self::new(vehicle, seed);
-        bench.run(2.0, |_| ());
-        assert!(bench.autopilot.arming_reasons(bench.now).is_empty(), "{:?}", bench.autopilot.arming_reasons(bench.now));
-        bench.ask(Request::Arm { force: false });
-        bench.ask(Request::Takeoff { height_m: Some(height_m) });
-        bench.run(6.0 + height_m, |_| ());
-        let status = bench.autopilot.status();
-        assert_eq!((status.mode, status.landed), (Mode::Hold, Landed::InAir), "{:?}", bench.position());
+        bench.take_off(height_m);
         bench
+    }
+
+    pub fn take_off(&mut self, height_m: f64) {
+        self.run(2.0, |_| ());
+        self.ask(Request::Arm { force: false });
+        self.ask(Request::Takeoff { height_m: Some(height_m) });
+        self.run(6.0 + height_m, |_| ());
+        let status = self.autopilot.status();
+        assert_eq!((status.mode, status.landed), (Mode::Hold, Landed::InAir), "{:?}", self.position());
+    }
+
+    /// Hovering with centred sticks in position mode.
+    pub fn by_hand(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
+        let mut bench = Self::airborne(vehicle, seed, height_m);
+        bench.sticks = Some(Sticks::default());
+        bench.run(0.1, |_| ());
+        bench.ask(Request::SetMode(Mode::Position));
+        bench.run(2.0, |_| ());
+        bench
+    }
+
+    /// Back to an earlier instant, for a state that was kept from there.
+    pub fn rewind(&mut self, to: SimTime) {
+        self.now = to;
+        self.control = Schedule::new(SimTime::ZERO, CONTROL_HZ);
+        self.stick_clock = Schedule::new(SimTime::ZERO, 25.0);
+        self.control.fire(to - STEP);
+        self.stick_clock.fire(to - STEP);
     }
 }

@@ -16,6 +16,12 @@ const RATE_MAX: f64 = 22.0;
 const ATTITUDE_SHARE: f64 = 0.3;
 const VELOCITY_SHARE: f64 = 0.4;
 const POSITION_SHARE: f64 = 0.5;
+/// Yaw rate loop over the roll and pitch one: the rotors' drag is a weak lever.
+const YAW_SHARE: f64 = 0.3;
+/// Share of the acceleration at full tilt that plans may use; the rest is for wind and errors.
+const PLANNED_SHARE: f64 = 0.85;
+/// Density of the air at sea level, kg/m³ (ISA).
+const AIR_DENSITY_KG_M3: f64 = 1.225;
 /// Share of the full collective thrust that stays for roll and pitch.
 const CONTROL_RESERVE: f64 = 0.08;
 
@@ -54,6 +60,10 @@ pub struct Gains {
     pub acceleration_m_s2: f64,
     /// Largest planned vertical acceleration, m/s².
     pub climb_acceleration_m_s2: f64,
+    /// Time by which the tilt follows late, s.
+    pub attitude_lag_s: f64,
+    /// Horizontal drag in still air over mass: per m/s, and per (m/s)².
+    pub drag: (f64, f64),
     /// Largest roll and pitch rate, rad/s.
     pub rate_max_rad_s: f64,
     /// Largest yaw rate, rad/s.
@@ -84,7 +94,7 @@ impl Gains {
         // Height must be held at full tilt: the thrust that is there limits it too.
         let tilt_rad = vehicle.limits.tilt_rad.min(math::acos((1.05 * hover_n / thrust_max_n).min(1.0)));
         let spare = (thrust_max_n / hover_n - 1.0) * GRAVITY_M_S2;
-        let yaw_rate = yaw_gain(vehicle, hover_n / n, rate);
+        let yaw_rate = YAW_SHARE * rate;
         Self {
             inertia_kg_m2: vehicle.inertia_kg_m2,
             lead: LEAD,
@@ -92,7 +102,7 @@ impl Gains {
             rate_integral: 0.5 * rate,
             yaw_rate,
             attitude,
-            yaw: (0.4 * yaw_rate).min(0.5 * attitude),
+            yaw: 0.35 * yaw_rate,
             velocity,
             velocity_integral: 0.25 * velocity * velocity,
             position: POSITION_SHARE * velocity,
@@ -100,8 +110,10 @@ impl Gains {
             climb_integral: 0.25 * climb * climb,
             height: 0.4 * climb,
             tilt_rad,
-            acceleration_m_s2: 0.75 * GRAVITY_M_S2 * math::tan(tilt_rad),
+            acceleration_m_s2: PLANNED_SHARE * GRAVITY_M_S2 * math::tan(tilt_rad),
             climb_acceleration_m_s2: (0.6 * spare).clamp(1.0, 5.0),
+            attitude_lag_s: 1.0 / attitude + lag_s,
+            drag: drag(vehicle, hover_n / n),
             rate_max_rad_s: vehicle.limits.rate_rad_s,
             yaw_rate_max_rad_s: vehicle.limits.yaw_rate_rad_s,
             hover_n,
@@ -111,11 +123,11 @@ impl Gains {
     }
 }
 
-/// Yaw torque comes from drag and, faster, from the rotors' own inertia: above the corner where the second wins the plant stops
-/// falling, so the gain there stays near one.
-fn yaw_gain(vehicle: &Vehicle, rotor_n: f64, rate: f64) -> f64 {
+/// Body and rotor drag over mass about hover, in the air's mean density.
+fn drag(vehicle: &Vehicle, rotor_n: f64) -> (f64, f64) {
     let r = &vehicle.rotor;
     let speed = (rotor_n / r.thrust_coefficient_n_s2).sqrt();
-    let corner = 2.0 * r.torque_coefficient_n_m_s2 * speed / r.inertia_kg_m2.max(1e-9);
-    (1.2 * corner).max(1.5).min(0.4 * rate)
+    let linear = vehicle.rotors.len() as f64 * r.drag_coefficient_n_s2_m * speed;
+    let area = 0.5 * (vehicle.drag.area_m2[0] + vehicle.drag.area_m2[1]);
+    (linear / vehicle.mass_kg, 0.5 * AIR_DENSITY_KG_M3 * area / vehicle.mass_kg)
 }

@@ -12,6 +12,9 @@ use crate::base::math;
 const YAW_SPOOL_S: f64 = 0.3;
 /// The wanted heading never runs further ahead of the nose, rad.
 const YAW_LEAD_RAD: f64 = 0.6;
+/// While it turns faster than this the rate is held, not the heading, rad/s; the lead is then at most this, rad.
+const TURNING_RAD_S: f64 = 0.1;
+const TURNING_LEAD_RAD: f64 = 0.08;
 /// Slower than this the position is locked once the sticks are centred, m/s.
 const LOCK_M_S: f64 = 0.15;
 /// Without position the sticks tilt at most this share of the largest tilt.
@@ -32,7 +35,8 @@ impl Autopilot {
         let c = &mut self.course;
         c.yaw_rate_rad_s += (rate - c.yaw_rate_rad_s).clamp(-step, step);
         let nose = self.estimate.attitude.yaw_rad();
-        let lead = math::wrap_pi(c.yaw_rad + c.yaw_rate_rad_s * dt_s - nose).clamp(-YAW_LEAD_RAD, YAW_LEAD_RAD);
+        let most = if c.yaw_rate_rad_s.abs() > TURNING_RAD_S { TURNING_LEAD_RAD } else { YAW_LEAD_RAD };
+        let lead = math::wrap_pi(c.yaw_rad + c.yaw_rate_rad_s * dt_s - nose).clamp(-most, most);
         c.yaw_rad = math::wrap_pi(nose + lead);
     }
 
@@ -41,10 +45,17 @@ impl Autopilot {
         if up > 0.0 { -up * l.climb_m_s } else { -up * l.descend_m_s }
     }
 
+    /// Roll and pitch by the sticks, rad: both together lean no further than one alone.
+    fn stick_tilt(&self, share: f64) -> (f64, f64) {
+        let Sticks { forward, right, .. } = self.links.sticks;
+        let most = self.gains.tilt_rad * share / math::hypot(forward, right).max(1.0);
+        (right * most, -forward * most)
+    }
+
     pub(super) fn stabilized(&mut self, dt_s: f64) -> Wanted {
         self.stick_yaw(dt_s);
-        let Sticks { forward, right, up, .. } = self.links.sticks;
-        let tilt = self.gains.tilt_rad;
+        let up = self.links.sticks.up;
+        let tilt = self.stick_tilt(1.0);
         let hover = self.gains.hover_n;
         let thrust_n = if up > 0.0 {
             math::lerp(hover, self.gains.thrust_max_n, up)
@@ -52,20 +63,19 @@ impl Autopilot {
             math::lerp(hover, self.gains.thrust_min_n, -up)
         };
         self.contact.wanted_down_m_s = if up < -0.5 { self.airframe.limits.descend_m_s } else { 0.0 };
-        let attitude = Rotation::from_euler(right * tilt, -forward * tilt, self.course.yaw_rad);
+        let attitude = Rotation::from_euler(tilt.0, tilt.1, self.course.yaw_rad);
         Wanted::Direct(Pull { attitude, thrust_n })
     }
 
     pub(super) fn altitude(&mut self, dt_s: f64) -> Wanted {
         self.stick_yaw(dt_s);
         let share = if self.status.mode == Mode::Altitude { 1.0 } else { BLIND_TILT_SHARE };
-        let tilt = self.gains.tilt_rad * share;
-        let Sticks { forward, right, .. } = self.links.sticks;
+        let tilt = self.stick_tilt(share);
         let limits = self.stick_limits();
         let velocity =
             self.with_locks(Vec3::new(0.0, 0.0, self.stick_climb()), false, self.links.sticks.up == 0.0, &limits, dt_s);
         self.course.lock_flat = None;
-        Wanted::Level { motion: self.motion(velocity), tilt: (right * tilt, -forward * tilt) }
+        Wanted::Level { motion: self.motion(velocity), tilt }
     }
 
     pub(super) fn position(&mut self, dt_s: f64) -> Wanted {

@@ -2,6 +2,7 @@
 //! collective, then roll and pitch keep their direction and lose size.
 
 use crate::base::frames::{Frd, Vec3};
+use crate::base::math::GRAVITY_M_S2;
 use crate::sitl::physics::{Actuators, MAX_ROTORS};
 use crate::vehicle::Vehicle;
 use nalgebra::{Matrix4, Vector4};
@@ -35,7 +36,10 @@ pub struct Mixer {
     max_rad_s: f64,
     time_constant_s: f64,
     lead: f64,
+    /// Rotor inertia over the slope of its drag torque at hover, s.
+    spin_time_s: f64,
     speeds: [f64; MAX_ROTORS],
+    yaw_n_m: f64,
 }
 
 impl Mixer {
@@ -55,6 +59,8 @@ impl Mixer {
         // Without an inverse (rotors in a line, all one spin) the collective alone is left.
         let inverse =
             gram.try_inverse().unwrap_or_else(|| Matrix4::from_diagonal(&Vector4::new(0.0, 0.0, 0.0, 1.0 / count as f64)));
+        let each_n = vehicle.mass_kg * GRAVITY_M_S2 / count as f64;
+        let hover = (each_n / r.thrust_coefficient_n_s2).sqrt();
         let mut columns = [[0.0; 4]; MAX_ROTORS];
         for (column, e) in columns.iter_mut().zip(&effect) {
             let c = inverse * e;
@@ -68,7 +74,9 @@ impl Mixer {
             max_rad_s: r.max_speed_rad_s,
             time_constant_s: r.time_constant_s,
             lead,
+            spin_time_s: r.inertia_kg_m2 / (2.0 * r.torque_coefficient_n_m_s2 * hover).max(1e-9),
             speeds: [0.0; MAX_ROTORS],
+            yaw_n_m: 0.0,
         }
     }
 
@@ -77,7 +85,8 @@ impl Mixer {
         let top = (self.max_rad_s * voltage_share).max(self.idle_rad_s + 1.0);
         let low = self.thrust_coefficient * self.idle_rad_s * self.idle_rad_s;
         let high = self.thrust_coefficient * top * top;
-        let (thrusts, given) = self.allocate(demand, low, high);
+        let demand = Demand { torque_n_m: self.without_spin(demand.torque_n_m, dt_s), ..*demand };
+        let (thrusts, given) = self.allocate(&demand, low, high);
         let mut out = Actuators { armed: true, ..Actuators::default() };
         for (i, thrust) in thrusts.iter().enumerate().take(self.count) {
             let wanted = (thrust / self.thrust_coefficient).max(0.0).sqrt();
@@ -88,6 +97,13 @@ impl Mixer {
             self.speeds[i] += (driven - self.speeds[i]) * dt_s / (dt_s + self.time_constant_s);
         }
         (out, given)
+    }
+
+    /// A rotor that speeds up turns the body at once by its own inertia, and lastingly by its drag. The yaw torque is passed through the
+    /// lag that makes the two together follow the demand.
+    fn without_spin(&mut self, torque: Vec3<Frd>, dt_s: f64) -> Vec3<Frd> {
+        self.yaw_n_m += (torque.down() - self.yaw_n_m) * dt_s / (dt_s + self.spin_time_s);
+        Vec3::new(torque.forward(), torque.right(), self.yaw_n_m)
     }
 
     /// Motors at idle.
@@ -101,6 +117,7 @@ impl Mixer {
     /// Motors stopped.
     pub fn stop(&mut self) -> Actuators {
         self.speeds = [0.0; MAX_ROTORS];
+        self.yaw_n_m = 0.0;
         Actuators::default()
     }
 

@@ -45,8 +45,12 @@ impl VelocityLoop {
 
     /// All three axes.
     pub fn fly(&mut self, gains: &Gains, mass_kg: f64, now: &Estimate, motion: &Motion, dt_s: f64) -> Pull {
-        let error = motion.velocity_m_s - now.velocity_m_s;
+        // The attitude follows late: the velocity is compared with where the plan was that long ago.
+        let late = motion.acceleration_m_s2 * gains.attitude_lag_s;
+        let planned = motion.velocity_m_s - Vec3::new(late.north(), late.east(), 0.0);
+        let error = planned - now.velocity_m_s;
         let wish = motion.acceleration_m_s2
+            + drag(gains, motion.velocity_m_s)
             + Vec3::new(gains.velocity * error.north(), gains.velocity * error.east(), gains.climb * error.down())
             + self.integral;
         let (force, horizontal_free, vertical_free) = limited(gains, mass_kg, wish);
@@ -88,6 +92,12 @@ impl VelocityLoop {
         let down = self.integral.down().clamp(-0.8 * GRAVITY_M_S2, 0.8 * GRAVITY_M_S2);
         self.integral = Vec3::new(flat.north(), flat.east(), down);
     }
+}
+
+/// Acceleration that makes up for drag in still air, m/s²; wind is the integral's.
+fn drag(gains: &Gains, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
+    let k = gains.drag.0 + gains.drag.1 * velocity_m_s.horizontal_norm();
+    Vec3::new(velocity_m_s.north() * k, velocity_m_s.east() * k, 0.0)
 }
 
 /// Specific force for a wanted acceleration within tilt and thrust limits, height before horizontal; and whether the horizontal and
