@@ -345,7 +345,8 @@ impl Rotation<Frd, Ned> {
     /// Yaw in radians, clockwise from north.
     #[must_use]
     pub fn yaw_rad(self) -> f64 {
-        self.euler().2
+        let [w, x, y, z] = self.wxyz();
+        math::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
     }
 }
 

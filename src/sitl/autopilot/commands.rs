@@ -39,7 +39,7 @@ impl Autopilot {
         self.watch.standing_since = now;
         self.watch.flown = false;
         self.watch.upset_since = None;
-        self.watch.tilt_error_rad = 0.0;
+        self.watch.aim_cosine = 1.0;
         if self.estimate.position_valid {
             self.status.home_m = Some(self.estimate.position_m);
         }

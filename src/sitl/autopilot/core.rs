@@ -14,7 +14,6 @@ use super::velocity::{Motion, Pull, VelocityLoop};
 use super::{Estimate, Landed, MissionStep, Mode, OffboardSetpoint, Status, Sticks, Tuning};
 use crate::base::frames::{Frd, Ned, Rotation, Vec3};
 use crate::base::geodesy::Geo;
-use crate::base::math;
 use crate::base::time::SimTime;
 use crate::scenario::{BatteryModel, Rules};
 use crate::sitl::physics::Actuators;
@@ -234,7 +233,7 @@ impl Autopilot {
         let g = &self.gains;
         self.status.attitude_target = pull.attitude;
         self.status.thrust = thrust_n / g.thrust_max_n;
-        self.watch.tilt_error_rad = tilt_between(self.estimate.attitude, pull.attitude);
+        self.watch.aim_cosine = alignment(self.estimate.attitude, pull.attitude);
         let torque_n_m =
             self.attitude_loop.torque(g, &self.estimate, pull.attitude, self.course.yaw_rate_rad_s, self.given, dt_s);
         let (actuators, given) = self.mixer.mix(&Demand { torque_n_m, thrust_n }, self.voltage_share(), dt_s);
@@ -324,8 +323,8 @@ fn boot_status() -> Status {
     }
 }
 
-/// Angle between two attitudes' thrust directions, rad.
-fn tilt_between(a: Rotation<Frd, Ned>, b: Rotation<Frd, Ned>) -> f64 {
+/// Cosine of the angle between two attitudes' thrust directions.
+fn alignment(a: Rotation<Frd, Ned>, b: Rotation<Frd, Ned>) -> f64 {
     let z = Vec3::<Frd>::new(0.0, 0.0, 1.0);
-    math::acos((a * z).dot(b * z))
+    (a * z).dot(b * z)
 }

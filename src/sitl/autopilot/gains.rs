@@ -56,6 +56,8 @@ pub struct Gains {
     pub height: f64,
     /// Largest tilt, rad.
     pub tilt_rad: f64,
+    /// Its tangent.
+    pub tilt_tangent: f64,
     /// Largest horizontal acceleration that is planned for, m/s².
     pub acceleration_m_s2: f64,
     /// Largest planned vertical acceleration, m/s².
@@ -110,6 +112,7 @@ impl Gains {
             climb_integral: 0.25 * climb * climb,
             height: 0.4 * climb,
             tilt_rad,
+            tilt_tangent: math::tan(tilt_rad),
             acceleration_m_s2: PLANNED_SHARE * GRAVITY_M_S2 * math::tan(tilt_rad),
             climb_acceleration_m_s2: (0.6 * spare).clamp(1.0, 5.0),
             attitude_lag_s: 1.0 / attitude + lag_s,

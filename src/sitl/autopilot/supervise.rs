@@ -16,8 +16,8 @@ const LEVEL: f64 = 0.94;
 const HEADROOM_M: f64 = 1.0;
 /// Horizontal accuracy for arming, m (1 sigma).
 const ARMING_ACCURACY_M: f64 = 5.0;
-/// This far from the wanted attitude for this long without flying: crashed, rad and s.
-const UPSET_RAD: f64 = 0.7;
+/// This far from the wanted attitude (40 degrees, as a cosine) for this long without flying: crashed, s.
+const UPSET_COSINE: f64 = 0.766;
 const UPSET_S: f64 = 2.5;
 /// Still moving faster than this it may yet recover, m/s.
 const UPSET_SPEED_M_S: f64 = 1.5;
@@ -35,8 +35,8 @@ pub struct Watch {
     pub standing_since: SimTime,
     /// It has flown since it was armed.
     pub flown: bool,
-    /// Angle between wanted and believed thrust direction, rad.
-    pub tilt_error_rad: f64,
+    /// Cosine of the angle between wanted and believed thrust direction.
+    pub aim_cosine: f64,
     /// Upset since.
     pub upset_since: Option<SimTime>,
     due: SimTime,
@@ -53,7 +53,7 @@ impl Default for Watch {
             overridden: false,
             standing_since: SimTime::ZERO,
             flown: false,
-            tilt_error_rad: 0.0,
+            aim_cosine: 1.0,
             upset_since: None,
             due: SimTime::ZERO,
             manual_lost: None,
@@ -202,7 +202,7 @@ impl Autopilot {
     /// Lying somewhere in an attitude that the rotors cannot mend: they stop.
     fn watch_attitude(&mut self, now: SimTime) {
         let moving = self.estimate.velocity_m_s.norm() > UPSET_SPEED_M_S;
-        if self.watch.tilt_error_rad < UPSET_RAD || moving || self.status.landed == Landed::OnGround {
+        if self.watch.aim_cosine > UPSET_COSINE || moving || self.status.landed == Landed::OnGround {
             self.watch.upset_since = None;
             return;
         }

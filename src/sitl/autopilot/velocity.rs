@@ -106,7 +106,7 @@ fn limited(gains: &Gains, mass_kg: f64, wish_m_s2: Vec3<Ned>) -> (Vec3<Ned>, boo
     let (low, high) = (gains.thrust_min_n / mass_kg, gains.thrust_max_n / mass_kg);
     let lift = GRAVITY_M_S2 - wish_m_s2.down();
     let up = lift.clamp(low, high);
-    let tilt = up * math::tan(gains.tilt_rad);
+    let tilt = up * gains.tilt_tangent;
     let spare = (high * high - up * up).max(0.0).sqrt();
     let flat = Vec3::<Ned>::new(wish_m_s2.north(), wish_m_s2.east(), 0.0);
     let held = flat.limited(tilt.min(spare));

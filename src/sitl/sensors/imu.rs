@@ -9,17 +9,20 @@ use crate::vehicle;
 /// Bias walk per √s as a share of the start bias (estimate: consumer inertial sensors move by some per cent of it in a minute).
 pub const BIAS_WALK_SHARE: f64 = 0.005;
 
+/// The biases walk once in this many samples.
+const WALK_EVERY: u32 = 40;
+
 /// State of the inertial sensors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Imu {
     stream: RandomStream,
-    period_s: f64,
     accel_sigma: f64,
     gyro_sigma: f64,
     accel_walk: f64,
     gyro_walk: f64,
     accel_bias: Vec3<Frd>,
     gyro_bias: Vec3<Frd>,
+    until_walk: u32,
     force_sum: Vec3<Frd>,
     rate_sum: Vec3<Frd>,
     time_s: f64,
@@ -31,15 +34,16 @@ impl Imu {
     pub fn new(sensors: &vehicle::Sensors, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "imu");
         let period_s = 1.0 / sensors.imu_rate_hz;
-        let walk = BIAS_WALK_SHARE * period_s.sqrt();
+        let walk = BIAS_WALK_SHARE * (period_s * f64::from(WALK_EVERY)).sqrt();
+        let (accel, gyro) = six(&mut stream);
         Self {
-            period_s,
             accel_sigma: sensors.accel_noise_density / period_s.sqrt(),
             gyro_sigma: sensors.gyro_noise_density / period_s.sqrt(),
             accel_walk: sensors.accel_bias_m_s2 * walk,
             gyro_walk: sensors.gyro_bias_rad_s * walk,
-            accel_bias: normal3(&mut stream, sensors.accel_bias_m_s2),
-            gyro_bias: normal3(&mut stream, sensors.gyro_bias_rad_s),
+            accel_bias: accel * sensors.accel_bias_m_s2,
+            gyro_bias: gyro * sensors.gyro_bias_rad_s,
+            until_walk: WALK_EVERY,
             stream,
             force_sum: Vec3::zero(),
             rate_sum: Vec3::zero(),
@@ -60,10 +64,16 @@ impl Imu {
         if self.time_s <= 0.0 {
             return None;
         }
-        self.accel_bias += normal3(&mut self.stream, self.accel_walk);
-        self.gyro_bias += normal3(&mut self.stream, self.gyro_walk);
-        let force = self.force_sum / self.time_s + self.accel_bias + normal3(&mut self.stream, self.accel_sigma);
-        let rates = self.rate_sum / self.time_s + self.gyro_bias + normal3(&mut self.stream, self.gyro_sigma);
+        if self.until_walk == 0 {
+            self.until_walk = WALK_EVERY;
+            let (accel, gyro) = six(&mut self.stream);
+            self.accel_bias += accel * self.accel_walk;
+            self.gyro_bias += gyro * self.gyro_walk;
+        }
+        self.until_walk -= 1;
+        let (accel, gyro) = six(&mut self.stream);
+        let force = self.force_sum / self.time_s + self.accel_bias + accel * self.accel_sigma;
+        let rates = self.rate_sum / self.time_s + self.gyro_bias + gyro * self.gyro_sigma;
         self.force_sum = Vec3::zero();
         self.rate_sum = Vec3::zero();
         self.time_s = 0.0;
@@ -77,9 +87,10 @@ impl Imu {
     }
 }
 
-fn normal3(stream: &mut RandomStream, sigma: f64) -> Vec3<Frd> {
-    let [x, y, z] = stream.normal3();
-    Vec3::new(x, y, z) * sigma
+/// Six independent standard normals as two vectors.
+fn six(stream: &mut RandomStream) -> (Vec3<Frd>, Vec3<Frd>) {
+    let ((a, b), (c, d), (e, f)) = (stream.normal_pair(), stream.normal_pair(), stream.normal_pair());
+    (Vec3::new(a, b, c), Vec3::new(d, e, f))
 }
 
 #[cfg(test)]

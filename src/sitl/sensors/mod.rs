@@ -112,6 +112,10 @@ pub struct BatteryReading {
 pub trait Surroundings {
     /// Distance to the first thing along a unit direction, m, within `max_m`.
     fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
+    /// Nothing solid within `max_m` in any direction, pad included; false is always allowed, and only costs time.
+    fn nothing_within(&self, _position_m: Vec3<Enu>, _max_m: f64, _at: SimTime) -> bool {
+        false
+    }
     /// Mean ambient light at a point in the air, lx.
     fn lux(&self, position_m: Vec3<Enu>, at: SimTime) -> f64;
 }
@@ -119,6 +123,11 @@ pub trait Surroundings {
 impl Surroundings for Site {
     fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64> {
         self.ray(origin_m, direction, max_m, at).map(|hit| hit.distance_m)
+    }
+    fn nothing_within(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> bool {
+        // The pad is left out of `nearest`; its level ground is what stands below.
+        position_m.up() - self.ground_up_m(position_m.east(), position_m.north()) > max_m
+            && self.nearest(position_m, max_m, at).is_none()
     }
     fn lux(&self, position_m: Vec3<Enu>, at: SimTime) -> f64 {
         self.ambient_lux(position_m, None, at)

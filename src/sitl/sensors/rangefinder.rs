@@ -60,6 +60,10 @@ impl RangeFinders {
         if !self.due.fire(now) {
             return None;
         }
+        if site.nothing_within(rigid.position_m.enu(), self.max_m, now) {
+            let far = f64::INFINITY;
+            return Some(Ranges { down_m: far, up_m: far, around_m: [far; 8] });
+        }
         let down_m = self.one(rigid, Vec3::new(0.0, 0.0, 1.0), site, now);
         let up_m = self.one(rigid, Vec3::new(0.0, 0.0, -1.0), site, now);
         let mut around_m = [0.0; 8];
@@ -71,8 +75,6 @@ impl RangeFinders {
 
     fn one<S: Surroundings>(&mut self, rigid: &RigidState, direction: Vec3<Frd>, site: &S, now: SimTime) -> f64 {
         let hit = site.ray_m(rigid.position_m.enu(), (rigid.attitude * direction).enu(), self.max_m, now);
-        // Drawn on every call, so that what one ray meets never shifts another's noise.
-        let noise = self.noise_m * self.stream.normal();
-        hit.map_or(f64::INFINITY, |d| (d + noise).max(0.0))
+        hit.map_or(f64::INFINITY, |d| (d + self.noise_m * self.stream.normal()).max(0.0))
     }
 }

@@ -1,0 +1,78 @@
+//! What a simulated second of flight costs, by room: sensors, estimator, autopilot, and all together with the physics. Each is also given
+//! as a multiple of real time on one core. (The simulator's own bench adds the telemetry.)
+
+#[path = "../tests/flight/bench.rs"]
+#[allow(dead_code)]
+mod bench;
+
+use bench::{Bench, vehicle};
+use spandrel::base::time::SimTime;
+use spandrel::sitl::sensors::{BatteryReading, Readings, Truth};
+use std::hint::black_box;
+use std::time::Duration;
+
+const SECONDS: f64 = 60.0;
+const TICK: SimTime = SimTime::from_us(2500);
+const ROUNDS: usize = 5;
+
+#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+fn best(mut work: impl FnMut()) -> Duration {
+    let once = |_| {
+        let start = std::time::Instant::now();
+        work();
+        start.elapsed()
+    };
+    (0..ROUNDS).map(once).min().unwrap_or_default()
+}
+
+fn say(what: &str, taken: Duration) {
+    let per_second_us = taken.as_secs_f64() * 1e6 / SECONDS;
+    println!("{what:<40} {per_second_us:>9.1} us per simulated second {:>9.0} x real time", 1e6 / per_second_us);
+}
+
+/// Readings of a hover, so that the autopilot can be timed without physics and sensors.
+fn tape(start: &Bench) -> Vec<(SimTime, Readings)> {
+    let mut sensors = start.sensors.clone();
+    let battery = BatteryReading { voltage_v: 11.5, current_a: 12.0, remaining_pct: 80.0 };
+    let truth = Truth { rigid: &start.state.rigid, battery, lamp_on: false };
+    let mut now = start.now;
+    (0..(SECONDS * 400.0) as usize)
+        .map(|_| {
+            sensors.feel(&start.state.rigid, start.state.specific_force_m_s2, TICK);
+            now += TICK;
+            (now, sensors.sample(&truth, &start.site, now))
+        })
+        .collect()
+}
+
+fn main() {
+    let start = Bench::airborne(&vehicle("phantom2"), 1, 6.0);
+    say(
+        "sensors",
+        best(|| {
+            black_box(tape(&start));
+        }),
+    );
+    let readings = tape(&start);
+    say(
+        "estimator",
+        best(|| {
+            let mut estimator = start.autopilot.estimator().clone();
+            for (now, one) in &readings {
+                estimator.step(one, *now);
+            }
+            black_box(estimator.estimate());
+        }),
+    );
+    say(
+        "autopilot with estimator",
+        best(|| {
+            let mut autopilot = start.autopilot.clone();
+            for (now, one) in &readings {
+                black_box(autopilot.step(one, *now));
+            }
+        }),
+    );
+    let mut whole = Bench::airborne(&vehicle("phantom2"), 1, 6.0);
+    say("all together", best(|| whole.run(SECONDS, |_| ())));
+}
