@@ -15,6 +15,10 @@ const GLIMPSE_S: f64 = 0.25;
 const POD_SIGMA_LN: f64 = 1.147;
 /// A picture shows a thing whole from this many pixels on (estimate).
 const CLEAR_PX: f64 = 40.0;
+/// Smaller than this a thing is not taken for anything, px (a tenth of a clear picture of it; estimate).
+const LEAST_PX: f64 = 6.0;
+/// More oblique than this a surface is a streak, rad (60 degrees, where inspection practice rejects pictures).
+const LEAST_SQUARE_RAD: f64 = 1.05;
 /// Surface noise must exceed this, in standard deviations of the trained pilot, to look like a defect (estimate).
 const CRITERION: f64 = 4.6;
 
@@ -62,7 +66,9 @@ impl Eye {
         self.next_glimpse = now + SimTime::from_s(GLIMPSE_S);
         let deceived = self.random.normal() * skill.noise > CRITERION;
         for view in views() {
-            if self.done.contains_key(&view.defect_id) || !view.unoccluded || view.extent_px < 4.0 {
+            // Seen from the edge or as a speck it says nothing yet; it will be seen better farther on.
+            let plain = view.unoccluded && view.extent_px >= LEAST_PX && view.incidence_rad < LEAST_SQUARE_RAD;
+            if self.done.contains_key(&view.defect_id) || !plain {
                 continue;
             }
             let random = &mut self.random;

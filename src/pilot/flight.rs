@@ -26,7 +26,7 @@ const BREAK_OFF_PCT: f64 = 12.0;
 /// Aiming error at which the shutter is pressed, rad.
 const AIMED_RAD: f64 = 0.12;
 /// Tries per defect.
-const TRIES: u32 = 3;
+const TRIES: u32 = 2;
 
 /// A noticed spot that is being photographed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,6 +101,8 @@ impl Pilot {
         self.look_around(belief, &mut wish);
         self.payload(&wish, belief);
         wish.velocity_m_s += self.keep_off(belief);
+        // The hand gives what the eye takes for the wanted speed.
+        wish.velocity_m_s = wish.velocity_m_s / self.eyes.speed_sense();
         sticks(wish.velocity_m_s, belief, wish.look, &self.config)
     }
 

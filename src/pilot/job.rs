@@ -10,6 +10,10 @@ use crate::vehicle::Vehicle;
 
 /// Transit speed, m/s (a comfortable jog for a video drone, estimate).
 const TRANSIT_M_S: f64 = 6.0;
+/// Transit speed with something near, m/s (estimate).
+const CAREFUL_M_S: f64 = 2.5;
+/// What counts as near in transit, m (estimate).
+const NEAR_M: f64 = 4.0;
 /// Height over the pad at which take-off ends and landing begins, m (estimate).
 pub const PAD_HOVER_M: f64 = 6.0;
 
@@ -63,6 +67,21 @@ impl Map<'_> {
         plan::route(self.site, from, to, self.clearance_m(), ceiling, self.at)
     }
 
+    /// The way as part of a leg: fast in the open, careful past things.
+    fn push_way(&self, leg: &mut Leg, from: Vec3<Enu>, to: Vec3<Enu>) {
+        const STEP_M: f64 = 3.0;
+        let mut last = from;
+        for point in self.way(from, to) {
+            let steps = ((point - last).norm() / STEP_M).ceil().max(1.0) as usize;
+            for k in 1..=steps {
+                let p = last.lerp(point, k as f64 / steps as f64);
+                let near = self.site.nearest(p, NEAR_M, self.at).is_some();
+                leg.push(p, if near { CAREFUL_M_S } else { TRANSIT_M_S }, None, None);
+            }
+            last = point;
+        }
+    }
+
     /// The leg for a job from here.
     #[must_use]
     pub fn leg(&self, job: Job, from: Vec3<Enu>) -> Leg {
@@ -74,9 +93,7 @@ impl Map<'_> {
 
     fn transit(&self, from: Vec3<Enu>, to: Vec3<Enu>) -> Leg {
         let mut leg = Leg::new();
-        for point in self.way(from, to) {
-            leg.push(point, TRANSIT_M_S, None, None);
-        }
+        self.push_way(&mut leg, from, to);
         pad_to_two(&mut leg, to);
         leg
     }
@@ -86,9 +103,7 @@ impl Map<'_> {
         let order = flying_order(task, from);
         let mut leg = Leg::new();
         let Some(first) = order.first() else { return self.transit(from, over_pad(self.scenario)) };
-        for point in self.way(from, task.path_m[*first]) {
-            leg.push(point, TRANSIT_M_S, None, None);
-        }
+        self.push_way(&mut leg, from, task.path_m[*first]);
         for k in &order {
             leg.push(task.path_m[*k], task_speed_m_s(task), task.look.get(*k).copied(), Some(index));
         }

@@ -8,11 +8,11 @@ use crate::base::time::SimTime;
 use std::collections::VecDeque;
 
 /// Drifting error of judged position for the trained pilot, m (1 sigma per axis; estimate).
-const POSITION_ERROR_M: f64 = 0.2;
+const POSITION_ERROR_M: f64 = 0.4;
 /// Its correlation time, s (estimate).
 const POSITION_TAU_S: f64 = 4.0;
 /// Drifting relative error of judged speed for the trained pilot (1 sigma; estimate).
-const SPEED_ERROR: f64 = 0.07;
+const SPEED_ERROR: f64 = 0.13;
 /// Its correlation time, s (estimate).
 const SPEED_TAU_S: f64 = 3.0;
 /// Error of judged heading for the trained pilot, rad (1 sigma; estimate).
@@ -60,6 +60,7 @@ pub struct Perception {
     position: [Drift; 3],
     speed: Drift,
     heading: Drift,
+    speed_sense: f64,
 }
 
 impl Perception {
@@ -70,7 +71,7 @@ impl Perception {
         let position = [(); 3].map(|()| Drift::new(POSITION_TAU_S, &mut random));
         let speed = Drift::new(SPEED_TAU_S, &mut random);
         let heading = Drift::new(SPEED_TAU_S, &mut random);
-        Self { seen: VecDeque::new(), random, position, speed, heading }
+        Self { seen: VecDeque::new(), random, position, speed, heading, speed_sense: 1.0 }
     }
 
     /// What happens now; it reaches the mind after the delay.
@@ -98,12 +99,19 @@ impl Perception {
         }
         let speed_error = self.speed.step(dt_s, &mut self.random) * SPEED_ERROR * skill.noise;
         let heading_error = self.heading.step(dt_s, &mut self.random) * HEADING_ERROR_RAD * skill.noise;
+        self.speed_sense = (1.0 + speed_error).clamp(0.4, 2.0);
         Some(Motion {
             time: truth.time,
             position_m: truth.position_m + Vec3::new(offset[0], offset[1], offset[2]),
-            velocity_m_s: truth.velocity_m_s * (1.0 + speed_error).max(0.2),
+            velocity_m_s: truth.velocity_m_s * self.speed_sense,
             yaw_rad: math::wrap_pi(truth.yaw_rad + heading_error),
         })
+    }
+
+    /// Judged over true speed at present: who judges the speed too high flies too slowly, and the other way round.
+    #[must_use]
+    pub fn speed_sense(&self) -> f64 {
+        self.speed_sense
     }
 
     /// Forgets the past, after a jump (the aircraft was put back).

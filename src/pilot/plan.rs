@@ -147,7 +147,7 @@ fn pull_straight(space: &Space, points: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
     let mut kept = vec![points[0]];
     let mut at = 0;
     while at + 1 < points.len() {
-        let wish = 0.6 * COMFORT_M;
+        let wish = 0.75 * COMFORT_M;
         let far = (at + 1..points.len()).rev().find(|k| space.line_is_free(points[at], points[*k], wish)).unwrap_or(at + 1);
         kept.push(points[far]);
         at = far;
