@@ -1,11 +1,9 @@
 //! What goes wrong: links, satellites, battery, attitude.
 
-use super::bench::{Bench, VEHICLES, scenario, vehicle};
+use super::bench::{Bench, VEHICLES, vehicle};
 use spandrel::base::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel::base::math;
-use spandrel::site::Site;
 use spandrel::sitl::autopilot::{Landed, LinkLoss, Mode, Request, Severity, Sticks};
-use spandrel::sitl::sensors::Sensors;
 
 #[test]
 fn flight_lost_sticks_lead_to_hold_and_found_ones_give_the_mode_back() {
@@ -184,33 +182,4 @@ fn flight_moved_sticks_take_over_from_an_automatic_mode() {
     bench.sticks = Some(Sticks { forward: 0.6, up: -1.0, ..Sticks::default() });
     bench.run(0.2, |_| ());
     assert_eq!(bench.autopilot.status().mode, Mode::Position);
-}
-
-#[test]
-fn flight_the_tasks_of_the_job_stay_controllable_in_the_shadow_of_the_bridges() {
-    // m between estimate and truth, anywhere on the four paths.
-    const ERROR_M: f64 = 2.0;
-    let job = scenario("two-bridges");
-    let aircraft = vehicle("phantom2");
-    for task in &job.tasks {
-        let mut bench = Bench::airborne(&aircraft, 1, 6.0);
-        bench.site = Site::build(&job, 1);
-        bench.sensors = Sensors::new(&aircraft, true, job.origin, 1);
-        let start = task.path_m[0].ned();
-        bench.state.place(start, 0.0);
-        bench.autopilot.respawn(start, Vec3::zero(), bench.state.rigid.attitude, bench.now);
-        bench.run(5.0, |_| ());
-        let (mut worst, mut touched, mut lost): (f64, bool, bool) = (0.0, false, false);
-        for p in task.path_m.iter().step_by(3) {
-            let (north_east_m, up_m) = (Some((p.north(), p.east())), Some(p.up()));
-            bench.ask(Request::GoTo { north_east_m, up_m, yaw_rad: None, speed_m_s: Some(2.0) });
-            bench.run(2.0, |b| {
-                let e = b.autopilot.estimate();
-                worst = worst.max((e.position_m - b.position()).norm());
-                lost |= !e.position_valid;
-                touched |= b.state.contact.touching();
-            });
-        }
-        assert!(!lost && !touched && worst < ERROR_M, "task {}: {worst} m, lost {lost}, touched {touched}", task.id);
-    }
 }

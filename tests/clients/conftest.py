@@ -1,0 +1,22 @@
+"""Fixtures: a flight per test, on ports of its own."""
+
+import json
+
+import pytest
+
+import spandrel
+
+
+@pytest.fixture
+def flight(tmp_path):
+    """Simulator and monitor for one test."""
+    flight = spandrel.Flight(tmp_path)
+    yield flight
+    flight.close()
+    print((tmp_path / "log.txt").read_text(encoding="utf-8")[-4000:])
+
+
+@pytest.fixture
+def job():
+    """The job as exported: paths, defects, limits."""
+    return json.loads(spandrel.run("export", "two-bridges", "--seed", "7", "--scenario", "-"))

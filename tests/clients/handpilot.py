@@ -1,0 +1,94 @@
+"""Flies by sticks alone: a proportional controller on position and heading, the same for every client library.
+
+Positions are east, north, up in metres from the scenario origin; sticks are forward, right, up, clockwise in [-1, 1].
+"""
+
+import math
+
+# Metres per second asked for at most; well under the 10 mph limit.
+CRUISE_M_S = 3.0
+# What full stick means for the default aircraft (vehicle-params/phantom2.toml).
+FULL_STICK_M_S = 13.4
+FULL_CLIMB_M_S = 6.0
+FULL_DESCENT_M_S = 2.0
+FULL_YAW_RAD_S = 1.75
+POSITION_GAIN = 0.7
+YAW_GAIN = 1.2
+REACHED_M = 1.2
+# Transits cross the bridge this far above the path, clear of railings and trucks.
+OVER_M = 14.0
+
+
+def wrap(angle):
+    """Angle in (-pi, pi]."""
+    return math.atan2(math.sin(angle), math.cos(angle))
+
+
+def sticks_towards(here, yaw, target, look_yaw, cruise=CRUISE_M_S):
+    """Sticks that lead from `here` to `target` while turning to `look_yaw`."""
+    east, north, up = (t - h for t, h in zip(target, here))
+    ve, vn, vu = (POSITION_GAIN * c for c in (east, north, up))
+    scale = min(1.0, cruise / max(math.sqrt(ve * ve + vn * vn + vu * vu), 1e-6))
+    ve, vn, vu = ve * scale, vn * scale, vu * scale
+    forward = vn * math.cos(yaw) + ve * math.sin(yaw)
+    right = ve * math.cos(yaw) - vn * math.sin(yaw)
+    climb = vu / (FULL_CLIMB_M_S if vu > 0 else FULL_DESCENT_M_S)
+    turn = YAW_GAIN * wrap(look_yaw - yaw) / FULL_YAW_RAD_S
+    return tuple(max(-1.0, min(1.0, s)) for s in (forward / FULL_STICK_M_S, right / FULL_STICK_M_S, climb, turn))
+
+
+def distance(a, b):
+    """Metres between two points."""
+    return math.dist(a, b)
+
+
+def thin(path, step_m=4.0):
+    """The path with points at least `step_m` apart, ends kept."""
+    kept = [path[0]]
+    for point in path[1:-1]:
+        if distance(kept[-1], point) >= step_m:
+            kept.append(point)
+    return kept + [path[-1]]
+
+
+def squareness(defect, point):
+    """Cosine between the defect's normal and the line of sight from a point."""
+    line = [p - d for p, d in zip(point, defect["position_enu_m"])]
+    length = math.sqrt(sum(c * c for c in line))
+    return sum(c * n for c, n in zip(line, defect["normal_enu"])) / max(length, 1e-9)
+
+
+def defect_to_photograph(job, path):
+    """The defect that shows best from a task's path, and the path point to look at it from: near, square, large."""
+
+    def worth(item):
+        defect, point = item
+        return max(0.0, squareness(defect, point)) * defect["size_m"] / distance(defect["position_enu_m"], point)
+
+    return max(((d, p) for d in job["defects"] for p in path), key=worth)
+
+
+def aim(here, target):
+    """Heading and elevation, radians, from one point to another."""
+    east, north, up = (t - h for t, h in zip(target, here))
+    return math.atan2(east, north), math.atan2(up, math.hypot(east, north))
+
+
+def first_task_plan(job, pad):
+    """Way points of the flight: up from the pad, over the bridge, along task 1, back over the bridge; with the photo stop."""
+    path = job["tasks"][0]["path_enu_m"]
+    if distance(pad, path[-1]) < distance(pad, path[0]):
+        path = path[::-1]
+    defect, stop = defect_to_photograph(job, path)
+    over = max(point[2] for point in path) + OVER_M
+
+    def above(point):
+        return (point[0], point[1], over)
+
+    return {
+        "out": [above(pad), above(path[0])],
+        "path": thin(path),
+        "back": [above(stop), above(pad)],
+        "stop": stop,
+        "defect": defect,
+    }

@@ -1,0 +1,86 @@
+"""Starts the real program on ports of its own and reads what it writes."""
+
+import json
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("SPANDREL", str(ROOT / "target" / "release" / "spandrel"))
+# Wall seconds for one whole flight at the speed below, on a busy two-core machine, ten times over.
+FLIGHT_LIMIT_S = 600
+# Vehicle time runs this much faster than the clock on the wall. Clients keep their own wall clocks, so it stays small.
+SPEED = 4
+
+
+def run(*args):
+    """Runs the program to its end and returns what it printed."""
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=FLIGHT_LIMIT_S, check=False)
+    assert done.returncode == 0, f"{args}: exit {done.returncode}\n{done.stderr}"
+    return done.stdout
+
+
+def free_udp_port():
+    """A port that was free a moment ago."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Flight:
+    """A simulator and a monitor on ports that nobody else uses, and the session that they write."""
+
+    def __init__(self, folder, scenario="two-bridges", seed=7, speed=SPEED):
+        self.sessions = pathlib.Path(folder) / "sessions"
+        self.log = open(pathlib.Path(folder) / "log.txt", "w", encoding="utf-8")
+        self.client_port = free_udp_port()
+        payload, monitor = free_udp_port(), free_udp_port()
+        common = ["--scenario", scenario, "--seed", str(seed)]
+        self.sim = self._start(
+            "sim", *common, "--speed", str(speed), "--gcs", f"127.0.0.1:{self.client_port}", "--sdk", "none",
+            "--gcs-port", "0", "--tcp-port", "none", "--payload-port", str(payload), "--monitor-port", str(monitor),
+        )
+        self.monitor = self._start(
+            "monitor", "--scenario", scenario, "--sessions", str(self.sessions), "--port", str(monitor),
+            "--connect", f"127.0.0.1:{payload}", "--trainee", "client-test",
+        )
+
+    def _start(self, *args):
+        return subprocess.Popen([PROGRAM, *args], stdout=self.log, stderr=self.log, stdin=subprocess.DEVNULL)
+
+    def session(self):
+        """The one session folder."""
+        folders = sorted(self.sessions.iterdir())
+        assert len(folders) == 1, folders
+        return folders[0]
+
+    def assessment(self):
+        """Waits for the monitor to end by itself and returns its assessment."""
+        assert self.monitor.wait(timeout=FLIGHT_LIMIT_S) == 0
+        return json.loads((self.session() / "assessment.json").read_text(encoding="utf-8"))
+
+    def close(self):
+        """Ends what was started here, and nothing else."""
+        for process in (self.monitor, self.sim):
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+                try:
+                    process.wait(timeout=20)
+                except subprocess.TimeoutExpired:
+                    process.kill()
+                    process.wait()
+        self.log.close()
+
+
+def wait_for(what, predicate, limit_s=FLIGHT_LIMIT_S):
+    """Polls until the predicate gives a truthy value; the limit only keeps a broken run from hanging."""
+    end = time.monotonic() + limit_s
+    while time.monotonic() < end:
+        value = predicate()
+        if value:
+            return value
+        time.sleep(0.01)
+    raise AssertionError(f"never happened: {what}")

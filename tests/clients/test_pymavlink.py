@@ -1,0 +1,133 @@
+"""pymavlink flies the first task by MANUAL_CONTROL, photographs a defect and lands; the monitor scores it."""
+
+import math
+import os
+import time
+
+os.environ["MAVLINK20"] = "1"
+
+import pytest
+from pymavlink import mavutil
+
+import handpilot
+from spandrel import wait_for
+
+M = mavutil.mavlink
+CAMERA = 100
+POSITION_MODE = 3  # PX4's main mode number of POSCTL
+EARTH_M_PER_DEG = 111_319.49  # WGS84 equatorial radius times pi / 180
+
+
+class Client:
+    """A ground station on pymavlink: answers nothing by itself but heartbeats."""
+
+    def __init__(self, port):
+        self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
+        self.link.wait_heartbeat(timeout=60)
+        self.state = {}
+        self.texts = []
+        self.beat_at = 0.0
+        self.origin = None
+
+    def pump(self):
+        """Takes in everything that has arrived."""
+        if time.monotonic() - self.beat_at > 0.5:
+            self.beat_at = time.monotonic()
+            self.link.mav.heartbeat_send(M.MAV_TYPE_GCS, M.MAV_AUTOPILOT_INVALID, 0, 0, M.MAV_STATE_ACTIVE)
+        while True:
+            message = self.link.recv_match(blocking=False)
+            if message is None:
+                return
+            if message.get_type() == "STATUSTEXT":
+                self.texts.append((message.get_srcComponent(), message.text))
+            if message.get_srcComponent() in (1, CAMERA):
+                self.state[message.get_type()] = message
+
+    def wait(self, what, predicate):
+        """Pumps until the predicate holds."""
+
+        def step():
+            self.pump()
+            return predicate()
+
+        return wait_for(what, step)
+
+    def command(self, number, *params, component=1):
+        """Sends a command and returns the result of its acknowledgement."""
+        params = list(params) + [0] * (7 - len(params))
+        self.state.pop("COMMAND_ACK", None)
+        self.link.mav.command_long_send(self.link.target_system, component, number, 0, *params)
+
+        def answered():
+            ack = self.state.get("COMMAND_ACK")
+            return ack if ack and ack.command == number else None
+
+        return self.wait(f"acknowledgement of {number}", answered).result
+
+    def here(self):
+        """Position in metres east, north, up of the job's origin, and heading in radians."""
+        p = self.state["LOCAL_POSITION_NED"]
+        return (p.y, p.x, -p.z), self.state["ATTITUDE"].yaw
+
+    def sticks(self, axes):
+        """One MANUAL_CONTROL."""
+        forward, right, up, yaw = (int(round(1000 * a)) for a in axes)
+        self.link.mav.manual_control_send(self.link.target_system, forward, right, 500 + up // 2, yaw, 0)
+
+    def fly_to(self, target, look_yaw, done=None, cruise=handpilot.CRUISE_M_S):
+        """Holds the sticks towards a target until it is reached (or `done` says so)."""
+        last = [None]
+
+        def step():
+            here, yaw = self.here()
+            stamp = self.state["ATTITUDE"].time_boot_ms
+            if stamp != last[0]:
+                last[0] = stamp
+                self.sticks(handpilot.sticks_towards(here, yaw, target, look_yaw(here), cruise))
+            return done(here) if done else handpilot.distance(here, target) < handpilot.REACHED_M
+
+        self.wait(f"reaching {target}", step)
+
+
+@pytest.mark.timeout(900)
+def test_wire_pymavlink_flies_the_first_task_and_is_scored(flight, job):
+    """From a standing start to four scores."""
+    client = Client(flight.client_port)
+    prearm = M.MAV_SYS_STATUS_PREARM_CHECK
+    client.wait("ready", lambda: (s := client.state.get("SYS_STATUS")) and s.onboard_control_sensors_health & prearm)
+    client.wait("position", lambda: "LOCAL_POSITION_NED" in client.state and "ATTITUDE" in client.state)
+    pad, _ = client.here()
+    plan = handpilot.first_task_plan(job, pad)
+    defect = plan["defect"]["position_enu_m"]
+
+    def face(here):
+        return handpilot.aim(here, defect)[0]
+
+    client.sticks((0, 0, 0, 0))
+    assert client.command(M.MAV_CMD_DO_SET_MODE, 1, POSITION_MODE) == M.MAV_RESULT_ACCEPTED
+    assert client.command(M.MAV_CMD_COMPONENT_ARM_DISARM, 1) == M.MAV_RESULT_ACCEPTED
+    for target in plan["out"] + plan["path"]:
+        client.fly_to(target, face)
+    client.fly_to(plan["stop"], face)
+    here, _ = client.here()
+    elevation = math.degrees(handpilot.aim(here, defect)[1])
+    nan = float("nan")
+    assert client.command(M.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, elevation, nan, nan, nan) == M.MAV_RESULT_ACCEPTED
+    start = client.state["ATTITUDE"].time_boot_ms
+    client.fly_to(plan["stop"], face, done=lambda _: client.state["ATTITUDE"].time_boot_ms > start + 4000, cruise=0.8)
+    assert client.command(M.MAV_CMD_IMAGE_START_CAPTURE, 0, 0, 1, component=CAMERA) == M.MAV_RESULT_ACCEPTED
+    client.wait("picture", lambda: "CAMERA_IMAGE_CAPTURED" in client.state)
+    for target in plan["back"]:
+        client.fly_to(target, face)
+    client.fly_to((pad[0], pad[1], pad[2] + 6.0), face)
+    assert client.command(M.MAV_CMD_NAV_LAND, 0, 0, 0, nan, nan, nan, 0) == M.MAV_RESULT_ACCEPTED
+    client.wait("disarmed", lambda: not client.link.motors_armed())
+
+    result = flight.assessment()
+    assert result["tasks"][0]["attempted"] is True
+    assert result["tasks"][0]["on_path"] > 0.5
+    assert result["snapshots"]["taken"] == 1
+    assert result["snapshots"]["hits"] == 1
+    assert result["end"]["reason"] == "landed"
+    assert result["crashes"] == {**result["crashes"], "other": 0, "person": 0, "vehicle": 0}
+    assert any(component == 191 for component, _ in client.texts), "the monitor's words reach the ground station"
