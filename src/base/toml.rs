@@ -115,11 +115,24 @@ impl<'a> Reader<'a> {
         self.problems.push(Problem {
             file: self.file.into(),
             line,
-            key: key.into(),
-            value: value.into(),
+            key: one_line(key),
+            value: one_line(value),
             allowed: allowed.into(),
-            message: message.trim().replace('\n', " "),
+            message: one_line(message.trim()),
         });
+    }
+
+    /// Notes what is wrong with a key beyond its own range, at the key's line, or the table's when it is missing.
+    pub fn complain(&mut self, section: &Section, key: &str, value: &str, allowed: &str, message: &str) {
+        let line = section.table.and_then(|t| t.get(key)).and_then(|i| self.line_of(i)).unwrap_or(section.line);
+        self.problem(line, &section.full(key), value, allowed, message);
+    }
+
+    /// Says in words what the default of a key asked for depends on.
+    pub fn default_depends(&mut self, section: &Section, key: &str, words: &str) {
+        if let Some(asked) = self.asked.get_mut(&section.full(key)) {
+            asked.default = words.into();
+        }
     }
 
     /// The file's top.
@@ -149,6 +162,16 @@ impl<'a> Reader<'a> {
                 .iter()
                 .map(|t| Section { path: format!("{path}[]"), table: Some(t), line: line_of(t), seen: Vec::new() })
                 .collect();
+        }
+        let inline = item.as_array().map(|a| a.iter().map(|v| v.as_inline_table().zip(v.span())).collect::<Option<Vec<_>>>());
+        if let Some(tables) = inline.flatten() {
+            let section = |(t, span): (&'d toml_edit::InlineTable, std::ops::Range<usize>)| Section {
+                path: format!("{path}[]"),
+                table: Some(t),
+                line: self.line_at(span.start),
+                seen: Vec::new(),
+            };
+            return tables.into_iter().map(section).collect();
         }
         self.problem(line, &path, &shown(item), "an array of tables", "not an array of tables");
         Vec::new()
@@ -223,6 +246,14 @@ impl<'a> Reader<'a> {
                 default.unwrap_or(min)
             }
         }
+    }
+
+    /// A whole number that may be left out.
+    pub fn optional_whole(&mut self, section: &mut Section, key: &'static str, range: (i64, i64)) -> Option<i64> {
+        let present = section.has(key);
+        let value = self.whole(section, key, range, Some(range.0));
+        self.default_depends(section, key, "none");
+        present.then_some(value)
     }
 
     /// true or false.
@@ -385,6 +416,11 @@ fn as_number(item: &Item) -> Option<f64> {
 fn list(value: &Value, (min, max): (f64, f64)) -> Option<Vec<f64>> {
     let one = |v: &Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64)).filter(|v| *v >= min && *v <= max);
     value.as_array()?.iter().map(one).collect()
+}
+
+/// Without line breaks and other control characters, so that one problem stays one line.
+fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
 }
 
 /// The value as written, cut short.

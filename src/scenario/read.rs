@@ -1,6 +1,6 @@
 //! Scenario files into [`Scenario`]: every key with its unit, range and default.
 
-use super::bridges::Field;
+use super::bridges::{Field, Misfit};
 use super::{
     AfterCrash, BatteryModel, Bridge, BridgeKind, Defects, Feedback, GroundTeam, Light, Rules, Scenario, Scoring, Terrain,
     TerrainSource, Traffic, bridges,
@@ -16,6 +16,10 @@ use std::collections::BTreeMap;
 pub const FORMAT: i64 = 1;
 /// Farthest from the origin that anything may stand, m.
 const FAR_M: f64 = 5_000.0;
+/// Most cells along one side of the height field: 4 million in all take a second to build and 32 MB.
+const MOST_CELLS: f64 = 2_000.0;
+/// Most bridges of one site (estimate: far more than one flight reaches).
+const MOST_BRIDGES: usize = 16;
 
 /// Loads a file that lies beside the scenario, by name.
 pub type Siblings<'a> = &'a dyn Fn(&str) -> Result<String, String>;
@@ -50,14 +54,14 @@ fn whole(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Scenario {
     let name = name(r, root, "name");
     let title = r.text(root, "title", None);
     // The seed travels in a signed 32-bit wire field.
-    let seed = root.has("seed").then(|| r.whole(root, "seed", (0, i64::from(i32::MAX)), Some(0)) as u64);
-    if seed.is_none() {
-        r.whole(root, "seed", (0, i64::from(i32::MAX)), Some(0));
-    }
+    let seed = r.optional_whole(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
     let origin = origin(r, root);
     let terrain = terrain(r, root, siblings);
     let ground_team = ground_team(r, root);
     let bridges = bridges_of(r, root);
+    if bridges.len() > MOST_BRIDGES {
+        r.complain(root, "bridges", &bridges.len().to_string(), "at most 16 [[bridges]]", "too many");
+    }
     let tasks = super::tasks::read(r, root, &bridges);
     Scenario {
         name,
@@ -81,12 +85,12 @@ fn whole(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Scenario {
 
 /// A machine name: lower-case letters, digits and hyphens.
 fn name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
+    let before = r.problems.len();
     let name = r.text(s, key, None);
     let legal =
         !name.is_empty() && name.len() <= 40 && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
-    if !legal && s.has(key) {
-        let (line, path) = (s.line(), s.full(key));
-        r.problem(line, &path, &name, "1 to 40 of a-z, 0-9 and -", "not a machine name");
+    if !legal && r.problems.len() == before {
+        r.complain(s, key, &name, "1 to 40 of a-z, 0-9 and -", "not a machine name");
     }
     name
 }
@@ -118,6 +122,10 @@ fn terrain(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Terrain {
     let mut s = r.section(root, "terrain");
     let size_m = r.number(&mut s, "size_m", (50.0, 4_000.0), Some(800.0));
     let spacing_m = r.number(&mut s, "spacing_m", (1.0, 50.0), Some(4.0));
+    if size_m / spacing_m > MOST_CELLS {
+        let allowed = format!("at least {} for this size_m", size_m / MOST_CELLS);
+        r.complain(&s, "spacing_m", &spacing_m.to_string(), &allowed, "more than 2000 cells a side");
+    }
     let water_level_m = r.number(&mut s, "water_level_m", (-500.0, 500.0), Some(-100.0));
     let source =
         r.choice(&mut s, "source", &[("flat", Source::Flat), ("valley", Source::Valley), ("file", Source::File)], Some(0));
@@ -137,11 +145,14 @@ fn terrain(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Terrain {
 }
 
 fn height_file(r: &mut Reader, s: &mut Section, siblings: Siblings) -> TerrainSource {
+    let before = r.problems.len();
     let file = r.text(s, "file", None);
+    if r.problems.len() > before {
+        return TerrainSource::Flat { height_m: 0.0 };
+    }
     let rows = siblings(&file).and_then(|text| heights(&text));
     let heights_m = rows.unwrap_or_else(|problem| {
-        let (line, path) = (s.line(), s.full("file"));
-        r.problem(line, &path, &file, "rows of comma-separated heights in metres", &problem);
+        r.complain(s, "file", &file, "rows of comma-separated heights in metres", &problem);
         vec![vec![0.0]]
     });
     TerrainSource::File { heights_m }
@@ -189,17 +200,19 @@ fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
     for mut s in r.sections(root, "bridges") {
         let bridge_name = name(r, &mut s, "name");
         if out.iter().any(|b| b.name == bridge_name) {
-            let (line, path) = (s.line(), s.full("name"));
-            r.problem(line, &path, &bridge_name, "a name of its own", "this name is taken");
+            r.complain(&s, "name", &bridge_name, "a name of its own", "this name is taken");
         }
         let centre_m = point(r, &mut s, "centre_m", None);
         let heading_deg = r.number(&mut s, "heading_deg", (0.0, 360.0), Some(90.0));
         let kind = match r.choice(&mut s, "type", &[("arch", Kind::Arch), ("suspension", Kind::Suspension)], None) {
             Kind::Arch => {
-                BridgeKind::Arch(bridges::arch::Arch::from_values(&fields(r, &mut s, "arch", bridges::arch::Arch::FIELDS)))
+                let values =
+                    fields(r, &mut s, "arch", bridges::arch::Arch::FIELDS, |v| bridges::arch::Arch::from_values(v).misfits());
+                BridgeKind::Arch(bridges::arch::Arch::from_values(&values))
             }
             Kind::Suspension => {
-                let values = fields(r, &mut s, "suspension", bridges::suspension::Suspension::FIELDS);
+                let misfits = |v: &[f64]| bridges::suspension::Suspension::from_values(v).misfits();
+                let values = fields(r, &mut s, "suspension", bridges::suspension::Suspension::FIELDS, misfits);
                 BridgeKind::Suspension(bridges::suspension::Suspension::from_values(&values))
             }
         };
@@ -209,9 +222,18 @@ fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
     out
 }
 
-fn fields(r: &mut Reader, s: &mut Section, table: &'static str, fields: &'static [Field]) -> Vec<f64> {
+fn fields(
+    r: &mut Reader,
+    s: &mut Section,
+    table: &'static str,
+    fields: &'static [Field],
+    misfits: impl Fn(&[f64]) -> Vec<Misfit>,
+) -> Vec<f64> {
     let mut s = r.section(s, table);
-    let values = fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
+    let values: Vec<f64> = fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
+    for misfit in misfits(&values) {
+        r.complain(&s, misfit.key, &misfit.value.to_string(), &misfit.allowed, "does not fit the other numbers");
+    }
     r.finish(&s);
     values
 }
@@ -246,8 +268,7 @@ fn light(r: &mut Reader, root: &mut Section) -> Light {
     let mut s = r.section(root, "light");
     let start = r.text(&mut s, "start_utc", Some("2026-06-21T10:00:00Z"));
     let start_unix_s = super::weather::unix_s(&start).unwrap_or_else(|| {
-        let (line, path) = (s.line(), s.full("start_utc"));
-        r.problem(line, &path, &start, "YYYY-MM-DDTHH:MM:SSZ", "not a UTC time");
+        r.complain(&s, "start_utc", &start, "YYYY-MM-DDTHH:MM:SSZ", "not a UTC time");
         0
     });
     let light = Light {
@@ -272,6 +293,10 @@ fn rules(r: &mut Reader, root: &mut Section) -> Rules {
         gnss_shadow: r.flag(&mut s, "gnss_shadow", false),
         respawn_after: SimTime::from_s(r.number(&mut s, "respawn_after_s", (0.5, 60.0), Some(3.0))),
     };
+    if rules.critical_battery_pct > rules.low_battery_pct {
+        let critical = rules.critical_battery_pct.to_string();
+        r.complain(&s, "critical_battery_pct", &critical, "at most low_battery_pct", "too large");
+    }
     r.finish(&s);
     rules
 }
@@ -290,8 +315,17 @@ fn feedback(r: &mut Reader, root: &mut Section) -> Feedback {
         text_interval: SimTime::from_s(n("text_interval_s", (0.5, 60.0), 2.0)),
     };
     if feedback.too_close_clear_m < feedback.too_close_m {
-        let (line, path) = (s.line(), s.full("too_close_clear_m"));
-        r.problem(line, &path, &feedback.too_close_clear_m.to_string(), "at least too_close_m", "the warning would never clear");
+        r.complain(
+            &s,
+            "too_close_clear_m",
+            &feedback.too_close_clear_m.to_string(),
+            "at least too_close_m",
+            "the warning would never clear",
+        );
+    }
+    if feedback.battery_yellow_pct > feedback.battery_green_pct {
+        let yellow = feedback.battery_yellow_pct.to_string();
+        r.complain(&s, "battery_yellow_pct", &yellow, "at most battery_green_pct", "too large");
     }
     r.finish(&s);
     feedback
@@ -315,8 +349,7 @@ fn scoring(r: &mut Reader, root: &mut Section) -> Scoring {
         (scoring.time_max_s <= scoring.time_best_s, "time_max_min", "more than time_best_min"),
     ] {
         if wrong {
-            let (line, path) = (s.line(), s.full(key));
-            r.problem(line, &path, "", allowed, "too small");
+            r.complain(&s, key, "", allowed, "too small");
         }
     }
     r.finish(&s);

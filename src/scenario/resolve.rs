@@ -6,6 +6,9 @@ use crate::base::frames::{Enu, Vec3};
 use crate::base::toml::{Reader, Section};
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 
+/// Room for vectors that a person has rounded to three decimals.
+const UNIT_TOLERANCE: f64 = 2e-3;
+
 /// The source text with seed and defects written in; reading it again gives the same job with exactly these defects. A text that is no
 /// TOML comes back unchanged.
 #[must_use]
@@ -58,7 +61,11 @@ pub(super) fn placed(r: &mut Reader, s: &mut Section) -> Option<Vec<PlacedDefect
 fn one(r: &mut Reader, t: &mut Section) -> PlacedDefect {
     let unit = |r: &mut Reader, t: &mut Section, key| {
         let [e, n, u] = r.numbers(t, key, (-1.0, 1.0), None);
-        Vec3::new(e, n, u)
+        let v = Vec3::new(e, n, u);
+        if t.has(key) && (v.norm() - 1.0).abs() > UNIT_TOLERANCE {
+            r.complain(t, key, &format!("length {:.4}", v.norm()), "a vector of length 1", "not a unit vector");
+        }
+        v
     };
     PlacedDefect {
         id: r.whole(t, "id", (1, 10_000), None) as u32,

@@ -11,6 +11,11 @@ const LEAST_STAND_OFF_M: f64 = 4.0;
 /// A threshold must stay under the outer end of the off-path band, m.
 const MOST_THRESHOLD_M: f64 = 7.999;
 
+/// Most tasks of one job (estimate: the paper has four).
+const MOST_TASKS: usize = 64;
+/// Longest path written in a file, m (estimate: twice what a battery flies); longer ones would only be slips of a digit.
+const LONGEST_PATH_M: f64 = 20_000.0;
+
 const KINDS: [(&str, TaskKind); 5] = [
     ("slab_side", TaskKind::SlabSide),
     ("arch_bottom", TaskKind::ArchBottom),
@@ -38,6 +43,9 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Ve
     if out.is_empty() {
         r.problem(1, "tasks", "", "at least one [[tasks]]", "no task");
     }
+    if out.len() > MOST_TASKS {
+        r.complain(root, "tasks", &out.len().to_string(), "at most 64 [[tasks]]", "too many");
+    }
     out
 }
 
@@ -47,17 +55,19 @@ fn task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
     let bridge = bridge_of(r, s, kind, bridges);
     let stand_off_m = r.number(s, "stand_off_m", (LEAST_STAND_OFF_M, 50.0), Some(LEAST_STAND_OFF_M));
     let threshold_m = r.number(s, "threshold_m", (0.2, MOST_THRESHOLD_M), Some(usual_threshold_m(kind)));
+    r.default_depends(s, "threshold_m", "by kind: 3, 3, 1.75, 2, 2");
     let closed = r.flag(s, "closed", false);
     let points = r.points(s, "points_m", (-5_000.0, 5_000.0));
     let look_at = r.points(s, "look_at_m", (-5_000.0, 5_000.0));
     let path = match bridge {
         Some(index) => bridges[index].task_path(kind, stand_off_m).unwrap_or_else(|problem| {
-            let (line, path) = (s.line(), s.full("kind"));
-            r.problem(line, &path, "", &problem, "this bridge has no such path");
+            r.complain(s, "kind", "", &problem, "this bridge has no such path");
             TaskPath { path_m: Vec::new(), look: Vec::new(), closed }
         }),
         None => free(r, s, kind, &points, &look_at, closed),
     };
+    let dark = r.flag(s, "dark", matches!(kind, TaskKind::ArchBottom | TaskKind::Interlayer));
+    r.default_depends(s, "dark", "true for arch_bottom and interlayer");
     Task {
         id,
         name,
@@ -68,7 +78,7 @@ fn task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
         path_m: path.path_m,
         look: path.look,
         too_close_m: r.optional(s, "too_close_m", (0.2, 20.0)),
-        dark: r.flag(s, "dark", matches!(kind, TaskKind::ArchBottom | TaskKind::Interlayer)),
+        dark,
     }
 }
 
@@ -80,8 +90,7 @@ fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]
     let found = bridges.iter().position(|b| b.name == wanted);
     if found.is_none() {
         let names = bridges.iter().map(|b| b.name.as_str()).collect::<Vec<_>>().join(", ");
-        let (line, path) = (s.line(), s.full("bridge"));
-        r.problem(line, &path, &wanted, &format!("a bridge of this file: {names}"), "no such bridge");
+        r.complain(s, "bridge", &wanted, &format!("a bridge of this file: {names}"), "no such bridge");
     }
     found
 }
@@ -90,8 +99,12 @@ fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]
 fn free(r: &mut Reader, s: &mut Section, kind: TaskKind, points: &[[f64; 3]], look_at: &[[f64; 3]], closed: bool) -> TaskPath {
     let points: Vec<Vec3<Enu>> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
     if points.is_empty() && kind == TaskKind::Free {
-        let (line, path) = (s.line(), s.full("points_m"));
-        r.problem(line, &path, "", "one or more [east, north, up]", "a free path needs points");
+        r.complain(s, "points_m", "", "one or more [east, north, up]", "a free path needs points");
+    }
+    let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+    if length_m > LONGEST_PATH_M {
+        r.complain(s, "points_m", &format!("{length_m:.0} m long"), "at most 20000 m of path", "too long");
+        return TaskPath { path_m: Vec::new(), look: Vec::new(), closed };
     }
     let path_m = resample(&points, closed);
     let target = look_at.first().map(|p| Vec3::new(p[0], p[1], p[2]));

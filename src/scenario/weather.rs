@@ -14,10 +14,13 @@ pub(super) fn read(r: &mut Reader, root: &mut Section) -> Wind {
     let model = r.choice(&mut s, "model", &[("physical", WindModel::Physical), ("paper", WindModel::Paper)], Some(0));
     let (mph, force_n) = r.choice(&mut s, "level", &LEVELS, Some(0));
     let speed_m_s = r.number(&mut s, "speed_m_s", (0.0, 30.0), Some(mph * M_S_PER_MPH));
+    let paper_force_n = r.number(&mut s, "paper_force_n", (0.0, 100.0), Some(force_n));
+    r.default_depends(&s, "speed_m_s", "by level: 0, 0.98, 4.92, 9.83");
+    r.default_depends(&s, "paper_force_n", "by level: 0, 0.12, 3, 12");
     let mut wind = Wind {
         model,
         speed_m_s,
-        paper_force_n: r.number(&mut s, "paper_force_n", (0.0, 100.0), Some(force_n)),
+        paper_force_n,
         from_deg: r.number(&mut s, "from_deg", (0.0, 360.0), Some(0.0)),
         up_m_s: r.number(&mut s, "up_m_s", (-10.0, 10.0), Some(0.0)),
         turbulence: r.number(&mut s, "turbulence", (0.0, 5.0), Some(1.0)),

@@ -2,12 +2,15 @@
 
 use super::{Battery, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, Sensors, Vehicle};
 use crate::base::frames::Vec3;
+use crate::base::math::GRAVITY_M_S2;
 use crate::base::toml::{Asked, Problems, Reader, Section};
 use std::collections::BTreeMap;
 
 /// Newest format that this program reads.
 pub const FORMAT: i64 = 1;
 const MOST_ROTORS: usize = 8;
+/// Full thrust over weight that control needs (estimate; multicopters in use have 1.8 and more).
+const LEAST_LIFT: f64 = 1.2;
 
 /// Reads a vehicle file. `file` is its name for messages; its stem becomes [`Vehicle::id`].
 ///
@@ -44,6 +47,12 @@ fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
     let mass_kg = r.number(root, "mass_kg", (0.05, 50.0), None);
     let inertia_kg_m2 = r.numbers(root, "inertia_kg_m2", (1e-6, 50.0), None);
     let (rotors, rotor) = rotors(r, root);
+    let lift_kg =
+        rotors.len() as f64 * rotor.thrust_coefficient_n_s2 * rotor.max_speed_rad_s * rotor.max_speed_rad_s / GRAVITY_M_S2;
+    if lift_kg < LEAST_LIFT * mass_kg && r.problems.is_empty() {
+        let most = format!("at most {:.3}: the rotors lift {lift_kg:.3} kg", lift_kg / LEAST_LIFT);
+        r.complain(root, "mass_kg", &mass_kg.to_string(), &most, "too heavy to fly");
+    }
     Vehicle {
         id: stem(file),
         name,
@@ -66,8 +75,7 @@ fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
     let places = r.points(&mut s, "position_m", (-5.0, 5.0));
     let spins = r.wholes(&mut s, "spin", (-1, 1));
     if places.len() < 3 || places.len() > MOST_ROTORS || places.len() != spins.len() || spins.contains(&0) {
-        let (line, key) = (s.line(), s.full("spin"));
-        r.problem(line, &key, "", "3 to 8 rotors, one spin of -1 or 1 each", "rotors and spins do not match");
+        r.complain(&s, "spin", "", "3 to 8 rotors, one spin of -1 or 1 each", "rotors and spins do not match");
     }
     let model = RotorModel {
         radius_m: r.number(&mut s, "radius_m", (0.01, 1.0), None),
@@ -80,6 +88,9 @@ fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
         drag_coefficient_n_s2_m: r.number(&mut s, "drag_coefficient_n_s2_m", (0.0, 0.01), None),
         efficiency: r.number(&mut s, "efficiency", (0.1, 1.0), None),
     };
+    if model.idle_speed_rad_s >= model.max_speed_rad_s {
+        r.complain(&s, "idle_speed_rad_s", &model.idle_speed_rad_s.to_string(), "less than max_speed_rad_s", "too fast");
+    }
     r.finish(&s);
     let rotors = places.iter().zip(&spins).map(|(p, spin)| Rotor { position_m: Vec3::new(p[0], p[1], p[2]), spin: *spin as f64 });
     (rotors.collect(), model)
@@ -121,8 +132,7 @@ fn battery(r: &mut Reader, root: &mut Section) -> Battery {
         paper_endurance_s: r.number(&mut s, "paper_endurance_s", (10.0, 10_000.0), Some(1500.0)),
     };
     if battery.ocv_cell_v.windows(2).any(|w| w[1] < w[0]) {
-        let (line, key) = (s.line(), s.full("ocv_cell_v"));
-        r.problem(line, &key, "", "11 rising values", "the open-circuit voltage falls with charge");
+        r.complain(&s, "ocv_cell_v", "", "11 rising values", "the open-circuit voltage falls with charge");
     }
     r.finish(&s);
     battery

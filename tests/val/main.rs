@@ -1,3 +1,4 @@
 //! Tests against what is shipped and against outside data.
 
+mod documented;
 mod shipped;

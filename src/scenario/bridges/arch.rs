@@ -1,7 +1,7 @@
 //! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings, abutments.
 
-use super::Field;
 use super::solid::Builder;
+use super::{Field, Misfit};
 
 /// The numbers of an open-spandrel deck arch. Own axes: x along the deck, y left, z up, origin on the deck at midspan.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,6 +95,36 @@ impl Arch {
             railing_m: get(16),
             approach_m: get(17),
         }
+    }
+
+    /// Numbers that do not fit together, so that every member has a volume and the interlayer is open.
+    #[must_use]
+    pub fn misfits(&self) -> Vec<Misfit> {
+        let panel_m = self.span_m / self.panels;
+        super::misfits(&[
+            ("panels", self.panels, self.panels.fract() == 0.0, "a whole number".into()),
+            ("stringers", self.stringers, self.stringers.fract() == 0.0, "a whole number".into()),
+            ("panels", self.panels, panel_m >= 2.0 * self.column_m, "panels at least twice as long as column_m".into()),
+            (
+                "floorbeam_width_m",
+                self.floorbeam_width_m,
+                self.floorbeam_width_m <= 0.5 * panel_m,
+                format!("at most half a panel, {:.2}", 0.5 * panel_m),
+            ),
+            (
+                "rib_width_m",
+                self.rib_width_m,
+                self.rib_width_m + 1.0 <= self.rib_spacing_m,
+                format!("rib_spacing_m less 1 m for the struts: at most {:.2}", self.rib_spacing_m - 1.0),
+            ),
+            ("column_m", self.column_m, self.column_m <= self.rib_width_m, format!("at most rib_width_m, {}", self.rib_width_m)),
+            (
+                "floorbeam_depth_m",
+                self.floorbeam_depth_m,
+                self.floorbeam_depth_m + 0.5 <= self.crown_gap_m,
+                format!("crown_gap_m less 0.5 m: at most {:.2}", self.crown_gap_m - 0.5),
+            ),
+        ])
     }
 
     /// Length of the deck, m.

@@ -56,6 +56,23 @@ pub struct Field {
     pub doc: &'static str,
 }
 
+/// Numbers of a bridge that are legal one by one but not together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Misfit {
+    /// Key to change.
+    pub key: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What the other numbers allow.
+    pub allowed: String,
+}
+
+/// The misfits among (key, value, fits, allowed).
+fn misfits(rules: &[(&'static str, f64, bool, String)]) -> Vec<Misfit> {
+    let wrong = rules.iter().filter(|(_, _, fits, _)| !fits);
+    wrong.map(|(key, value, _, allowed)| Misfit { key, value: *value, allowed: allowed.clone() }).collect()
+}
+
 /// A task's reference path with the line of sight at each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskPath {

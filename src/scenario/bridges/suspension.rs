@@ -1,8 +1,8 @@
 //! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, floor, railings, anchorages.
 
-use super::Field;
 use super::arch::railing;
 use super::solid::Builder;
+use super::{Field, Misfit};
 
 /// The numbers of a suspension bridge. Own axes: x along the deck, y left, z up, origin on the deck at midspan.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,6 +100,23 @@ impl Suspension {
             anchorage_m: get(17),
             railing_m: get(18),
         }
+    }
+
+    /// Numbers that do not fit together, so that the towers stand on their piers and the girders clear them.
+    #[must_use]
+    pub fn misfits(&self) -> Vec<Misfit> {
+        let legs_m = 2.0 * (self.cable_y_m() + self.leg_y_m - 0.35);
+        let under_m = self.slab_m + self.girder_depth_m;
+        super::misfits(&[
+            ("leg_x_m", self.leg_x_m, self.leg_x_m <= self.pier_x_m, format!("at most pier_x_m, {}", self.pier_x_m)),
+            (
+                "pier_y_m",
+                self.pier_y_m,
+                self.pier_y_m >= legs_m,
+                format!("wide enough for both tower legs: at least {legs_m:.2}"),
+            ),
+            ("pier_top_m", self.pier_top_m, self.pier_top_m >= under_m, format!("under slab and girders: at least {under_m:.2}")),
+        ])
     }
 
     /// Length of the deck between the anchorages' far ends, m.

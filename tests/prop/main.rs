@@ -1,0 +1,4 @@
+//! Tests of properties that hold for any input.
+
+mod files;
+mod mistakes;
