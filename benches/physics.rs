@@ -1,0 +1,212 @@
+//! What one physics step costs: free, near a bridge, standing on one and scraping along it. Medians, in nanoseconds and as ratios to a
+//! floor measured in the same run: a Runge-Kutta quadrotor on plain arrays with lagged rotors and drag, and nothing else. Ratios hold on
+//! busy and slow machines alike; one beyond its limit ends the bench with an error.
+
+use spandrel::base::frames::{Enu, Vec3};
+use spandrel::base::time::SimTime;
+use spandrel::scenario::{BatteryModel, Scenario};
+use spandrel::site::{Site, Surface};
+use spandrel::sitl::physics::{Actuators, Air, Load, MAX_ROTORS, Model, State};
+use spandrel::vehicle::Vehicle;
+use std::hint::black_box;
+use std::path::Path;
+use std::process::ExitCode;
+
+const STEP: SimTime = SimTime::from_ms(1);
+/// Steps in one sample; each sample starts from the same state, so that every one does the same work.
+const STEPS: i64 = 500;
+/// Samples per median; the cases take turns, so that a busy spell of the machine meets all of them.
+const SAMPLES: usize = 61;
+
+/// Largest medians, in floors.
+const FREE: f64 = 4.0;
+const NEAR: f64 = 8.0;
+const CLOSE: f64 = 20.0;
+const STANDING: f64 = 200.0;
+const SCRAPING: f64 = 200.0;
+
+/// The floor: thirteen numbers of a rigid body and four rotors, all integrated, in the leanest form.
+mod floor {
+    pub type Y = [f64; 17];
+
+    fn rate(y: &Y, target: f64) -> Y {
+        let mut d = [0.0; 17];
+        let (v, q, w, rotors) = (&y[3..6], &y[6..10], &y[10..13], &y[13..17]);
+        d[..3].copy_from_slice(v);
+        let thrust: f64 = rotors.iter().map(|s| 1.0e-5 * s * s).sum();
+        let speed = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        let k = -0.5 * 1.225 * 0.03 * speed / 1.3;
+        let lift = -thrust / 1.3;
+        d[3] = lift * 2.0 * (q[1] * q[3] + q[0] * q[2]) + k * v[0];
+        d[4] = lift * 2.0 * (q[2] * q[3] - q[0] * q[1]) + k * v[1];
+        d[5] = lift * (1.0 - 2.0 * (q[1] * q[1] + q[2] * q[2])) + k * v[2] + 9.806_65;
+        d[6] = 0.5 * (-q[1] * w[0] - q[2] * w[1] - q[3] * w[2]);
+        d[7] = 0.5 * (q[0] * w[0] + q[2] * w[2] - q[3] * w[1]);
+        d[8] = 0.5 * (q[0] * w[1] - q[1] * w[2] + q[3] * w[0]);
+        d[9] = 0.5 * (q[0] * w[2] + q[1] * w[1] - q[2] * w[0]);
+        let f: [f64; 4] = std::array::from_fn(|i| 1.0e-5 * rotors[i] * rotors[i]);
+        let torque =
+            [0.12 * (f[1] + f[2] - f[0] - f[3]), 0.12 * (f[0] + f[2] - f[1] - f[3]), 0.016 * (f[0] + f[1] - f[2] - f[3])];
+        let inertia = [0.0097, 0.0097, 0.017];
+        for i in 0..3 {
+            let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+            d[10 + i] = (torque[i] - (inertia[b] - inertia[a]) * w[a] * w[b]) / inertia[i];
+        }
+        for i in 13..17 {
+            d[i] = (target - y[i]) / 0.03;
+        }
+        d
+    }
+
+    fn plus(y: &Y, d: &Y, h: f64) -> Y {
+        std::array::from_fn(|i| y[i] + h * d[i])
+    }
+
+    pub fn step(y: &Y, target: f64, h: f64) -> Y {
+        let a = rate(y, target);
+        let b = rate(&plus(y, &a, 0.5 * h), target);
+        let c = rate(&plus(y, &b, 0.5 * h), target);
+        let d = rate(&plus(y, &c, h), target);
+        let mut out: Y = std::array::from_fn(|i| y[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+        let norm = out[6..10].iter().map(|x| x * x).sum::<f64>().sqrt();
+        for x in &mut out[6..10] {
+            *x /= norm;
+        }
+        out
+    }
+}
+
+struct Case {
+    name: &'static str,
+    /// Largest median, in floors.
+    limit: f64,
+    start: State,
+    actuators: Actuators,
+    samples: Vec<f64>,
+}
+
+impl Case {
+    fn new(name: &'static str, limit: f64, start: State, actuators: Actuators) -> Self {
+        Self { name, limit, start, actuators, samples: Vec::new() }
+    }
+
+    fn fly(&self, model: &Model, site: &Site) -> State {
+        let mut state = self.start.clone();
+        let load = Load { lamp_on: true, airborne: true };
+        for k in 0..STEPS {
+            model.advance(&mut state, &self.actuators, &Air::STILL, site, load, SimTime::from_ms(k), STEP);
+        }
+        state
+    }
+}
+
+fn shipped(file: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("a shipped file")
+}
+
+fn scenario() -> Scenario {
+    let file = "scenarios/two-bridges.toml";
+    spandrel::scenario::read(file, &shipped(file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn vehicle() -> Vehicle {
+    let file = "vehicle-params/phantom2.toml";
+    spandrel::vehicle::read(file, &shipped(file)).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// A spot on a bridge's deck with nothing but the road around it, found from above.
+fn deck(site: &Site) -> Vec3<Enu> {
+    let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("a road lane");
+    let points = &lane.points_m;
+    let middle = points[points.len() / 2];
+    let above = middle + Vec3::new(0.0, 0.0, 3.0);
+    let hit = site.ray(above, Vec3::new(0.0, 0.0, -1.0), 6.0, SimTime::ZERO).expect("the deck under its lane");
+    assert_eq!(hit.surface, Surface::Bridge);
+    above - Vec3::new(0.0, 0.0, hit.distance_m)
+}
+
+fn at(place: Vec3<Enu>) -> State {
+    State::at_rest(place.ned(), 0.3)
+}
+
+fn hovering(model: &Model, place: Vec3<Enu>) -> State {
+    let mut state = at(place);
+    state.rigid.rotor_rad_s = [model.hover_rotor_rad_s(); MAX_ROTORS];
+    state
+}
+
+/// Settled on its feet.
+fn standing(model: &Model, site: &Site, vehicle: &Vehicle, deck: Vec3<Enu>) -> State {
+    let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
+    let mut state = at(deck + Vec3::new(0.0, 0.0, feet + 0.03));
+    for k in 0..2000 {
+        model.advance(&mut state, &Actuators::default(), &Air::STILL, site, Load::default(), SimTime::from_ms(k), STEP);
+    }
+    assert!(state.contact.touching(), "it stands");
+    state
+}
+
+fn cases(model: &Model, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
+    let hover = Actuators { motors: [model.hover_command(); MAX_ROTORS], armed: true };
+    let deck = deck(site);
+    let up = |m: f64| Vec3::new(0.0, 0.0, m);
+    let stand = standing(model, site, vehicle, deck);
+    let mut scrape = stand.clone();
+    scrape.rigid.velocity_m_s = Vec3::new(4.0, 0.0, 0.0);
+    vec![
+        Case::new("free, 60 m over the deck", FREE, hovering(model, deck + up(60.0)), hover),
+        Case::new("near, 2 m over the deck", NEAR, hovering(model, deck + up(2.0)), hover),
+        Case::new("close, 0.5 m over the deck", CLOSE, hovering(model, deck + up(0.5)), hover),
+        Case::new("standing on the deck, motors off", STANDING, stand, Actuators::default()),
+        Case::new("scraping along the deck", SCRAPING, scrape, Actuators::default()),
+    ]
+}
+
+#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+fn ns_per_step(work: impl FnOnce()) -> f64 {
+    let start = std::time::Instant::now();
+    work();
+    start.elapsed().as_secs_f64() * 1e9 / STEPS as f64
+}
+
+fn median(samples: &mut [f64]) -> f64 {
+    samples.sort_by(f64::total_cmp);
+    samples[samples.len() / 2]
+}
+
+fn fly_floor() {
+    let mut y: floor::Y = [0.0; 17];
+    y[6] = 1.0;
+    for _ in 0..STEPS {
+        y = floor::step(black_box(&y), 560.0, 1e-3);
+    }
+    black_box(y);
+}
+
+fn main() -> ExitCode {
+    let (vehicle, scenario) = (vehicle(), scenario());
+    let site = Site::build(&scenario, 1);
+    let model = Model::new(&vehicle, BatteryModel::Physical);
+    let mut cases = cases(&model, &site, &vehicle);
+    let mut floors = Vec::new();
+    for _ in 0..SAMPLES {
+        floors.push(ns_per_step(fly_floor));
+        for case in &mut cases {
+            let taken = ns_per_step(|| {
+                black_box(case.fly(&model, &site));
+            });
+            case.samples.push(taken);
+        }
+    }
+    let floor = median(&mut floors);
+    println!("{:<36} {floor:>9.0} ns", "floor: bare Runge-Kutta quadrotor");
+    let mut held = true;
+    for case in &mut cases {
+        let taken = median(&mut case.samples);
+        let ratio = taken / floor;
+        let verdict = if ratio <= case.limit { "" } else { "  EXCEEDED" };
+        held &= ratio <= case.limit;
+        println!("{:<36} {taken:>9.0} ns {ratio:>7.1} floors, limit {:>5.0}{verdict}", case.name, case.limit);
+    }
+    if held { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}

@@ -1,0 +1,141 @@
+//! The whole vehicle (physics, site, sensors, filter, autopilot, telemetry encoding for a ground station, an SDK and the monitor) as a
+//! multiple of real time on one core, over whole demo flights of two bridges, contacts and all. The flights are flown once by the
+//! synthetic trainee to record its inputs, and then timed with the inputs played back, so that no pilot is in the figure.
+
+use spandrel::base::time::SimTime;
+use spandrel::mav::codec::Decoder;
+use spandrel::mav::dialect::{MavMessage, MavSysStatusSensor};
+use spandrel::pilot::{Pilot, PilotConfig, Skill};
+use spandrel::scenario::Scenario;
+use spandrel::site::Site;
+use spandrel::sitl::endpoint::{LinkId, LinkKind};
+use spandrel::sitl::sim::{Sim, SimConfig, SimEvent};
+use spandrel::vehicle::Vehicle;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// The floor: the whole vehicle, times real time.
+const FLOOR: f64 = 300.0;
+const STEP: SimTime = SimTime::from_ms(20);
+/// No demo of two bridges is longer: the paper's battery is empty.
+const LONGEST: SimTime = SimTime::from_ms(1_600_000);
+const PILOT: LinkId = LinkId(1);
+const ROUNDS: usize = 3;
+
+type Inputs = Vec<(SimTime, Vec<u8>)>;
+
+struct Job {
+    scenario: Arc<Scenario>,
+    vehicle: Arc<Vehicle>,
+    site: Arc<Site>,
+    seed: u64,
+}
+
+impl Job {
+    fn two_bridges(seed: u64) -> Self {
+        let scenario = include_str!("../scenarios/two-bridges.toml");
+        let scenario = spandrel::scenario::read("two-bridges.toml", scenario, &|_| Err("none".into())).expect("shipped");
+        let vehicle = spandrel::vehicle::read("phantom2.toml", include_str!("../vehicle-params/phantom2.toml")).expect("shipped");
+        let site = Arc::new(Site::build(&scenario, seed));
+        Self { scenario: Arc::new(scenario), vehicle: Arc::new(vehicle), site, seed }
+    }
+
+    fn sim(&self, lockstep: bool) -> Sim {
+        let (scenario, vehicle) = (Arc::clone(&self.scenario), Arc::clone(&self.vehicle));
+        let mut sim = Sim::new(SimConfig { scenario, vehicle, seed: self.seed, instance: 0 }, Arc::clone(&self.site));
+        sim.open_link(PILOT, LinkKind::GroundStation, lockstep);
+        sim.open_link(LinkId(2), LinkKind::Payload, false);
+        sim.open_link(LinkId(3), LinkKind::Sdk, false);
+        sim
+    }
+
+    /// Lets the trainee fly; what it sent, when, how it ended, and the onsets of contact on the way.
+    fn fly(&self, skill: Skill) -> (Inputs, SimTime, usize, String) {
+        let (scenario, vehicle) = (Arc::clone(&self.scenario), Arc::clone(&self.vehicle));
+        let mut pilot = Pilot::new(PilotConfig { scenario, vehicle, skill, seed: self.seed });
+        let mut sim = self.sim(true);
+        let (mut inputs, mut crashes) = (Inputs::new(), 0);
+        while pilot.finished().is_none() && sim.now() < LONGEST {
+            sim.handle_timeout(sim.now() + STEP);
+            while let Some(datagram) = sim.poll_transmit() {
+                if datagram.link == PILOT {
+                    pilot.handle_datagram(&datagram.bytes);
+                }
+            }
+            while let Some(bytes) = pilot.poll_transmit() {
+                sim.handle_datagram(PILOT, &bytes);
+                inputs.push((sim.now(), bytes));
+            }
+            crashes += std::iter::from_fn(|| sim.poll_event()).filter(|event| matches!(event, SimEvent::Crash { .. })).count();
+        }
+        let how = pilot.finished().map_or("did not end".to_owned(), |report| report.reason.clone());
+        (inputs, sim.now(), crashes, how)
+    }
+
+    /// The same flight without the trainee: wall time and bytes sent.
+    #[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+    fn replay(&self, inputs: &Inputs, end: SimTime) -> (Duration, usize) {
+        let mut sim = self.sim(false);
+        let (mut next, mut sent) = (inputs.iter().peekable(), 0);
+        let start = std::time::Instant::now();
+        while sim.now() < end {
+            while let Some((_, bytes)) = next.next_if(|(at, _)| *at <= sim.now()) {
+                sim.handle_datagram(PILOT, bytes);
+            }
+            sim.handle_timeout(sim.now() + STEP);
+            while let Some(datagram) = sim.poll_transmit() {
+                sent += datagram.bytes.len();
+            }
+        }
+        (start.elapsed(), sent)
+    }
+}
+
+/// Simulation time until something is said on the ground station's link.
+fn first(job: &Job, mut said: impl FnMut(&MavMessage) -> bool) -> SimTime {
+    let (mut sim, mut decoder) = (job.sim(false), Decoder::new());
+    while sim.now() < LONGEST {
+        sim.handle_timeout(sim.now() + SimTime::from_ms(1));
+        while let Some(datagram) = sim.poll_transmit() {
+            let frames = decoder.datagram(&datagram.bytes);
+            if datagram.link == PILOT && frames.iter().filter_map(|frame| frame.message.as_ref()).any(&mut said) {
+                return sim.now();
+            }
+        }
+    }
+    SimTime::NEVER
+}
+
+/// Resident memory now and at most, MB (Linux).
+fn memory() -> Option<(f64, f64)> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let mb = |key: &str| {
+        let line = status.lines().find(|line| line.starts_with(key))?;
+        line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kb| kb / 1024.0)
+    };
+    Some((mb("VmRSS")?, mb("VmHWM")?))
+}
+
+fn main() {
+    let job = Job::two_bridges(7);
+    let ready = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
+    println!("first heartbeat after {}", first(&job, |said| matches!(said, MavMessage::HEARTBEAT(_))));
+    let armable =
+        |said: &MavMessage| matches!(said, MavMessage::SYS_STATUS(s) if s.onboard_control_sensors_health.contains(ready));
+    println!("armable after {}", first(&job, armable));
+    for (name, skill) in [("expert", Skill::EXPERT), ("novice", Skill::NOVICE)] {
+        let (inputs, end, crashes, how) = job.fly(skill);
+        let runs = (0..ROUNDS).map(|_| job.replay(&inputs, end));
+        let (wall, sent) = runs.min_by_key(|(wall, _)| *wall).unwrap_or_default();
+        let times = end.s() / wall.as_secs_f64();
+        let verdict = if times >= FLOOR { "holds" } else { "MISSES" };
+        println!(
+            "{name}: {end} of flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.0} kB/s sent; {verdict} the floor of {FLOOR:.0}",
+            wall.as_secs_f64(),
+            sent as f64 / 1e3 / end.s()
+        );
+    }
+    if let Some((now, most)) = memory() {
+        println!("resident memory {now:.0} MB, at most {most:.0} MB");
+    }
+}
