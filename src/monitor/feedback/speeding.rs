@@ -3,7 +3,7 @@
 use super::{CoolDown, Moment, Text, cue};
 use crate::scenario::Feedback;
 
-/// The rule. It clears only after the speed was at or under the limit for [`CLEAR_MS`], so that it does not chatter.
+/// The rule. It clears only after the speed was at or under the limit for `CLEAR_MS`, so that it does not chatter.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Speeding {
     over: Option<crate::base::time::SimTime>,

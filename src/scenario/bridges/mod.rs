@@ -1,5 +1,5 @@
 //! Bridge geometry: a bridge type turns its numbers into members, lanes and task paths. A new type is one new file here plus one
-//! variant of [`BridgeKind`](super::BridgeKind).
+//! variant of [`BridgeKind`].
 
 pub mod arch;
 pub mod path;
