@@ -369,9 +369,12 @@ impl Sim {
             Some((surface, _)) if self.lifted && !self.gentle(surface, report.impact_m_s) => contact_code(surface),
             _ => 0,
         };
-        let onset = code != 0 && self.scoring.contact == 0;
-        self.scoring.contact = code;
-        if !onset {
+        let before = std::mem::replace(&mut self.scoring.contact, code);
+        // Who scrapes along a bridge and then hits somebody has hit somebody: that ends the session from any contact.
+        let grave = |code: i32| [contact_code(Surface::Person), contact_code(Surface::Vehicle)].contains(&code);
+        let onset = code != 0 && before == 0;
+        let worse = grave(code) && !grave(before);
+        if !onset && !worse {
             return;
         }
         self.scoring.hits += 1;
@@ -392,6 +395,13 @@ impl Sim {
         surface == Surface::Pad || (surface == Surface::Terrain && home && impact_m_s < PAD_TOUCH_M_S)
     }
 
+    /// On its side or back: near home that is gentle contact and no crash, yet it will not fly from there.
+    fn lies_upset(&self) -> bool {
+        const UPRIGHT: f64 = 0.8;
+        let down = self.state.rigid.attitude * Vec3::<crate::base::frames::Frd>::new(0.0, 0.0, 1.0);
+        self.state.contact.touching() && down.down() < UPRIGHT
+    }
+
     /// A drone that lies still away from the pad, or touches water, goes back to its last safe hover after a while.
     fn put_back_when_down(&mut self) {
         let rules = &self.config.scenario.rules;
@@ -399,7 +409,7 @@ impl Sim {
             return;
         }
         let rigid = &self.state.rigid;
-        let touching = self.scoring.contact != 0;
+        let touching = self.scoring.contact != 0 || self.lies_upset();
         let still = rigid.velocity_m_s.norm() < STILL_M_S;
         let wet = self.scoring.contact == contact_code(Surface::Water);
         if !(touching && (still || wet)) {
