@@ -6,6 +6,8 @@ use std::time::Duration;
 
 /// Largest step of simulation time between two looks at the sockets: the lockstep interval (design.md).
 pub const STEP: SimTime = SimTime::from_ms(20);
+/// A lockstep peer that does not answer for this much wall time ends the run.
+pub const PATIENCE: Duration = Duration::from_secs(10);
 /// A host that falls behind by more wall time than this does not catch up: the clock slips, and the slip is told.
 const SLACK: Duration = Duration::from_millis(250);
 
@@ -85,6 +87,25 @@ impl Pace {
     }
 }
 
+/// How long time may stand still for peers in lockstep. Only standing still counts: flat out, the vehicle waits at every look.
+#[derive(Debug, Clone, Default)]
+pub struct Patience {
+    stands: Option<(SimTime, Duration)>,
+}
+
+impl Patience {
+    /// Whether simulation time, now at `reached`, has stood still for more than [`PATIENCE`] at wall time `wall`.
+    pub fn is_over(&mut self, reached: SimTime, wall: Duration) -> bool {
+        match self.stands {
+            Some((at, since)) if at == reached => wall.saturating_sub(since) > PATIENCE,
+            _ => {
+                self.stands = Some((reached, wall));
+                false
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -123,5 +144,17 @@ mod tests {
         for bad in ["0", "-1", "fast", "1000", "NaN"] {
             assert!(bad.parse::<Speed>().is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn regress_only_time_that_stands_still_tries_patience() {
+        let mut patience = Patience::default();
+        for step in 0..100u64 {
+            let wall = Duration::from_secs(step);
+            assert!(!patience.is_over(SimTime::from_ms(20 * step), wall), "a long run in step is no silence");
+        }
+        let (stuck, since) = (SimTime::from_ms(20 * 99), Duration::from_secs(99));
+        assert!(!patience.is_over(stuck, since + PATIENCE));
+        assert!(patience.is_over(stuck, since + PATIENCE + Duration::from_millis(1)));
     }
 }

@@ -4,7 +4,7 @@ use super::args::{self, JobArgs};
 use super::clock::Stopwatch;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
-use super::pace::{Pace, Speed};
+use super::pace::{PATIENCE, Pace, Patience, Speed};
 use super::ports::{Change, Face, Links, PortArgs};
 use super::progress::Progress;
 use super::stop::Stop;
@@ -16,8 +16,6 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A lockstep peer that does not answer for this much wall time ends the run.
-const PATIENCE: Duration = Duration::from_secs(10);
 /// Longest wait, so that requests to stop and silent peers are noticed.
 const LOOK: Duration = Duration::from_millis(100);
 /// Shortest sleep: ticks every millisecond would only keep the machine awake, and an arrival ends the sleep anyway.
@@ -92,7 +90,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let config = SimConfig { scenario: Arc::new(scenario), vehicle: Arc::new(vehicle), seed, instance: args.ports.instance };
     let watch = Stopwatch::start();
     let pace = Pace::new(args.speed, watch.elapsed());
-    let mut shell = Shell { core: Sim::new(config, site), links, pace, watch, waiting_since: None };
+    let mut shell = Shell { core: Sim::new(config, site), links, pace, watch, patience: Patience::default() };
     let end = args.end_after.unwrap_or(SimTime::NEVER);
     while !stop.asked() && shell.core.now() < end {
         shell.turn(end)?;
@@ -112,7 +110,7 @@ struct Shell {
     links: Links,
     pace: Pace,
     watch: Stopwatch,
-    waiting_since: Option<Duration>,
+    patience: Patience,
 }
 
 impl Shell {
@@ -148,8 +146,7 @@ impl Shell {
     fn rest(&mut self) -> Result<(), AppError> {
         let wall = self.watch.elapsed();
         if self.core.waiting() {
-            let since = *self.waiting_since.get_or_insert(wall);
-            if wall.saturating_sub(since) > PATIENCE {
+            if self.patience.is_over(self.core.now(), wall) {
                 return Err(AppError::failed(format!(
                     "a peer in lockstep has not answered TIMESYNC for {} s at {} and seems to be gone",
                     PATIENCE.as_secs(),
@@ -159,7 +156,6 @@ impl Shell {
             self.links.wait(LOOK);
             return Ok(());
         }
-        self.waiting_since = None;
         let sleep = self.pace.sleep(wall, self.core.poll_timeout());
         if !sleep.is_zero() {
             self.links.wait(sleep.clamp(REST, LOOK));
