@@ -149,9 +149,8 @@ mod tests {
     #[test]
     fn regress_only_time_that_stands_still_tries_patience() {
         let mut patience = Patience::default();
-        for step in 0..100u64 {
-            let wall = Duration::from_secs(step);
-            assert!(!patience.is_over(SimTime::from_ms(20 * step), wall), "a long run in step is no silence");
+        for (reached, wall) in (0..100).map(|step| SimTime::from_ms(20 * step)).zip((0..100).map(Duration::from_secs)) {
+            assert!(!patience.is_over(reached, wall), "a long run in step is no silence");
         }
         let (stuck, since) = (SimTime::from_ms(20 * 99), Duration::from_secs(99));
         assert!(!patience.is_over(stuck, since + PATIENCE));

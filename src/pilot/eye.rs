@@ -23,12 +23,17 @@ const LEAST_SQUARE_RAD: f64 = 1.05;
 const CRITERION: f64 = 4.6;
 
 /// What a glimpse told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sight {
     /// Nothing new.
     Nothing,
     /// Something that is a defect.
-    Defect(u32),
+    Defect {
+        /// Its number.
+        id: u32,
+        /// How far the pilot misjudges how it shows, in standard deviations of the trained pilot.
+        misjudged: f64,
+    },
     /// Something that is none.
     FalseFriend,
 }
@@ -40,7 +45,8 @@ pub struct Eye {
     next_glimpse: SimTime,
     /// How plain a defect must be to be noticed on this flight, per defect: uniform, drawn at first sight.
     luck: BTreeMap<u32, f64>,
-    done: BTreeMap<u32, bool>,
+    /// Until when a defect is not looked for again.
+    done: BTreeMap<u32, SimTime>,
 }
 
 impl Eye {
@@ -66,19 +72,25 @@ impl Eye {
         self.next_glimpse = now + SimTime::from_s(GLIMPSE_S);
         let deceived = self.random.normal() * skill.noise > CRITERION;
         for view in views() {
-            // Seen from the edge or as a speck it says nothing yet; it will be seen better farther on.
-            let plain = view.unoccluded && view.extent_px >= LEAST_PX && view.incidence_rad < LEAST_SQUARE_RAD;
-            if self.done.contains_key(&view.defect_id) || !plain {
+            // Seen from the edge, as a speck or in the dark it says nothing yet; it will be seen better farther on.
+            let lit = view.illuminance_lux >= view.needed_lux;
+            let plain = lit && view.unoccluded && view.extent_px >= LEAST_PX && view.incidence_rad < LEAST_SQUARE_RAD;
+            if self.done.get(&view.defect_id).is_some_and(|until| now < *until) || !plain {
                 continue;
             }
             let random = &mut self.random;
             let luck = *self.luck.entry(view.defect_id).or_insert_with(|| random.uniform());
             if luck < probability(&view, site, skill) {
-                self.done.insert(view.defect_id, true);
-                return Sight::Defect(view.defect_id);
+                self.done.insert(view.defect_id, SimTime::NEVER);
+                return Sight::Defect { id: view.defect_id, misjudged: self.random.normal() };
             }
         }
         if deceived && surface_in_view { Sight::FalseFriend } else { Sight::Nothing }
+    }
+
+    /// Leaves a defect alone for now: it was noticed, but would not show well from here.
+    pub fn leave(&mut self, defect: u32, until: SimTime) {
+        self.done.insert(defect, until);
     }
 }
 
@@ -86,8 +98,7 @@ impl Eye {
 fn probability(view: &DefectView, site: &Site, skill: &Skill) -> f64 {
     let Some(defect) = site.defects().iter().find(|d| d.id == view.defect_id) else { return 0.0 };
     let contrast = if defect.line { view.width_px.min(1.0) } else { 1.0 };
-    let light = (view.illuminance_lux / view.needed_lux.max(1e-9)).min(1.0);
-    let plain_mm = defect.length_m * 1000.0 * contrast * light * (view.extent_px / CLEAR_PX).min(1.0);
+    let plain_mm = defect.length_m * 1000.0 * contrast * (view.extent_px / CLEAR_PX).min(1.0);
     normal_cdf((math::ln(plain_mm.max(1e-6)) - math::ln(skill.median_length_mm())) / POD_SIGMA_LN)
 }
 

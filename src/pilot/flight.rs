@@ -10,6 +10,7 @@ use crate::base::frames::{Enu, Vec3};
 use crate::base::math;
 use crate::base::time::SimTime;
 use crate::mav::dialect::MavCmd;
+use crate::site::DefectView;
 
 /// Heading loop of the trained pilot, 1/s (estimate).
 const YAW_PER_S: f64 = 1.3;
@@ -27,6 +28,12 @@ const BREAK_OFF_PCT: f64 = 12.0;
 const AIMED_RAD: f64 = 0.12;
 /// Tries per defect.
 const TRIES: u32 = 2;
+/// A spot that would not show well is left alone this long, s: it may show better from farther on (estimate).
+const LEAVE_S: f64 = 15.0;
+/// Standard deviation of judging by eye how obliquely a surface is seen, trained pilot, rad (4 degrees, estimate).
+const JUDGE_RAD: f64 = 0.07;
+/// Standard deviation of judging size and light on a screen, trained pilot, as a share (estimate).
+const JUDGE_SHARE: f64 = 0.15;
 
 /// A noticed spot that is being photographed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +44,8 @@ struct Target {
     since: SimTime,
     pressed: Option<SimTime>,
     tries: u32,
+    /// How far this pilot misjudges this spot, in standard deviations of the trained pilot.
+    misjudged: f64,
 }
 
 /// State of the flight in the air.
@@ -190,6 +199,9 @@ impl Pilot {
         self.glimpse(wish.task.is_some());
         let Some(target) = self.flight.target else { return };
         if (self.now - target.since).s() > INSPECT_S || target.tries >= TRIES {
+            if target.tries == 0 {
+                self.eye.leave(target.defect, self.now + SimTime::from_s(LEAVE_S));
+            }
             self.flight.target = None;
             return;
         }
@@ -215,7 +227,7 @@ impl Pilot {
             return;
         }
         match self.eye.glimpse(views, site, &skill, self.now, true) {
-            Sight::Defect(id) => {
+            Sight::Defect { id, misjudged } => {
                 self.flight.target = site.defects().iter().find(|d| d.id == id).map(|d| Target {
                     defect: id,
                     position_m: d.position_m,
@@ -223,6 +235,7 @@ impl Pilot {
                     since: self.now,
                     pressed: None,
                     tries: 0,
+                    misjudged,
                 });
             }
             Sight::FalseFriend => self.flight.false_press = Some(self.now + SimTime::from_s(skill.delay_s)),
@@ -230,13 +243,13 @@ impl Pilot {
         }
     }
 
-    /// Presses when it seems well aimed, then looks at the picture taken and tries again if it shows the spot badly.
+    /// Presses when it is aimed and seems to show well, then looks at the picture taken and tries again if that seems bad.
     fn shoot(&mut self, mut target: Target, line: Vec3<Enu>, belief: &Motion) {
         if let Some(pressed) = target.pressed {
             if (self.now - pressed).s() < 0.6 + self.config.skill.delay_s {
                 return;
             }
-            if self.picture_is_good(target.defect) {
+            if self.shows_well(&target) {
                 self.flight.target = None;
                 return;
             }
@@ -244,8 +257,7 @@ impl Pilot {
         }
         let (yaw, pitch) = angles(line.unit());
         let off = math::wrap_pi(yaw - belief.yaw_rad).abs().max((pitch - self.wire.heard.gimbal_pitch_rad).abs());
-        let patience = (self.now - target.since).s() > 0.8 * INSPECT_S;
-        if (off < AIMED_RAD && belief.velocity_m_s.norm() < 0.8) || patience {
+        if off < AIMED_RAD && belief.velocity_m_s.norm() < 0.8 && self.shows_well(&target) {
             target.pressed = Some(self.now);
             target.tries += 1;
             self.press();
@@ -253,12 +265,24 @@ impl Pilot {
         self.flight.target = Some(target);
     }
 
-    /// What the picture on the screen shows of the spot, as far as this pilot can tell.
-    fn picture_is_good(&self, defect: u32) -> bool {
-        let vehicle = &self.config.vehicle;
-        let (Some(site), Some(picture)) = (&self.site, self.eyes.picture(self.config.skill.delay_s)) else { return true };
+    /// Whether the screen shows the spot well, as far as this pilot can tell.
+    fn shows_well(&self, target: &Target) -> bool {
+        let (vehicle, skill) = (&self.config.vehicle, self.config.skill);
+        let (Some(site), Some(picture)) = (&self.site, self.eyes.picture(skill.delay_s)) else { return true };
         let pose = camera_pose(&picture, self.wire.heard.gimbal_pitch_rad, self.lamp, vehicle);
-        site.look(&pose, &vehicle.camera, &vehicle.lamp, picture.time).iter().any(|v| v.defect_id == defect && v.hit)
+        let views = site.look(&pose, &vehicle.camera, &vehicle.lamp, picture.time);
+        let error = skill.noise * target.misjudged;
+        let flattered = math::exp(JUDGE_SHARE * error);
+        views.iter().find(|view| view.defect_id == target.defect).is_some_and(|view| {
+            let seen = DefectView {
+                incidence_rad: view.incidence_rad - JUDGE_RAD * error,
+                extent_px: view.extent_px * flattered,
+                width_px: view.width_px * flattered,
+                illuminance_lux: view.illuminance_lux * flattered,
+                ..*view
+            };
+            seen.conditions().iter().all(|condition| *condition)
+        })
     }
 
     fn press(&mut self) {

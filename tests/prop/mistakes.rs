@@ -67,9 +67,9 @@ fn says(from: &str, to: &str, expected: &str) {
 #[test]
 fn regress_the_words_for_an_unknown_key() {
     says(
-        "cloud_cover = 0.2",
-        "cloud_covr = 0.2",
-        "job.toml:90: light.cloud_covr = 0.2: unknown key; did you mean cloud_cover? \
+        "cloud_cover = 0.9",
+        "cloud_covr = 0.9",
+        "job.toml:91: light.cloud_covr = 0.9: unknown key; did you mean cloud_cover? \
          (allowed: start_utc, cloud_cover, water_albedo, ground_albedo)",
     );
 }

@@ -101,3 +101,32 @@ fn val_ten_defects_are_placed_on_the_two_bridges() {
         assert_eq!(Site::build(&again, seed).defects(), site.defects());
     }
 }
+
+/// Lamps matter where a grey afternoon leaves less than this, lx: f/2.8, ISO 1600 and a hand-held exposure (shared exposure table, 1/100 s).
+const NEEDED_LX: f64 = 122.5;
+
+#[test]
+fn val_in_the_papers_job_it_takes_the_lamp_between_deck_and_arch_and_nowhere_else() {
+    let scenario = scenario(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/two-bridges.toml"));
+    let phantom = vehicle(&Path::new(env!("CARGO_MANIFEST_DIR")).join("vehicle-params/phantom2.toml"));
+    assert!((spandrel::site::look::needed_lux(&phantom.camera) - NEEDED_LX).abs() < 0.1);
+    let (mut dark, mut inside) = (0, 0);
+    for seed in 1..=10 {
+        let site = Site::build(&scenario, seed);
+        for defect in site.defects() {
+            let reach = |k: &usize| {
+                let path = scenario.tasks[*k].path_m.iter();
+                path.map(|point| (*point - defect.position_m).norm()).fold(f64::INFINITY, f64::min)
+            };
+            let task = (0..scenario.tasks.len()).min_by(|a, b| reach(a).total_cmp(&reach(b))).unwrap();
+            let lux = site.ambient_lux(defect.position_m, Some(defect.normal), SimTime::ZERO);
+            if scenario.tasks[task].dark {
+                inside += 1;
+                dark += i32::from(lux < NEEDED_LX);
+            } else {
+                assert!(lux > NEEDED_LX, "{} in task {}: {lux} lx", defect.member, task + 1);
+            }
+        }
+    }
+    assert!(4 * dark > inside, "{dark} of {inside} defects in the interlayer are too dark without the lamp");
+}
