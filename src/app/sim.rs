@@ -90,7 +90,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let config = SimConfig { scenario: Arc::new(scenario), vehicle: Arc::new(vehicle), seed, instance: args.ports.instance };
     let watch = Stopwatch::start();
     let pace = Pace::new(args.speed, watch.elapsed());
-    let mut shell = Shell { core: Sim::new(config, site), links, pace, watch, patience: Patience::default() };
+    let mut core = Sim::new(config, site);
+    core.set_pace(args.speed.client_pace());
+    let mut shell = Shell { core, links, pace, watch, patience: Patience::default() };
     let end = args.end_after.unwrap_or(SimTime::NEVER);
     while !stop.asked() && shell.core.now() < end {
         shell.turn(end)?;
@@ -178,6 +180,9 @@ impl Shell {
         let slipped = self.pace.slipped();
         if slipped >= Duration::from_secs(1) {
             tracing::warn!("the machine could not keep up: {:.1} s of wall time were lost", slipped.as_secs_f64());
+        }
+        if self.core.bad_bytes() > 0 {
+            tracing::warn!("{} bytes from clients belonged to no MAVLink frame", self.core.bad_bytes());
         }
         if self.links.dropped() > 0 {
             tracing::warn!("{} datagrams found a queue full", self.links.dropped());

@@ -74,10 +74,7 @@ impl Decoder {
                     frames.push(*frame);
                     at += len;
                 }
-                Step::Skip(len) => {
-                    self.bad_bytes += len as u64;
-                    at += len;
-                }
+                Step::Skip(len) => at += self.bad(len),
                 Step::NeedMore => break,
             }
         }
@@ -85,18 +82,30 @@ impl Decoder {
         frames
     }
 
-    /// Feeds one datagram: whole frames only; an incomplete tail counts as bad and is dropped.
+    /// Feeds one datagram: whole frames only; an incomplete tail counts as bad and is dropped. One look at each byte, and one checksum of
+    /// at most 267 bytes for each that could begin a frame: the cost is linear in the datagram's length, whatever it holds.
     pub fn datagram(&mut self, bytes: &[u8]) -> Vec<Received> {
         self.buffer.clear();
-        let mut frames = self.push(bytes);
-        // What is left looked like the start of a frame: step over its first byte and look again, until nothing is left.
-        while !self.buffer.is_empty() {
-            self.bad_bytes += 1;
-            let rest = self.buffer.split_off(1);
-            self.buffer.clear();
-            frames.extend(self.push(&rest));
+        let mut frames = Vec::new();
+        let mut at = 0;
+        while at < bytes.len() {
+            let step = next(&bytes[at..]);
+            at += match step {
+                Step::Frame(len, frame) => {
+                    frames.push(*frame);
+                    len
+                }
+                Step::Skip(len) => self.bad(len),
+                // The start of a frame that does not end here: a frame may still begin within it.
+                Step::NeedMore => self.bad(1),
+            };
         }
         frames
+    }
+
+    fn bad(&mut self, len: usize) -> usize {
+        self.bad_bytes += len as u64;
+        len
     }
 }
 
@@ -242,6 +251,21 @@ mod tests {
         assert_eq!((frames[0].system_id, frames[0].component_id), (1, 191));
         assert_eq!(frames[0].message.as_ref(), Some(&message));
         assert_eq!(decoder.bad_bytes(), 6);
+    }
+
+    #[test]
+    fn exact_a_frame_within_the_reach_of_a_false_start_is_found_and_every_other_byte_is_counted() {
+        let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
+        let frame = Encoder::new(1, 191).encode(&message);
+        // False starts that claim more bytes than the datagram has, by the thousand.
+        let mut bytes = [0xFD, 0xFF, 0x00].repeat(20_000);
+        bytes.extend(&frame);
+        bytes.extend([0xFE, 0xFF]);
+        let mut decoder = Decoder::new();
+        let frames = decoder.datagram(&bytes);
+        assert_eq!(frames.iter().filter(|f| f.message.as_ref() == Some(&message)).count(), 1);
+        let good: usize = frames.iter().map(|f| f.bytes.len()).sum();
+        assert_eq!(decoder.bad_bytes() as usize + good, bytes.len());
     }
 
     #[test]

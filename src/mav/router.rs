@@ -2,11 +2,14 @@
 //! never back where they came from, key exchange to nobody.
 
 use super::codec::Received;
-use mavlink::Message;
+use super::dialect::MavMessage;
+use mavlink::{MavlinkVersion, Message};
 use std::collections::BTreeMap;
 
 /// SETUP_SIGNING carries a key and is never passed on.
 const SETUP_SIGNING: u32 = 256;
+/// Senders that are remembered; a link that claims to be thousands of them must not fill the memory.
+const MOST_SENDERS: usize = 1_024;
 
 /// Who has been heard on which link. `L` names a link.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +26,11 @@ impl<L: Copy + Ord> Router<L> {
 
     /// Notes the sender of a frame.
     pub fn note(&mut self, link: L, frame: &Received) {
-        let links = self.heard.entry((frame.system_id, frame.component_id)).or_default();
+        let sender = (frame.system_id, frame.component_id);
+        if self.heard.len() >= MOST_SENDERS && !self.heard.contains_key(&sender) {
+            return;
+        }
+        let links = self.heard.entry(sender).or_default();
         if !links.contains(&link) {
             links.push(link);
         }
@@ -48,13 +55,9 @@ impl<L: Copy + Ord> Router<L> {
             return Vec::new();
         }
         let (system, component) = target(frame);
-        let reaches = |link: &L| {
-            system == 0
-                || self
-                    .heard
-                    .iter()
-                    .any(|((s, c), links)| *s == system && (component == 0 || *c == component) && links.contains(link))
-        };
+        let components = if component == 0 { (system, 0)..=(system, u8::MAX) } else { (system, component)..=(system, component) };
+        let reaches =
+            |link: &L| system == 0 || self.heard.range(components.clone()).any(|(_, links)| links.contains(link));
         all.iter().copied().filter(|l| *l != from).filter(reaches).collect()
     }
 }
@@ -65,26 +68,34 @@ impl<L: Copy + Ord> Default for Router<L> {
     }
 }
 
-/// Target system and component of a frame; 0 for everybody. A frame whose body is unknown counts as a broadcast.
+/// Target system and component of a frame; 0 for everybody. A frame of an unknown message counts as a broadcast.
 #[must_use]
 pub fn target(frame: &Received) -> (u8, u8) {
     if let Some(message) = &frame.message {
         let system = message.target_system_id().unwrap_or(0);
         return (system, message.target_component_id().unwrap_or(0));
     }
-    // Bodies that the dialect's enumerations cannot hold still name their target at a fixed place.
-    match frame.message_id {
-        75 | 76 => {
-            let payload = frame.payload(35);
-            (payload[30], payload[31])
-        }
-        11 => (frame.payload(6)[4], 0),
-        73 => {
-            let payload = frame.payload(38);
-            (payload[32], payload[33])
-        }
-        _ => (0, 0),
-    }
+    // A body that the dialect's enumerations cannot hold still names its target, at the place where the codec would write it.
+    let [system, component] = target_places(frame.message_id);
+    let payload = frame.payload(255);
+    let byte = |place: Option<usize>| place.and_then(|at| payload.get(at)).copied().unwrap_or(0);
+    (byte(system), byte(component))
+}
+
+/// Where a message's payload holds its target system and component: what changes when they are written.
+fn target_places(message_id: u32) -> [Option<usize>; 2] {
+    let place = |field: fn(&mut MavMessage) -> Option<&mut u8>| {
+        let mut message = MavMessage::default_message_from_id(message_id)?;
+        let mut written = |value: u8| {
+            let mut payload = [0; 255];
+            *field(&mut message)? = value;
+            message.ser(MavlinkVersion::V2, &mut payload);
+            Some(payload)
+        };
+        let (zero, full) = (written(0)?, written(u8::MAX)?);
+        zero.iter().zip(full).position(|(a, b)| *a != b)
+    };
+    [place(MavMessage::target_system_id_mut), place(MavMessage::target_component_id_mut)]
 }
 
 #[cfg(test)]
@@ -108,5 +119,28 @@ mod tests {
         assert_eq!(router.onward(3, &frame(1, 191, &ack), &[1, 2, 3]), [2]);
         router.close(2);
         assert!(router.onward(3, &frame(1, 191, &ack), &[1, 3]).is_empty());
+    }
+
+    #[test]
+    fn wire_sticks_and_unreadable_bodies_go_to_their_target_alone() {
+        use crate::mav::dialect::{MANUAL_CONTROL_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA};
+        let sticks = MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { target: 7, ..Default::default() });
+        assert_eq!(target(&frame(255, 190, &sticks)), (7, 0));
+        let aim = SET_POSITION_TARGET_LOCAL_NED_DATA { target_system: 7, target_component: 9, ..Default::default() };
+        assert_eq!(target_places(84), [Some(50), Some(51)]);
+        let mut unreadable = frame(255, 190, &MavMessage::SET_POSITION_TARGET_LOCAL_NED(aim));
+        unreadable.message = None;
+        assert_eq!(target(&unreadable), (7, 9));
+    }
+
+    #[test]
+    fn prop_a_link_that_claims_to_be_everybody_is_not_remembered_without_end() {
+        let mut router = Router::new();
+        let mut beat = frame(1, 1, &MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
+        for k in 0..=u16::MAX {
+            [beat.system_id, beat.component_id] = k.to_be_bytes();
+            router.note(1, &beat);
+        }
+        assert_eq!(router.heard.len(), MOST_SENDERS);
     }
 }

@@ -1,7 +1,8 @@
 //! One simulation step, in a written order (design.md, "One simulation step"). Sans-IO: datagrams and times come in, datagrams go out.
 
-use super::autopilot::{Autopilot, CONTROL_HZ, Landed, Tuning};
+use super::autopilot::{Autopilot, CONTROL_HZ, Landed};
 use super::backend::Backend;
+use super::endpoint::params::Thresholds;
 use super::endpoint::view::{Scoring, View};
 use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit};
 use super::physics::{self, Actuators, Air, Load, Model};
@@ -94,6 +95,7 @@ pub struct Sim {
     lifted: bool,
     ended: Option<String>,
     battery_told: bool,
+    pace: f64,
     waiting: BTreeMap<LinkId, i64>,
     inbox: VecDeque<(LinkId, Vec<u8>)>,
     events: VecDeque<SimEvent>,
@@ -134,14 +136,16 @@ impl Sim {
         let team = &scenario.ground_team;
         let start = (team.pad_m + Vec3::new(0.0, 0.0, feet_m)).ned();
         let yaw = crate::base::math::wrap_pi(team.pad_heading_deg.to_radians());
-        let autopilot = Autopilot::new(vehicle, &scenario.rules, scenario.origin, Tuning::default());
+        let autopilot = Autopilot::new(vehicle, &scenario.rules, scenario.origin, Autopilot::tuning_for(&scenario.rules));
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
+        let rules = &scenario.rules;
+        let thresholds = Thresholds { low_pct: rules.low_battery_pct, critical_pct: rules.critical_battery_pct };
         Self {
             model: Arc::new(Model::new(vehicle, scenario.rules.battery)),
             state: physics::State::at_rest(start, yaw),
             sensors: Sensors::new(vehicle, scenario.rules.gnss_shadow, scenario.origin, seed),
             backend: Backend::Builtin(Box::new(autopilot)),
-            endpoint: Endpoint::new(config.instance + 1, vehicle.battery.cells),
+            endpoint: Endpoint::new(config.instance + 1, vehicle.battery.cells, thresholds),
             wind: WindField::new(&scenario.wind, seed),
             now: SimTime::ZERO,
             readings: Readings::default(),
@@ -163,6 +167,7 @@ impl Sim {
             lifted: false,
             ended: None,
             battery_told: false,
+            pace: 1.0,
             waiting: BTreeMap::new(),
             inbox: VecDeque::new(),
             events: VecDeque::new(),
@@ -175,12 +180,35 @@ impl Sim {
     /// A peer is there.
     pub fn open_link(&mut self, link: LinkId, kind: LinkKind, lockstep: bool) {
         self.endpoint.open(link, kind, lockstep, self.now);
+        self.keep_pace();
     }
 
     /// A peer is gone; nobody waits for it any more.
     pub fn close_link(&mut self, link: LinkId) {
         self.endpoint.close(link);
         self.waiting.remove(&link);
+        self.keep_pace();
+    }
+
+    /// Simulation runs this many times faster than its clients' clocks: with no peer in step, the limits after which a client counts as
+    /// lost grow by it (never below 1).
+    pub fn set_pace(&mut self, pace: f64) {
+        self.pace = if pace.is_finite() { pace.max(1.0) } else { 1.0 };
+        self.keep_pace();
+    }
+
+    /// Clients in step live in simulation time; without any, clients live in their own.
+    fn keep_pace(&mut self) {
+        let in_step = self.endpoint.in_step().next().is_some();
+        let pace = if in_step { 1.0 } else { self.pace };
+        let Backend::Builtin(autopilot) = &mut self.backend;
+        self.endpoint.set_pace(pace, autopilot);
+    }
+
+    /// Bytes from clients that belonged to no frame.
+    #[must_use]
+    pub fn bad_bytes(&self) -> u64 {
+        self.endpoint.bad_bytes()
     }
 
     /// Simulation time.

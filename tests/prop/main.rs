@@ -1,4 +1,5 @@
 //! Tests of properties that hold for any input.
 
+mod endpoint;
 mod files;
 mod mistakes;

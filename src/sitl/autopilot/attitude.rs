@@ -9,6 +9,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 /// The integral of the rate error gives at most this angular acceleration, rad/s².
 const INTEGRAL_MAX_RAD_S2: f64 = 20.0;
+/// Yaw rates fed forward may exceed the largest that the attitude loop asks for by this factor.
+const YAW_RATE_SLACK: f64 = 1.2;
 /// Above this tilt error the heading waits, rad.
 const HEADING_WAITS_RAD: f64 = 0.9;
 
@@ -35,6 +37,11 @@ impl AttitudeLoop {
         dt_s: f64,
     ) -> Vec3<Frd> {
         let rates = wanted_rates(gains, now.attitude, wanted, yaw_rate);
+        self.rate_torque(gains, now, rates, given, dt_s)
+    }
+
+    /// Torque for wanted body rates.
+    pub fn rate_torque(&mut self, gains: &Gains, now: &Estimate, rates: Vec3<Frd>, given: Given, dt_s: f64) -> Vec3<Frd> {
         let error = rates - now.rates_rad_s;
         // A motor at its limit must not wind the integral up.
         if given.tilt > 0.99 {
@@ -53,6 +60,13 @@ impl AttitudeLoop {
     }
 }
 
+/// Body rates asked for from outside, within the aircraft's limits.
+#[must_use]
+pub fn within_limits(gains: &Gains, rates: Vec3<Frd>) -> Vec3<Frd> {
+    let tilt = Vec3::<Frd>::new(rates.forward(), rates.right(), 0.0).limited(gains.rate_max_rad_s);
+    Vec3::new(tilt.forward(), tilt.right(), rates.down().clamp(-gains.yaw_rate_max_rad_s, gains.yaw_rate_max_rad_s))
+}
+
 /// Body rates that bring the thrust direction, then the heading, to what is wanted.
 fn wanted_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, yaw_rate: f64) -> Vec3<Frd> {
     let into_body = attitude.inverse();
@@ -68,7 +82,7 @@ fn wanted_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Fr
     let heading = if angle < HEADING_WAITS_RAD { heading_error(attitude, wanted, axis, angle) } else { 0.0 };
     let yaw = (gains.yaw * heading).clamp(-gains.yaw_rate_max_rad_s, gains.yaw_rate_max_rad_s);
     let fed = up * yaw_rate;
-    let limit = gains.yaw_rate_max_rad_s * 1.2;
+    let limit = gains.yaw_rate_max_rad_s * YAW_RATE_SLACK;
     Vec3::new(tilt.forward() + fed.forward(), tilt.right() + fed.right(), (yaw + fed.down()).clamp(-limit, limit))
 }
 

@@ -6,7 +6,7 @@ use super::modes::{ReturnPhase, Wanted};
 use super::shaper::{Limits, heading_of, towards};
 use super::velocity::{Motion, Pull};
 use super::{Landed, Mode, OffboardSetpoint};
-use crate::base::frames::{Ned, Vec3};
+use crate::base::frames::{Frd, Ned, Vec3};
 use crate::base::math;
 use crate::base::time::SimTime;
 
@@ -131,7 +131,7 @@ impl Autopilot {
     }
 
     pub(super) fn follow(&mut self, now: SimTime, dt_s: f64) -> Wanted {
-        let Some((setpoint, _)) = self.links.offboard.filter(|_| self.links.offboard_fresh(self.tuning.offboard_loss_s, now))
+        let Some((setpoint, _)) = self.links.offboard.filter(|_| self.links.offboard_fresh(self.tuning.offboard_patience_s(), now))
         else {
             return if self.estimate.position_valid { self.go(None, dt_s) } else { self.sink_blind(dt_s) };
         };
@@ -145,12 +145,48 @@ impl Autopilot {
             self.course.yaw_rate_rad_s = 0.0;
             return Wanted::Direct(Pull { attitude, thrust_n });
         }
+        if let Some((rates_rad_s, thrust)) = setpoint.rates {
+            return self.spin(rates_rad_s, thrust);
+        }
         if !self.estimate.position_valid {
             return self.sink_blind(dt_s);
         }
         let wish = self.offboard_velocity(&setpoint);
         self.shaper.advance(wish, &self.auto_limits(), dt_s);
-        Wanted::Fly(self.motion(self.shaper.velocity_m_s))
+        let mut motion = self.motion(self.shaper.velocity_m_s);
+        self.accelerate(&setpoint, &mut motion);
+        Wanted::Fly(motion)
+    }
+
+    fn spin(&mut self, rates_rad_s: Vec3<Frd>, thrust: f64) -> Wanted {
+        let thrust_n = (thrust.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n);
+        self.contact.wanted_down_m_s = if thrust < 0.1 { self.airframe.limits.descend_m_s } else { 0.0 };
+        // Whatever comes after goes on from the nose as it is then.
+        self.course.yaw_rad = self.estimate.attitude.yaw_rad();
+        Wanted::Spin { rates_rad_s, thrust_n }
+    }
+
+    /// Accelerations of a set-point: alone on an axis they are flown, beside a velocity they are fed forward.
+    fn accelerate(&mut self, s: &OffboardSetpoint, motion: &mut Motion) {
+        let free = |i: usize| s.position_m[i].is_none() && s.velocity_m_s[i].is_none();
+        let flat = |i: usize| s.acceleration_m_s2[i].unwrap_or(0.0);
+        let level = Vec3::<Ned>::new(flat(0), flat(1), 0.0).limited(self.gains.acceleration_m_s2);
+        let most = self.gains.climb_acceleration_m_s2;
+        let wish = [level.north(), level.east(), flat(2).clamp(-most, most)];
+        let (mut velocity, mut acceleration) = (motion.velocity_m_s.array(), motion.acceleration_m_s2.array());
+        let mut planned = self.shaper.velocity_m_s.array();
+        let now = self.estimate.velocity_m_s.array();
+        for i in (0..3).filter(|i| s.acceleration_m_s2[*i].is_some()) {
+            acceleration[i] = wish[i] + if free(i) { 0.0 } else { acceleration[i] };
+            if free(i) {
+                // No velocity error is left then: the velocity loop compares with where the plan was a lag ago.
+                velocity[i] = now[i] + if i < 2 { wish[i] * self.gains.attitude_lag_s } else { 0.0 };
+                planned[i] = now[i];
+            }
+        }
+        let vector = |a: [f64; 3]| Vec3::new(a[0], a[1], a[2]);
+        (motion.velocity_m_s, motion.acceleration_m_s2) = (vector(velocity), vector(acceleration));
+        self.shaper.velocity_m_s = vector(planned);
     }
 
     /// Position set-points close in, velocity set-points are flown; an axis with both takes the velocity as the speed on the way.

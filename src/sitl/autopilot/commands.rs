@@ -44,7 +44,7 @@ impl Autopilot {
             self.status.home_m = Some(self.estimate.position_m);
         }
         // Nobody at the sticks: what flies by itself flies.
-        if self.watch.intended.is_manual() && !self.links.sticks_fresh(self.tuning.manual_loss_s, now) {
+        if self.watch.intended.is_manual() && !self.links.sticks_fresh(self.tuning.manual_patience_s(), now) {
             self.watch.intended = Mode::Hold;
         }
         self.enter(self.watch.intended, now);
@@ -84,7 +84,7 @@ impl Autopilot {
         if mode == Mode::Mission && self.mission.is_empty() {
             return Some(Outcome::Denied("no mission".into()));
         }
-        if mode == Mode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_loss_s, now) {
+        if mode == Mode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_patience_s(), now) {
             return Some(Outcome::TemporarilyRejected("no external set-points".into()));
         }
         if flying && mode.needs_position() && !self.estimate.position_valid {

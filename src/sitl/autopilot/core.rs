@@ -1,6 +1,6 @@
 //! The autopilot as one object: what the outside calls, and one control step.
 
-use super::attitude::AttitudeLoop;
+use super::attitude::{AttitudeLoop, within_limits};
 use super::estimator::Estimator;
 use super::gains::Gains;
 use super::landed::GroundContact;
@@ -218,6 +218,7 @@ impl Autopilot {
                 self.level(&motion, tilt, dt_s)
             }
             Wanted::Direct(pull) => pull,
+            Wanted::Spin { rates_rad_s, thrust_n } => return self.spin_rotors(rates_rad_s, thrust_n, now, dt_s),
         };
         self.turn_rotors(&pull, now, dt_s)
     }
@@ -228,15 +229,33 @@ impl Autopilot {
     }
 
     fn turn_rotors(&mut self, pull: &Pull, now: SimTime, dt_s: f64) -> Actuators {
-        let spool = ((now - self.course.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0);
-        let thrust_n = pull.thrust_n.min(self.gains.thrust_max_n * spool) * self.contact.thrust_share();
-        let g = &self.gains;
+        let thrust_n = self.eased(pull.thrust_n, now);
         self.status.attitude_target = pull.attitude;
-        self.status.thrust = thrust_n / g.thrust_max_n;
         self.watch.aim_cosine = alignment(self.estimate.attitude, pull.attitude);
-        let torque_n_m =
-            self.attitude_loop.torque(g, &self.estimate, pull.attitude, self.course.yaw_rate_rad_s, self.given, dt_s);
-        let (actuators, given) = self.mixer.mix(&Demand { torque_n_m, thrust_n }, self.voltage_share(), dt_s);
+        let (g, feed) = (&self.gains, self.course.yaw_rate_rad_s);
+        let torque_n_m = self.attitude_loop.torque(g, &self.estimate, pull.attitude, feed, self.given, dt_s);
+        self.mix(&Demand { torque_n_m, thrust_n }, dt_s)
+    }
+
+    fn spin_rotors(&mut self, rates_rad_s: Vec3<Frd>, thrust_n: f64, now: SimTime, dt_s: f64) -> Actuators {
+        let thrust_n = self.eased(thrust_n, now);
+        self.status.attitude_target = self.estimate.attitude;
+        self.watch.aim_cosine = 1.0;
+        let rates = within_limits(&self.gains, rates_rad_s);
+        let torque_n_m = self.attitude_loop.rate_torque(&self.gains, &self.estimate, rates, self.given, dt_s);
+        self.mix(&Demand { torque_n_m, thrust_n }, dt_s)
+    }
+
+    /// Thrust comes up at take-off and fades out on the ground.
+    fn eased(&mut self, thrust_n: f64, now: SimTime) -> f64 {
+        let spool = ((now - self.course.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0);
+        let thrust_n = thrust_n.min(self.gains.thrust_max_n * spool) * self.contact.thrust_share();
+        self.status.thrust = thrust_n / self.gains.thrust_max_n;
+        thrust_n
+    }
+
+    fn mix(&mut self, demand: &Demand, dt_s: f64) -> Actuators {
+        let (actuators, given) = self.mixer.mix(demand, self.voltage_share(), dt_s);
         self.given = given;
         actuators
     }

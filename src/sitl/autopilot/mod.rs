@@ -113,12 +113,16 @@ pub struct OffboardSetpoint {
     pub position_m: [Option<f64>; 3],
     /// Velocity, m/s (north, east, down).
     pub velocity_m_s: [Option<f64>; 3],
+    /// Acceleration, m/s² (north, east, down): flown where neither position nor velocity is asked for, fed forward elsewhere.
+    pub acceleration_m_s2: [Option<f64>; 3],
     /// Heading, rad.
     pub yaw_rad: Option<f64>,
     /// Heading rate, rad/s.
     pub yaw_rate_rad_s: Option<f64>,
     /// Attitude and thrust (0..1) instead of position or velocity.
     pub attitude: Option<(Rotation<Frd, Ned>, f64)>,
+    /// Body rates, rad/s, and thrust (0..1) instead of all else.
+    pub rates: Option<(Vec3<Frd>, f64)>,
 }
 
 /// The answer to a [`Request`]; maps one to one to MAV_RESULT.

@@ -4,7 +4,7 @@ use super::core::Autopilot;
 use super::shaper::stopping_point;
 use super::velocity::{Motion, Pull};
 use super::{Landed, MissionStep, Mode, OffboardSetpoint};
-use crate::base::frames::{Ned, Vec3};
+use crate::base::frames::{Frd, Ned, Vec3};
 use crate::base::time::SimTime;
 
 /// The return climbs only when further from home than this, m.
@@ -26,6 +26,13 @@ pub enum Wanted {
     },
     /// Attitude and thrust.
     Direct(Pull),
+    /// Body rates and thrust.
+    Spin {
+        /// Body rates, rad/s.
+        rates_rad_s: Vec3<Frd>,
+        /// Collective thrust, N.
+        thrust_n: f64,
+    },
 }
 
 /// Where a return stands.
@@ -139,7 +146,7 @@ impl Autopilot {
     pub(super) fn wants_to_fly(&self, now: SimTime) -> bool {
         match self.status.mode {
             Mode::Stabilized | Mode::Altitude | Mode::Position => {
-                self.links.sticks.up > 0.1 && self.links.sticks_fresh(self.tuning.manual_loss_s, now)
+                self.links.sticks.up > 0.1 && self.links.sticks_fresh(self.tuning.manual_patience_s(), now)
             }
             Mode::Takeoff => true,
             Mode::Mission => {
@@ -175,5 +182,7 @@ impl Autopilot {
 fn rises(s: &OffboardSetpoint, down_m: f64) -> bool {
     s.position_m[2].is_some_and(|d| d < down_m - 0.3)
         || s.velocity_m_s[2].is_some_and(|v| v < -0.1)
+        || s.acceleration_m_s2[2].is_some_and(|a| a < -0.1)
         || s.attitude.is_some_and(|(_, thrust)| thrust > 0.3)
+        || s.rates.is_some_and(|(_, thrust)| thrust > 0.3)
 }

@@ -124,7 +124,7 @@ impl Autopilot {
             return None;
         }
         let since = *self.watch.blind_since.get_or_insert(now);
-        let pilot = self.links.sticks_fresh(self.tuning.manual_loss_s, now);
+        let pilot = self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
         match (pilot, self.watch.intended) {
             (true, _) if self.watch.intended.is_manual() || (now - since).s() > BLIND_S => {
                 Some((Mode::Altitude, "position lost, holding height only"))
@@ -135,7 +135,7 @@ impl Autopilot {
     }
 
     fn manual_lost(&mut self, now: SimTime) -> Action {
-        let fresh = self.links.sticks_fresh(self.tuning.manual_loss_s, now);
+        let fresh = self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
         if fresh || !self.watch.intended.is_manual() {
             self.watch.manual_lost = None;
             return None;
@@ -160,11 +160,11 @@ impl Autopilot {
     fn link_lost(&mut self, now: SimTime) -> Action {
         let t = &self.tuning;
         let silent = |at: Option<SimTime>, limit: f64| at.is_some_and(|at| (now - at).s() > limit);
-        if self.watch.intended == Mode::Offboard && !self.links.offboard_fresh(t.offboard_loss_s, now) {
+        if self.watch.intended == Mode::Offboard && !self.links.offboard_fresh(t.offboard_patience_s(), now) {
             let mode = if self.estimate.position_valid { Mode::Hold } else { Mode::Land };
             return Some((mode, "external set-points lost"));
         }
-        if t.data_link_loss != LinkLoss::Ignore && silent(self.links.ground_station, t.data_link_loss_s) {
+        if t.data_link_loss != LinkLoss::Ignore && silent(self.links.ground_station, t.data_link_patience_s()) {
             return Some((self.loss_mode(t.data_link_loss, Mode::Hold), "ground station lost"));
         }
         None
@@ -235,7 +235,7 @@ impl Autopilot {
             Some(b) if b.remaining_pct < self.tuning.battery_critical_pct => out.push("Battery too low".into()),
             Some(_) => {}
         }
-        if self.links.sticks_fresh(self.tuning.manual_loss_s, now) && self.links.deflection() > CENTRED {
+        if self.links.sticks_fresh(self.tuning.manual_patience_s(), now) && self.links.deflection() > CENTRED {
             out.push("Sticks not centred".into());
         }
         if self.seen.range_up_m.is_some_and(|r| r < HEADROOM_M) {

@@ -67,6 +67,8 @@ pub struct Tuning {
     pub data_link_loss: LinkLoss,
     /// `COM_OF_LOSS_T`: external set-points are lost after, s.
     pub offboard_loss_s: f64,
+    /// Seconds of simulation time in a second of the clients' time, where they are not kept in step: their time-outs grow by it.
+    pub client_pace: f64,
     /// `BAT_LOW_THR`: low battery, %.
     pub battery_low_pct: f64,
     /// `BAT_CRIT_THR`: critical battery, %.
@@ -79,6 +81,26 @@ pub struct Tuning {
     pub stick_takeover: bool,
     /// `MPC_HOLD_DZ`: sticks within this share of their travel count as centred.
     pub stick_deadband: f64,
+}
+
+impl Tuning {
+    /// After this much silence manual control is lost, s of simulation time.
+    #[must_use]
+    pub fn manual_patience_s(&self) -> f64 {
+        self.manual_loss_s * self.client_pace
+    }
+
+    /// After this much silence external set-points are lost, s of simulation time.
+    #[must_use]
+    pub fn offboard_patience_s(&self) -> f64 {
+        self.offboard_loss_s * self.client_pace
+    }
+
+    /// After this much silence the ground station is lost, s of simulation time.
+    #[must_use]
+    pub fn data_link_patience_s(&self) -> f64 {
+        self.data_link_loss_s * self.client_pace
+    }
 }
 
 impl Default for Tuning {
@@ -100,6 +122,7 @@ impl Default for Tuning {
             data_link_loss_s: 10.0,
             data_link_loss: LinkLoss::Ignore,
             offboard_loss_s: 1.0,
+            client_pace: 1.0,
             battery_low_pct: 15.0,
             battery_critical_pct: 7.0,
             disarm_after_landing_s: 2.0,

@@ -1,7 +1,7 @@
 //! The camera component: pictures, their geotags, picture series.
 
 use super::view::{CameraSummary, View};
-use crate::base::frames::Rotation;
+use crate::base::frames::{Enu, Rotation, Vec3};
 use crate::base::time::SimTime;
 use crate::mav::dialect::{CAMERA_IMAGE_CAPTURED_DATA, MavBool, MavMessage};
 use crate::mav::units::{deg_e7, mm};
@@ -23,24 +23,38 @@ pub struct CameraState {
     pub mission_items: u16,
     next: Option<SimTime>,
     left: Option<u32>,
+    /// A picture every so many metres, and where the last one was.
+    by_distance: Option<(f64, Vec3<Enu>)>,
 }
 
-/// Pictures that a card holds.
-const MOST_SHOTS: usize = 5_000;
-/// The shortest time between pictures of a series, s.
+/// A memory card of 32 GB, MiB.
+pub const CARD_MIB: f32 = 30_517.0;
+/// One picture, MiB (estimate: 12 MP JPEG).
+pub const PICTURE_MIB: f32 = 6.0;
+/// Pictures that the card holds.
+pub const MOST_SHOTS: usize = (CARD_MIB / PICTURE_MIB) as usize;
+/// The shortest way between pictures of a series, m.
+const LEAST_WAY_M: f64 = 0.1;
+/// The shortest and the longest time between pictures of a series, s.
 const LEAST_INTERVAL_S: f64 = 0.2;
+const LONGEST_INTERVAL_S: f64 = 86_400.0;
 
 impl CameraState {
     /// The counters.
     #[must_use]
     pub fn summary(&self) -> CameraSummary {
-        CameraSummary { pictures: self.shots.len(), interval_s: self.interval_s, mission_items: self.mission_items }
+        CameraSummary {
+            pictures: self.shots.len(),
+            interval_s: self.interval_s,
+            series: self.by_distance.is_some(),
+            mission_items: self.mission_items,
+        }
     }
 
     /// Starts a series or takes one picture: `count` 0 means until stopped. False when the numbers make no sense.
     pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> bool {
-        let whole = count.is_finite() && (0.0..=1e6).contains(&count);
-        if !whole || !interval_s.is_finite() || interval_s < 0.0 || self.shots.len() >= MOST_SHOTS {
+        let whole = (0.0..=1e6).contains(&count);
+        if !whole || !(0.0..=LONGEST_INTERVAL_S).contains(&interval_s) || self.full() {
             return false;
         }
         let single = count as u32 == 1;
@@ -50,27 +64,52 @@ impl CameraState {
         true
     }
 
+    /// A picture every `way_m` from `here` on, and one now if asked for; 0 ends it. False when the numbers make no sense.
+    pub fn start_by_distance(&mut self, way_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> bool {
+        if !(0.0..=1e5).contains(&way_m) || (self.full() && way_m > 0.0) {
+            return false;
+        }
+        self.by_distance = (way_m > 0.0).then_some((way_m.max(LEAST_WAY_M), here));
+        if first && way_m > 0.0 {
+            self.next = Some(now);
+        }
+        true
+    }
+
+    /// No picture fits on the card any more.
+    #[must_use]
+    pub fn full(&self) -> bool {
+        self.shots.len() >= MOST_SHOTS
+    }
+
     /// Ends a series.
     pub fn stop(&mut self) {
-        (self.interval_s, self.next, self.left) = (None, None, None);
+        (self.interval_s, self.next, self.left, self.by_distance) = (None, None, None, None);
     }
 
     /// True when a picture is due at `now`; call [`CameraState::take`] then.
     #[must_use]
-    pub fn due(&self, now: SimTime) -> bool {
-        self.next.is_some_and(|next| next <= now)
+    pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
+        let far = self.by_distance.is_some_and(|(way_m, last)| (here - last).norm() >= way_m);
+        !self.full() && (far || self.next.is_some_and(|next| next <= now))
     }
 
-    /// The picture that is due.
-    pub fn take(&mut self, shot: Shot) -> MavMessage {
+    /// The picture that is due. A full card ends every series.
+    pub fn take(&mut self, shot: Shot, now: SimTime, here: Vec3<Enu>) -> MavMessage {
         let message = MavMessage::CAMERA_IMAGE_CAPTURED(shot.message.clone());
-        if self.shots.len() < MOST_SHOTS {
-            self.shots.push(shot);
+        self.shots.push(shot);
+        if let Some((_, last)) = &mut self.by_distance {
+            *last = here;
         }
-        self.left = self.left.map(|left| left.saturating_sub(1));
-        match self.interval_s {
-            Some(interval) if self.left != Some(0) => self.next = self.next.map(|n| n + SimTime::from_s(interval)),
-            _ => self.stop(),
+        if self.next.is_some_and(|next| next <= now) {
+            self.left = self.left.map(|left| left.saturating_sub(1));
+            let goes_on = self.left != Some(0);
+            self.interval_s = self.interval_s.filter(|_| goes_on);
+            self.next = self.next.zip(self.interval_s).map(|(next, interval)| next + SimTime::from_s(interval));
+            self.left = self.left.filter(|_| self.interval_s.is_some());
+        }
+        if self.full() {
+            self.stop();
         }
         message
     }

@@ -27,6 +27,8 @@ pub struct Gimbal {
     pub rate_rad_s: f64,
     /// Who controls it: system and component, 0 for nobody.
     pub control: (u8, u8),
+    /// Who may move it besides.
+    pub secondary: (u8, u8),
     aim: Aim,
 }
 
@@ -34,7 +36,20 @@ impl Gimbal {
     /// Level.
     #[must_use]
     pub fn new() -> Self {
-        Self { pitch_rad: 0.0, rate_rad_s: 0.0, control: (0, 0), aim: Aim::Angle(0.0) }
+        Self { pitch_rad: 0.0, rate_rad_s: 0.0, control: (0, 0), secondary: (0, 0), aim: Aim::Angle(0.0) }
+    }
+
+    /// Somebody in control keeps others out; with nobody in control anybody may move it.
+    #[must_use]
+    pub fn obeys(&self, from: (u8, u8)) -> bool {
+        self.control == (0, 0) || self.control == from || self.secondary == from
+    }
+
+    /// A stick's deflection in [-1, 1], up positive: the whole way to the stop on its side.
+    #[must_use]
+    pub fn deflected(camera: &Camera, deflection: f64) -> Aim {
+        let stop = if deflection < 0.0 { -camera.gimbal_pitch_min_rad } else { camera.gimbal_pitch_max_rad };
+        Aim::Angle(deflection.clamp(-1.0, 1.0) * stop)
     }
 
     /// A new aim; refused when it is not a number or an angle out of reach.

@@ -4,28 +4,35 @@ use crate::base::time::SimTime;
 use crate::mav::dialect::{MANUAL_CONTROL_DATA, RC_CHANNELS_OVERRIDE_DATA};
 use crate::sitl::autopilot::Sticks;
 
-/// A sender that is silent this long has let go of the sticks, s (COM_RC_LOSS_T's default).
-const LET_GO_S: f64 = 0.5;
 /// The field's "not used".
 const UNUSED: i16 = i16::MAX;
 
 /// Who holds the sticks, and how.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Manual {
+    /// A sender that is silent this long has let go of the sticks, s.
+    pub let_go_s: f64,
     holder: Option<(u8, u8)>,
     heard: SimTime,
     sticks: Sticks,
+}
+
+impl Default for Manual {
+    fn default() -> Self {
+        let let_go_s = crate::sitl::autopilot::Tuning::default().manual_patience_s();
+        Self { let_go_s, holder: None, heard: SimTime::ZERO, sticks: Sticks::default() }
+    }
 }
 
 impl Manual {
     /// The sticks, while they are fresh.
     #[must_use]
     pub fn fresh(&self, now: SimTime) -> Option<Sticks> {
-        (self.holder.is_some() && (now - self.heard).s() <= LET_GO_S).then_some(self.sticks)
+        (self.holder.is_some() && (now - self.heard).s() <= self.let_go_s).then_some(self.sticks)
     }
 
     fn take(&mut self, from: (u8, u8), sticks: Sticks, now: SimTime) -> Option<Sticks> {
-        let other = self.holder.is_some_and(|holder| holder != from) && (now - self.heard).s() <= LET_GO_S;
+        let other = self.holder.is_some_and(|holder| holder != from) && (now - self.heard).s() <= self.let_go_s;
         if other {
             return None;
         }

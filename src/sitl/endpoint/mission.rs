@@ -1,6 +1,7 @@
 //! Plans: upload and download of missions, fences and rally points, and what of a mission the autopilot can fly.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
+use super::commands::payload;
 use crate::base::frames::{Ned, Vec3};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
@@ -15,17 +16,31 @@ use crate::sitl::autopilot::MissionStep;
 const MOST_ITEMS: u16 = 2_000;
 /// A stalled upload is given up after this long, s (clients retry for less).
 const STALL_S: f64 = 10.0;
+/// Longest stay of an item, s.
+const LONGEST_S: f32 = 86_400.0;
+/// Heights beyond this are mistakes, m.
+const HIGHEST_M: f32 = 10_000.0;
 /// A silent uploader is asked again after this long, s.
 const ASK_AGAIN_S: f64 = 1.0;
 
 /// Who speaks: system and component.
 pub type Peer = (u8, u8);
 
-/// Plans and a running upload.
-#[derive(Debug, Clone, PartialEq, Default)]
+/// Plans and a running upload. Fences and rally points are kept and given back; the autopilot does not act on them.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Plans {
     kept: [Vec<MISSION_ITEM_INT_DATA>; 3],
     upload: Option<Upload>,
+    /// Who finished an upload last: the acknowledgement may have been lost.
+    done: Option<(Peer, MavMissionType)>,
+    /// Seconds of simulation time in a second of the uploader's.
+    pace: f64,
+}
+
+impl Default for Plans {
+    fn default() -> Self {
+        Self { kept: Default::default(), upload: None, done: None, pace: 1.0 }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -71,6 +86,11 @@ pub fn ack(to: Peer, kind: MavMissionType, result: MavMissionResult) -> MavMessa
 }
 
 impl Plans {
+    /// Uploaders that are not kept in step take longer by this factor.
+    pub fn set_pace(&mut self, pace: f64) {
+        self.pace = pace;
+    }
+
     /// Items of the mission.
     #[must_use]
     pub fn mission(&self) -> &[MISSION_ITEM_INT_DATA] {
@@ -107,14 +127,16 @@ impl Plans {
     /// Somebody begins an upload. A second station in the middle of one is refused.
     pub fn begin(&mut self, from: Peer, kind: MavMissionType, count: u16, now: SimTime) -> Reply {
         let refuse = |result| Reply::Say(ack(from, kind, result));
-        if self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.heard).s() < STALL_S) {
+        if self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.heard).s() < STALL_S * self.pace) {
             return refuse(MavMissionResult::MAV_MISSION_DENIED);
         }
         let Some(slot) = slot(kind) else { return refuse(MavMissionResult::MAV_MISSION_UNSUPPORTED) };
         if count > MOST_ITEMS {
             return refuse(MavMissionResult::MAV_MISSION_NO_SPACE);
         }
+        self.done = None;
         if count == 0 {
+            self.upload = None;
             self.kept[slot].clear();
             let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
             return if slot == 0 { Reply::NewMission(done) } else { Reply::Say(done) };
@@ -126,7 +148,9 @@ impl Plans {
     /// An item of an upload.
     pub fn receive(&mut self, from: Peer, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, now: SimTime) -> Reply {
         let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && u.kind == item.mission_type) else {
-            return Reply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ERROR));
+            let result =
+                if self.is_last_again(from, item) { MavMissionResult::MAV_MISSION_ACCEPTED } else { MavMissionResult::MAV_MISSION_ERROR };
+            return Reply::Say(ack(from, item.mission_type, result));
         };
         upload.heard = now;
         upload.asked = now;
@@ -135,7 +159,7 @@ impl Plans {
             // Heard before or out of turn: ask for the one that is missing.
             return Reply::Say(ask(from, upload.kind, wanted));
         }
-        if let Err(result) = legal(item, plane) {
+        if let Err(result) = legal(item, upload.count, plane) {
             let kind = upload.kind;
             self.upload = None;
             return Reply::Say(ack(from, kind, result));
@@ -149,8 +173,19 @@ impl Plans {
         let Some(upload) = self.upload.take() else { return Reply::Nothing };
         let slot = slot(upload.kind).unwrap_or(0);
         self.kept[slot] = upload.items;
+        self.done = Some((from, upload.kind));
         let done = ack(from, upload.kind, MavMissionResult::MAV_MISSION_ACCEPTED);
         if slot == 0 { Reply::NewMission(done) } else { Reply::Say(done) }
+    }
+
+    /// The last item of a finished upload once more: its sender has not heard the acknowledgement.
+    fn is_last_again(&self, from: Peer, item: &MISSION_ITEM_INT_DATA) -> bool {
+        let kept = slot(item.mission_type).and_then(|slot| self.kept[slot].last());
+        // Not-a-number fields differ from themselves: the place and the command tell.
+        let same = |last: &MISSION_ITEM_INT_DATA| {
+            (last.seq, last.command, last.frame, last.x, last.y) == (item.seq, item.command, item.frame, item.x, item.y)
+        };
+        self.done == Some((from, item.mission_type)) && kept.is_some_and(same)
     }
 
     /// An item that the dialect cannot hold (unknown command or frame) ends the upload.
@@ -163,6 +198,8 @@ impl Plans {
 
     /// Empties plans.
     pub fn clear(&mut self, from: Peer, kind: MavMissionType) -> Reply {
+        self.upload.take_if(|u| u.from == from);
+        self.done = None;
         match slot(kind) {
             Some(slot) => self.kept[slot].clear(),
             None => self.kept.iter_mut().for_each(Vec::clear),
@@ -181,11 +218,11 @@ impl Plans {
     pub fn remind(&mut self, now: SimTime) -> Option<(Peer, MavMessage)> {
         let upload = self.upload.as_mut()?;
         let (from, kind) = (upload.from, upload.kind);
-        if (now - upload.heard).s() > STALL_S {
+        if (now - upload.heard).s() > STALL_S * self.pace {
             self.upload = None;
             return Some((from, ack(from, kind, MavMissionResult::MAV_MISSION_OPERATION_CANCELLED)));
         }
-        if (now - upload.asked).s() > ASK_AGAIN_S {
+        if (now - upload.asked).s() > ASK_AGAIN_S * self.pace {
             upload.asked = now;
             return Some((from, ask(from, kind, upload.items.len() as u16)));
         }
@@ -229,21 +266,60 @@ fn place(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> Op
     (enu.is_finite() && enu.norm() < 50_000.0).then(|| enu.ned())
 }
 
-/// Refuses what could never be flown.
-fn legal(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
+/// No place given: where the vehicle is then.
+fn placeless(item: &MISSION_ITEM_INT_DATA) -> bool {
+    (item.x, item.y) == (0, 0) || item.x == i32::MAX || item.y == i32::MAX
+}
+
+/// Refuses what could never be flown, naming the parameter that is wrong.
+fn legal(item: &MISSION_ITEM_INT_DATA, count: u16, plane: &LocalPlane) -> Result<(), MavMissionResult> {
+    use MavMissionResult as R;
     if item.mission_type != MavMissionType::MAV_MISSION_TYPE_MISSION {
         return Ok(());
     }
-    let navigates =
-        matches!(item.command, MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM);
-    if !item.z.is_finite() && navigates {
-        return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM7);
+    let span = |value: f32, low: f32, high: f32, wrong: R| {
+        if value.is_nan() || (low..=high).contains(&value) { Ok(()) } else { Err(wrong) }
+    };
+    match item.command {
+        MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM => {
+            span(item.param1, 0.0, LONGEST_S, R::MAV_MISSION_INVALID_PARAM1)?;
+            flyable(item, plane)
+        }
+        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND if placeless(item) => {
+            if relative(item.frame).is_none() && item.frame != MavFrame::MAV_FRAME_MISSION {
+                return Err(R::MAV_MISSION_UNSUPPORTED_FRAME);
+            }
+            span(item.z, -HIGHEST_M, HIGHEST_M, R::MAV_MISSION_INVALID_PARAM7)
+        }
+        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND => flyable(item, plane),
+        MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY => {
+            span(item.param1, -1.0, LONGEST_S, R::MAV_MISSION_INVALID_PARAM1)
+        }
+        MavCmd::MAV_CMD_DO_JUMP => {
+            let inside = (0.0..f32::from(count)).contains(&item.param1);
+            if inside { span(item.param2, -1.0, 1e6, R::MAV_MISSION_INVALID_PARAM2) } else { Err(R::MAV_MISSION_INVALID_PARAM1) }
+        }
+        MavCmd::MAV_CMD_DO_CHANGE_SPEED => span(item.param2, -2.0, 100.0, R::MAV_MISSION_INVALID_PARAM2),
+        MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH => Ok(()),
+        command if payload::knows(command) => Ok(()),
+        _ => Err(R::MAV_MISSION_UNSUPPORTED),
     }
-    if navigates && relative(item.frame).is_none() {
+}
+
+/// A place in a known frame, at a height, not on another continent.
+fn flyable(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
+    if relative(item.frame).is_none() {
         return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED_FRAME);
     }
-    if navigates && place(item, plane, 0.0).is_none() {
+    if !(-HIGHEST_M..=HIGHEST_M).contains(&item.z) {
+        return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM7);
+    }
+    let (lat, lon) = (f64::from(item.x) * 1e-7, f64::from(item.y) * 1e-7);
+    if lat.abs() > 90.0 {
         return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM5_X);
+    }
+    if lon.abs() > 180.0 || place(item, plane, 0.0).is_none() {
+        return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM6_Y);
     }
     Ok(())
 }
@@ -267,18 +343,21 @@ fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64, accept
             }
         }
         MavCmd::MAV_CMD_NAV_TAKEOFF => {
-            let up_m = place(item, plane, home_up_m).map_or(home_up_m + number(item.z, 2.5), |p| -p.down());
-            MissionStep::Takeoff { up_m }
+            let over_sea = relative(item.frame) == Some(false);
+            let base = if over_sea { -plane.origin().altitude_m } else { home_up_m };
+            MissionStep::Takeoff { up_m: if item.z.is_nan() { home_up_m + 2.5 } else { base + f64::from(item.z) } }
         }
         MavCmd::MAV_CMD_NAV_LAND => {
-            let here = item.x == 0 && item.y == 0;
-            MissionStep::Land { position_m: if here { None } else { place(item, plane, home_up_m) } }
+            MissionStep::Land { position_m: if placeless(item) { None } else { place(item, plane, home_up_m) } }
         }
         MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH => MissionStep::Return,
         MavCmd::MAV_CMD_DO_CHANGE_SPEED if item.param2 > 0.0 => MissionStep::Speed(number(item.param2, 5.0)),
         MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY => MissionStep::Delay(number(item.param1, 0.0).max(0.0)),
         MavCmd::MAV_CMD_DO_JUMP => {
-            MissionStep::Jump { to: number(item.param1, 0.0).max(0.0) as usize, times: number(item.param2, 0.0).max(0.0) as u32 }
+            let times = number(item.param2, 0.0);
+            // -1 repeats for ever (MAVLink common).
+            let times = if times < 0.0 { u32::MAX } else { times as u32 };
+            MissionStep::Jump { to: number(item.param1, 0.0).max(0.0) as usize, times }
         }
         _ => MissionStep::Payload,
     }

@@ -2,11 +2,15 @@
 
 pub mod camera;
 pub mod commands;
+mod control;
+mod exchange;
+mod ftp;
 pub mod gimbal;
 pub mod lamp;
 pub mod link;
 pub mod manual;
 pub mod mission;
+mod offboard;
 pub mod params;
 pub mod px4;
 mod receive;
@@ -14,7 +18,7 @@ pub mod streams;
 pub mod view;
 
 use crate::base::time::{Schedule, SimTime};
-use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
+use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use crate::mav::router::Router;
 use crate::sitl::autopilot::{Autopilot, Event, Severity};
 use camera::{CameraState, Shot};
@@ -23,7 +27,8 @@ use lamp::LampState;
 use link::Link;
 use manual::Manual;
 use mission::Plans;
-use params::Params;
+use params::{Params, Thresholds};
+pub use receive::HANDLED;
 use std::collections::{BTreeMap, VecDeque};
 use streams::{AUTOPILOT, CAMERA, STREAMS, truth};
 use view::{Scoring, View};
@@ -82,13 +87,15 @@ pub struct Context<'a, 'v> {
 impl Context<'_, '_> {
     /// Says something to everybody.
     pub fn tell(&mut self, text: &str) {
-        self.texts.push((MavSeverity::MAV_SEVERITY_WARNING, text.to_string()));
+        if self.texts.len() < MOST_TEXTS {
+            self.texts.push((MavSeverity::MAV_SEVERITY_WARNING, text.to_string()));
+        }
     }
 
     /// Answers the link that asked.
-    pub fn answer(&mut self, component: u8, message: &MavMessage) -> crate::mav::dialect::MavResult {
+    pub fn answer(&mut self, component: u8, message: &MavMessage) -> MavResult {
         self.link.send(component, message);
-        crate::mav::dialect::MavResult::MAV_RESULT_ACCEPTED
+        MavResult::MAV_RESULT_ACCEPTED
     }
 }
 
@@ -106,6 +113,9 @@ pub struct Endpoint {
     texts: Vec<(MavSeverity, String)>,
     text_id: u16,
     param_lists: BTreeMap<LinkId, VecDeque<usize>>,
+    pace: f64,
+    told_pace: f64,
+    complained: SimTime,
     truth_rates: TruthRates,
     sent: Scoring,
     bad_bytes: u64,
@@ -122,23 +132,30 @@ struct TruthRates {
 
 /// Parameters sent to a link in one tick of the list.
 const PARAMS_A_TICK: usize = 2;
+/// Texts that wait for the next tick; a flood of refusals says no more than these.
+const MOST_TEXTS: usize = 32;
+/// Set-points come many times a second: what is wrong with them is told this often.
+const COMPLAIN_EVERY: SimTime = SimTime::from_ms(1_000);
 
 impl Endpoint {
     /// An endpoint without links.
     #[must_use]
-    pub fn new(system_id: u8, cells: u32) -> Self {
+    pub fn new(system_id: u8, cells: u32, battery: Thresholds) -> Self {
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
         Self {
             system_id,
             links: BTreeMap::new(),
             router: Router::new(),
-            params: Params::new(system_id, cells),
+            params: Params::new(system_id, cells, battery),
             plans: Plans::default(),
             manual: Manual::default(),
             payload: Payload { camera: CameraState::default(), gimbal: Gimbal::new(), lamp: LampState::OFF },
             texts: Vec::new(),
             text_id: 0,
             param_lists: BTreeMap::new(),
+            pace: 1.0,
+            told_pace: 1.0,
+            complained: SimTime::ZERO.saturating_sub(COMPLAIN_EVERY),
             truth_rates: TruthRates { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2) },
             sent: Scoring::default(),
             bad_bytes: 0,
@@ -175,6 +192,23 @@ impl Endpoint {
         self.manual.fresh(now)
     }
 
+    /// Seconds of simulation time in a second of the clients' time. The limits of clients that are not kept in step grow by it, and every
+    /// log says so: a text now, and NAMED_VALUE_FLOAT `pace` beside the other slow values.
+    pub fn set_pace(&mut self, pace: f64, autopilot: &mut Autopilot) {
+        self.pace = pace;
+        self.plans.set_pace(pace);
+        autopilot.tuning.client_pace = pace;
+        self.manual.let_go_s = autopilot.tuning.manual_patience_s();
+    }
+
+    /// Says what is wrong with a stream of messages, at most once a second.
+    fn complain(&mut self, text: &str, now: SimTime) {
+        if now - self.complained >= COMPLAIN_EVERY {
+            self.complained = now;
+            self.tell(MavSeverity::MAV_SEVERITY_CRITICAL, text);
+        }
+    }
+
     /// Asks every peer in step for its answer.
     pub fn ask_step(&mut self, now: SimTime) {
         let message = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 0, ts1: now.ns(), target_system: 0, target_component: 0 });
@@ -190,12 +224,18 @@ impl Endpoint {
 
     /// Says something to everybody.
     pub fn tell(&mut self, severity: MavSeverity, text: &str) {
-        self.texts.push((severity, text.to_string()));
+        if self.texts.len() < MOST_TEXTS {
+            self.texts.push((severity, text.to_string()));
+        }
     }
 
     /// What is due now goes out.
     pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
         self.take_picture(view);
+        if self.pace != self.told_pace {
+            self.told_pace = self.pace;
+            self.tell(MavSeverity::MAV_SEVERITY_INFO, &format!("Time limits of clients are {} times as long", self.pace));
+        }
         for event in events {
             let severity = match event.severity {
                 Severity::Critical => MavSeverity::MAV_SEVERITY_CRITICAL,
@@ -205,6 +245,7 @@ impl Endpoint {
             self.texts.push((severity, event.text));
         }
         for seq in reached {
+            self.mission_payload(seq, view);
             let message = MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq: seq as u16 });
             self.broadcast(AUTOPILOT, &message);
         }
@@ -218,9 +259,24 @@ impl Endpoint {
     }
 
     fn take_picture(&mut self, view: &View) {
-        if self.payload.camera.due(view.now) {
-            let message = self.payload.camera.take(Shot::of(view));
+        let here = view.estimate.position_m.enu();
+        if self.payload.camera.due(view.now, here) {
+            let message = self.payload.camera.take(Shot::of(view), view.now, here);
             self.broadcast(CAMERA, &message);
+            if self.payload.camera.full() {
+                self.tell(MavSeverity::MAV_SEVERITY_WARNING, "Memory card full");
+            }
+        }
+    }
+
+    /// Items of the mission that are the payload's act when they are passed.
+    fn mission_payload(&mut self, seq: usize, view: &View) {
+        let Some(item) = self.plans.mission().get(seq) else { return };
+        let command = commands::Command::of_item(item, (self.system_id, AUTOPILOT));
+        if let Some(result) = commands::payload::handle(&command, view, &mut self.payload)
+            && result != MavResult::MAV_RESULT_ACCEPTED
+        {
+            self.tell(MavSeverity::MAV_SEVERITY_WARNING, &format!("Mission item {seq} was refused by the payload"));
         }
     }
 
@@ -254,6 +310,9 @@ impl Endpoint {
         if slow {
             out.push(truth::named_int(view, "seed", s.seed));
             out.push(truth::named_int(view, "scn_crc", s.scenario_crc));
+            if self.pace != 1.0 {
+                out.push(truth::named_float(view, "pace", self.pace));
+            }
         }
         if rates.clearance.fire(view.now) {
             out.push(truth::named_float(view, "clearance", s.clearance_m));
@@ -309,7 +368,7 @@ impl Endpoint {
             for _ in 0..PARAMS_A_TICK {
                 let Some(index) = list.pop_front() else { break };
                 if let Some((name, value)) = self.params.at(index) {
-                    link.send(AUTOPILOT, &receive::param_value(name, value, index, count));
+                    link.send(AUTOPILOT, &exchange::param_value(name, value, index, count));
                 }
             }
         }

@@ -101,6 +101,11 @@ const ROWS: &[Row] = &[
     Row("SYS_HITL", Int(0), 0.0, 2.0),
 ];
 
+/// PX4's name for the checksum over all parameters.
+pub const HASH: &str = "_HASH_CHECK";
+/// Parameters that change by themselves and are left out of it.
+const VOLATILE: [&str; 2] = ["LND_FLIGHT_T_HI", "LND_FLIGHT_T_LO"];
+
 /// Parameters that describe the vehicle and cannot be set.
 const READ_ONLY: [&str; 4] = ["MAV_SYS_ID", "MAV_COMP_ID", "SPAN_FLAVOUR", "MAV_TYPE"];
 
@@ -117,6 +122,15 @@ pub enum Refusal {
     ReadOnly,
 }
 
+/// When the battery counts as low and as critical; the job's rules say so until an operator does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thresholds {
+    /// Low, %.
+    pub low_pct: f64,
+    /// Critical, %.
+    pub critical_pct: f64,
+}
+
 /// The parameter table: present values by name, in the order of their names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Params {
@@ -126,10 +140,12 @@ pub struct Params {
 impl Params {
     /// Defaults for a vehicle.
     #[must_use]
-    pub fn new(system_id: u8, cells: u32) -> Self {
+    pub fn new(system_id: u8, cells: u32, battery: Thresholds) -> Self {
         let mut values: BTreeMap<&'static str, Value> = ROWS.iter().map(|r| (r.0, r.1)).collect();
         values.insert("MAV_SYS_ID", Int(i32::from(system_id)));
         values.insert("BAT1_N_CELLS", Int(cells.cast_signed()));
+        values.insert("BAT_LOW_THR", Real((battery.low_pct / 100.0) as f32));
+        values.insert("BAT_CRIT_THR", Real((battery.critical_pct / 100.0) as f32));
         Self { values }
     }
 
@@ -137,6 +153,18 @@ impl Params {
     #[must_use]
     pub fn count(&self) -> usize {
         self.values.len()
+    }
+
+    /// PX4's checksum: CRC-32 without pre- and post-inversion over name and value of each, in the order of their names.
+    #[must_use]
+    pub fn hash(&self) -> u32 {
+        // The crate inverts the register at both ends: inverting around it leaves the plain polynomial.
+        let mut crc = crc32fast::Hasher::new_with_initial(u32::MAX);
+        for (name, value) in self.values.iter().filter(|(name, _)| !VOLATILE.contains(name)) {
+            crc.update(name.as_bytes());
+            crc.update(&value.to_wire().to_bits().to_le_bytes());
+        }
+        !crc.finalize()
     }
 
     /// By place in the list.
@@ -191,6 +219,8 @@ impl Params {
         tuning.manual_loss_s = self.number("COM_RC_LOSS_T");
         tuning.data_link_loss_s = self.number("COM_DL_LOSS_T");
         tuning.offboard_loss_s = self.number("COM_OF_LOSS_T");
+        tuning.battery_low_pct = 100.0 * self.number("BAT_LOW_THR");
+        tuning.battery_critical_pct = 100.0 * self.number("BAT_CRIT_THR");
         tuning.disarm_after_landing_s = self.number("COM_DISARM_LAND");
         tuning.disarm_before_flight_s = self.number("COM_DISARM_PRFLT");
         tuning.manual_loss = LinkLoss::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLoss::Hold);
@@ -204,7 +234,7 @@ mod tests {
 
     #[test]
     fn exact_integers_travel_byte_wise_and_bad_values_change_nothing() {
-        let mut params = Params::new(1, 3);
+        let mut params = Params::new(1, 3, Thresholds { low_pct: 30.0, critical_pct: 10.0 });
         let before = params.clone();
         assert_eq!(params.set("MIS_TAKEOFF_ALT", f32::NAN, true), Err(Refusal::OutOfRange));
         assert_eq!(params.set("MIS_TAKEOFF_ALT", 1e6, true), Err(Refusal::OutOfRange));
@@ -213,5 +243,23 @@ mod tests {
         assert_eq!(params, before);
         assert_eq!(params.set("NAV_RCL_ACT", Int(2).to_wire(), false), Ok(()));
         assert_eq!(params.find("NAV_RCL_ACT").map(|p| p.2), Some(Int(2)));
+    }
+
+    /// The checksum by hand, bit by bit: polynomial 0xEDB88320, register from zero, nothing inverted.
+    #[test]
+    fn exact_the_checksum_is_the_plain_polynomial_and_changes_with_every_value() {
+        let mut params = Params::new(1, 3, Thresholds { low_pct: 30.0, critical_pct: 10.0 });
+        let mut register = 0u32;
+        for (name, value) in params.values.iter().filter(|(name, _)| !VOLATILE.contains(name)) {
+            for byte in name.bytes().chain(value.to_wire().to_bits().to_le_bytes()) {
+                register ^= u32::from(byte);
+                for _ in 0..8 {
+                    register = register >> 1 ^ if register & 1 == 1 { 0xEDB8_8320 } else { 0 };
+                }
+            }
+        }
+        assert_eq!(params.hash(), register);
+        params.set("MIS_TAKEOFF_ALT", 3.0, true).unwrap();
+        assert_ne!(params.hash(), register);
     }
 }

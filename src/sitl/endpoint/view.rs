@@ -56,6 +56,8 @@ pub struct CameraSummary {
     pub pictures: usize,
     /// Seconds between pictures of a running series.
     pub interval_s: Option<f64>,
+    /// A series by distance runs.
+    pub series: bool,
     /// Items of the uploaded mission.
     pub mission_items: u16,
 }

@@ -19,7 +19,10 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             Some(mode) => Request::SetMode(mode),
             None => return Some(DENIED),
         },
-        n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => Request::Takeoff { height_m: take_off_height(c, x) },
+        n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => match take_off_height(c, x) {
+            Ok(height_m) => Request::Takeoff { height_m },
+            Err(()) => return Some(DENIED),
+        },
         n if n == M::MAV_CMD_NAV_LAND as u16 => Request::Land,
         n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => Request::SetMode(Mode::Return),
         n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => Request::SetMode(Mode::Hold),
@@ -50,10 +53,14 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {
             return Some(if x.view.status.armed {
-                MavResult::MAV_RESULT_TEMPORARILY_REJECTED
+                DENIED
             } else {
                 MavResult::MAV_RESULT_UNSUPPORTED
             });
+        }
+        n if n == M::MAV_CMD_DO_SET_MISSION_CURRENT as u16 => {
+            let known = c.given(0).is_some_and(|seq| seq >= 0.0 && x.autopilot.set_mission_current(seq as usize));
+            return Some(if known { MavResult::MAV_RESULT_ACCEPTED } else { DENIED });
         }
         _ => return None,
     };
@@ -97,13 +104,15 @@ fn standard_mode(c: &Command) -> Option<Mode> {
     px4::MODES.iter().find(|row| row.standard as u32 == wanted).map(|row| row.mode)
 }
 
-/// Height over home: parameter 7 is over the sea; not given, the parameter's height.
-fn take_off_height(c: &Command, x: &Context) -> Option<f64> {
+/// Height over home: parameter 7 is over the sea; not given or too near the ground, the parameter's height.
+fn take_off_height(c: &Command, x: &Context) -> Result<Option<f64>, ()> {
+    const LOWEST_M: f64 = 0.5;
+    const HIGHEST_M: f64 = 500.0;
     let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
     let relative = matches!(c.frame, 3 | 6 | 10 | 11);
-    c.given(6)
-        .map(|z| if relative { z } else { z - x.view.plane.origin().altitude_m - home_up })
-        .filter(|h| (0.5..500.0).contains(h))
+    let Some(z) = c.given(6) else { return Ok(None) };
+    let height_m = if relative { z } else { z - x.view.plane.origin().altitude_m - home_up };
+    if height_m > HIGHEST_M { Err(()) } else { Ok(Some(height_m).filter(|h| *h >= LOWEST_M)) }
 }
 
 fn reposition(c: &Command, x: &Context) -> Option<Request> {

@@ -11,6 +11,7 @@ const AVAILABLE_MODES: u32 = 435;
 const IMAGE_CAPTURED: u32 = 263;
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
+const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 
 pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     use MavCmd as M;
@@ -32,8 +33,8 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     }
     match c.number {
         n if n == M::MAV_CMD_REQUEST_MESSAGE as u16 => Some(id(0).map_or(DENIED, |m| request(m, c.p[1], c.component, x))),
-        n if n == M::MAV_CMD_SET_MESSAGE_INTERVAL as u16 => Some(id(0).map_or(DENIED, |m| set_interval(m, c.p[1], x))),
-        n if n == M::MAV_CMD_GET_MESSAGE_INTERVAL as u16 => Some(id(0).map_or(DENIED, |m| get_interval(m, x))),
+        n if n == M::MAV_CMD_SET_MESSAGE_INTERVAL as u16 => Some(id(0).map_or(DENIED, |m| set_interval(m, c.p[1], c.component, x))),
+        n if n == M::MAV_CMD_GET_MESSAGE_INTERVAL as u16 => Some(id(0).map_or(DENIED, |m| get_interval(m, c.component, x))),
         _ => None,
     }
 }
@@ -88,16 +89,19 @@ fn modes(index: f64, x: &mut Context) -> MavResult {
     ACCEPTED
 }
 
-fn set_interval(id: u32, us: f64, x: &mut Context) -> MavResult {
-    let rows: Vec<usize> = streams::rows_of(id).map(|(row, _)| row).collect();
+/// A message that is not spoken fails, as PX4 answers.
+fn set_interval(id: u32, us: f64, component: u8, x: &mut Context) -> MavResult {
+    let rows: Vec<usize> = addressed(id, component).collect();
+    if rows.is_empty() {
+        return FAILED;
+    }
     let now = x.view.now;
-    let set = rows.iter().all(|row| x.link.set_interval(*row, us, now));
-    if set && !rows.is_empty() { ACCEPTED } else { DENIED }
+    if rows.iter().all(|row| x.link.set_interval(*row, us, now)) { ACCEPTED } else { DENIED }
 }
 
-fn get_interval(id: u32, x: &mut Context) -> MavResult {
-    let row = streams::rows_of(id).next().map(|(row, _)| row);
+fn get_interval(id: u32, component: u8, x: &mut Context) -> MavResult {
+    let row = addressed(id, component).next();
     let interval_us = row.map_or(0, |row| x.link.interval_us(row));
     x.answer(AUTOPILOT, &MavMessage::MESSAGE_INTERVAL(MESSAGE_INTERVAL_DATA { interval_us, message_id: id as u16 }));
-    if row.is_some() { ACCEPTED } else { DENIED }
+    if row.is_some() { ACCEPTED } else { FAILED }
 }

@@ -2,11 +2,12 @@
 
 mod flight;
 mod messages;
-mod payload;
+pub(super) mod payload;
 
 use super::Context;
+use super::streams::CAMERA;
 use crate::mav::codec::Received;
-use crate::mav::dialect::MavResult;
+use crate::mav::dialect::{MISSION_ITEM_INT_DATA, MavResult};
 use crate::sitl::autopilot::Outcome;
 
 /// A command from either message.
@@ -55,6 +56,15 @@ impl Command {
         Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from })
     }
 
+    /// From an item of a mission, as its vehicle gives it to itself.
+    #[must_use]
+    pub fn of_item(item: &MISSION_ITEM_INT_DATA, from: (u8, u8)) -> Self {
+        let [x, y] = [item.x, item.y].map(|scaled| f64::from(scaled) * 1e-7);
+        let p = [item.param1, item.param2, item.param3, item.param4].map(f64::from);
+        let p = [p[0], p[1], p[2], p[3], x, y, f64::from(item.z)];
+        Self { number: item.command as u16, p, frame: item.frame as u8, component: from.1, system: from.0, from }
+    }
+
     /// True when a parameter is 1.
     #[must_use]
     pub fn is_one(&self, k: usize) -> bool {
@@ -68,12 +78,15 @@ impl Command {
     }
 }
 
-/// Does what a command asks and says how it went.
-pub fn handle(c: &Command, context: &mut Context) -> MavResult {
-    messages::handle(c, context)
-        .or_else(|| flight::handle(c, context))
-        .or_else(|| payload::handle(c, context))
-        .unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED)
+/// Does what a command asks and says how it went. The camera's component takes pictures and speaks of itself; it does not fly.
+pub fn handle(c: &Command, x: &mut Context) -> MavResult {
+    let done = messages::handle(c, x).or_else(|| {
+        if c.component == CAMERA {
+            return payload::camera(c, &x.view, x.payload);
+        }
+        flight::handle(c, x).or_else(|| payload::handle(c, &x.view, x.payload))
+    });
+    done.unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED)
 }
 
 /// The autopilot's answer on the wire; its reason becomes a text.

@@ -1,5 +1,6 @@
 //! Camera, gimbal and lamp.
 
+use super::super::camera::{CARD_MIB, PICTURE_MIB};
 use super::super::gimbal::DEVICE;
 use super::super::view::View;
 use crate::base::math;
@@ -10,11 +11,6 @@ use crate::mav::dialect::{
     HEARTBEAT_DATA, ILLUMINATOR_STATUS_DATA, IlluminatorErrorFlags, IlluminatorMode, MavAutopilot, MavMessage, MavModeFlag,
     MavState, MavType, RELAY_STATUS_DATA, STORAGE_INFORMATION_DATA, StorageStatus, StorageType,
 };
-
-/// A memory card of this size, MiB (estimate).
-const CARD_MIB: f32 = 32_768.0;
-/// One picture, MiB (estimate: 12 MP JPEG).
-const PICTURE_MIB: f32 = 6.0;
 
 pub(super) fn camera_heartbeat(_: &View) -> Option<MavMessage> {
     Some(MavMessage::HEARTBEAT(HEARTBEAT_DATA {
@@ -80,7 +76,7 @@ pub(super) fn storage(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn capture_status(v: &View) -> Option<MavMessage> {
-    let busy = v.camera.interval_s.is_some();
+    let busy = v.camera.interval_s.is_some() || v.camera.series;
     Some(MavMessage::CAMERA_CAPTURE_STATUS(CAMERA_CAPTURE_STATUS_DATA {
         time_boot_ms: v.boot_ms(),
         image_interval: v.camera.interval_s.unwrap_or(0.0) as f32,
@@ -130,6 +126,8 @@ pub(super) fn gimbal_manager_status(v: &View) -> Option<MavMessage> {
         gimbal_device_id: DEVICE,
         primary_control_sysid: system,
         primary_control_compid: component,
+        secondary_control_sysid: v.gimbal.secondary.0,
+        secondary_control_compid: v.gimbal.secondary.1,
         ..Default::default()
     }))
 }

@@ -1,0 +1,108 @@
+//! Messages that steer: sticks, modes, external set-points, the gimbal.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use super::gimbal::{Aim, DEVICE, Gimbal};
+use super::offboard::{self, Reading};
+use super::receive::Arrival;
+use super::{Endpoint, px4};
+use crate::base::frames::Rotation;
+use crate::mav::dialect::{
+    GIMBAL_MANAGER_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA, GIMBAL_MANAGER_SET_PITCHYAW_DATA, HEARTBEAT_DATA,
+    MANUAL_CONTROL_DATA, MavSeverity, MavType, RC_CHANNELS_OVERRIDE_DATA, SET_ATTITUDE_TARGET_DATA, SET_MODE_DATA,
+    SET_POSITION_TARGET_GLOBAL_INT_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA,
+};
+use crate::sitl::autopilot::{Outcome, Request};
+
+pub(super) fn heartbeat(_: &mut Endpoint, beat: &HEARTBEAT_DATA, a: &mut Arrival) {
+    if beat.mavtype == MavType::MAV_TYPE_GCS {
+        a.autopilot.ground_station_alive(a.view.now);
+    }
+}
+
+pub(super) fn manual_control(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut Arrival) {
+    if let Some(sticks) = e.manual.manual_control(a.from, m, a.view.now) {
+        a.autopilot.sticks(sticks, a.view.now);
+    }
+}
+
+pub(super) fn channels(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut Arrival) {
+    if let Some(sticks) = e.manual.channels(a.from, c, a.view.now) {
+        a.autopilot.sticks(sticks, a.view.now);
+    }
+}
+
+pub(super) fn set_mode(e: &mut Endpoint, m: &SET_MODE_DATA, a: &mut Arrival) {
+    enter_mode(e, m.custom_mode, a);
+}
+
+/// SET_MODE has no acknowledgement: a refusal becomes a text.
+pub(super) fn enter_mode(e: &mut Endpoint, custom_mode: u32, a: &mut Arrival) {
+    let outcome = match px4::from_custom_mode(custom_mode) {
+        Some(mode) => a.autopilot.request(Request::SetMode(mode), a.view.now),
+        None => Outcome::Denied(format!("No such mode: {custom_mode}")),
+    };
+    if let Outcome::TemporarilyRejected(reason) | Outcome::Denied(reason) | Outcome::Failed(reason) = outcome {
+        e.tell(MavSeverity::MAV_SEVERITY_WARNING, &reason);
+    }
+}
+
+/// A set-point that cannot be flown is told, and does not count as one.
+fn fly(e: &mut Endpoint, reading: Reading, a: &mut Arrival) {
+    match reading {
+        Ok(setpoint) => a.autopilot.offboard(setpoint, a.view.now),
+        Err(why) => e.complain(why, a.view.now),
+    }
+}
+
+pub(super) fn local_target(e: &mut Endpoint, t: &SET_POSITION_TARGET_LOCAL_NED_DATA, a: &mut Arrival) {
+    fly(e, offboard::local(t, a.view), a);
+}
+
+pub(super) fn global_target(e: &mut Endpoint, t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, a: &mut Arrival) {
+    fly(e, offboard::global(t, a.view), a);
+}
+
+pub(super) fn attitude_target(e: &mut Endpoint, t: &SET_ATTITUDE_TARGET_DATA, a: &mut Arrival) {
+    fly(e, offboard::attitude(t), a);
+}
+
+/// The gimbal as the message's sender may move it: none for another device, or while somebody else is in control.
+fn gimbal<'e>(e: &'e mut Endpoint, device: u8, a: &Arrival) -> Option<&'e mut Gimbal> {
+    let gimbal = &mut e.payload.gimbal;
+    (matches!(device, 0 | DEVICE) && gimbal.obeys(a.from)).then_some(gimbal)
+}
+
+/// An angle where one is given, else a rate; aims out of reach go to the stop, as a stick does.
+fn move_gimbal(gimbal: &mut Gimbal, pitch_rad: f32, rate_rad_s: f32, a: &Arrival) {
+    let camera = &a.view.vehicle.camera;
+    if pitch_rad.is_finite() {
+        let pitch = f64::from(pitch_rad).clamp(camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad);
+        gimbal.set(Aim::Angle(pitch), camera);
+    } else if rate_rad_s.is_finite() {
+        gimbal.set(Aim::Rate(f64::from(rate_rad_s)), camera);
+    }
+}
+
+pub(super) fn gimbal_attitude(e: &mut Endpoint, m: &GIMBAL_MANAGER_SET_ATTITUDE_DATA, a: &mut Arrival) {
+    let Some(gimbal) = gimbal(e, m.gimbal_device_id, a) else { return };
+    let pitch = Rotation::<crate::base::frames::Frd, crate::base::frames::Ned>::from_wxyz(m.q.map(f64::from))
+        .map_or(f32::NAN, |attitude| attitude.euler().1 as f32);
+    move_gimbal(gimbal, pitch, m.angular_velocity_y, a);
+}
+
+pub(super) fn gimbal_pitch_yaw(e: &mut Endpoint, m: &GIMBAL_MANAGER_SET_PITCHYAW_DATA, a: &mut Arrival) {
+    if let Some(gimbal) = gimbal(e, m.gimbal_device_id, a) {
+        move_gimbal(gimbal, m.pitch, m.pitch_rate, a);
+    }
+}
+
+pub(super) fn gimbal_manual(e: &mut Endpoint, m: &GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA, a: &mut Arrival) {
+    let camera = &a.view.vehicle.camera;
+    let Some(gimbal) = gimbal(e, m.gimbal_device_id, a) else { return };
+    if m.pitch.is_finite() {
+        gimbal.set(Gimbal::deflected(camera, f64::from(m.pitch)), camera);
+    } else if m.pitch_rate.is_finite() {
+        let rate = f64::from(m.pitch_rate).clamp(-1.0, 1.0) * camera.gimbal_rate_rad_s;
+        gimbal.set(Aim::Rate(rate), camera);
+    }
+}

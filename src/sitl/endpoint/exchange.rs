@@ -1,0 +1,272 @@
+//! Questions and answers: parameters, plans, streams by groups, clocks, logs.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use super::Endpoint;
+use super::mission::{Reply, ack};
+use super::params::{HASH, Refusal, Value};
+use super::receive::Arrival;
+use super::streams::{self, AUTOPILOT};
+use crate::mav::dialect::*;
+use mavlink::MessageData;
+
+const MISSION_ACK: u32 = 47;
+
+/// PARAM_VALUE of one parameter.
+pub(super) fn param_value(name: &str, value: Value, index: usize, count: u16) -> MavMessage {
+    let param_type = match value {
+        Value::Int(_) => MavParamType::MAV_PARAM_TYPE_INT32,
+        Value::Real(_) => MavParamType::MAV_PARAM_TYPE_REAL32,
+    };
+    MavMessage::PARAM_VALUE(PARAM_VALUE_DATA {
+        param_value: value.to_wire(),
+        param_count: count,
+        param_index: index as u16,
+        param_id: name.into(),
+        param_type,
+    })
+}
+
+/// The checksum over all parameters, outside the list (PX4: index -1).
+fn param_hash(e: &Endpoint) -> MavMessage {
+    MavMessage::PARAM_VALUE(PARAM_VALUE_DATA {
+        param_value: f32::from_bits(e.params.hash()),
+        param_count: e.params.count() as u16,
+        param_index: u16::MAX,
+        param_id: HASH.into(),
+        param_type: MavParamType::MAV_PARAM_TYPE_UINT32,
+    })
+}
+
+/// The whole list, a little each tick, with the checksum before it: a station that knows all values stops the list.
+pub(super) fn param_list(e: &mut Endpoint, _: &PARAM_REQUEST_LIST_DATA, a: &mut Arrival) {
+    let hash = param_hash(e);
+    e.answer(a.link, &hash);
+    e.param_lists.insert(a.link, (0..e.params.count()).collect());
+}
+
+pub(super) fn param_read(e: &mut Endpoint, r: &PARAM_REQUEST_READ_DATA, a: &mut Arrival) {
+    let count = e.params.count() as u16;
+    let name = r.param_id.to_str().unwrap_or_default();
+    let found = match usize::try_from(r.param_index) {
+        Ok(index) => e.params.at(index).map(|(name, value)| (index, name, value)),
+        Err(_) => e.params.find(name),
+    };
+    let message = match found {
+        Some((index, name, value)) => param_value(name, value, index, count),
+        None if name == HASH => param_hash(e),
+        None => param_error(a.from, name, r.param_index, MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST),
+    };
+    e.answer(a.link, &message);
+}
+
+/// A change is told to every link; a refusal is named, and the old value is sent as older clients expect.
+pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut Arrival) {
+    let name = set.param_id.to_str().unwrap_or_default();
+    if name == HASH {
+        e.param_lists.remove(&a.link);
+        return;
+    }
+    let real = set.param_type == MavParamType::MAV_PARAM_TYPE_REAL32;
+    match e.params.set(name, set.param_value, real) {
+        Err(refusal) => {
+            let error = match refusal {
+                Refusal::Unknown => MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST,
+                Refusal::OutOfRange => MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE,
+                Refusal::Type => MavParamError::MAV_PARAM_ERROR_TYPE_MISMATCH,
+                Refusal::ReadOnly => MavParamError::MAV_PARAM_ERROR_READ_ONLY,
+            };
+            refuse_param(e, name, error, a);
+        }
+        Ok(()) => {
+            e.params.apply(&mut a.autopilot.tuning);
+            e.manual.let_go_s = a.autopilot.tuning.manual_patience_s();
+            if let Some((index, name, value)) = e.params.find(name) {
+                let message = param_value(name, value, index, e.params.count() as u16);
+                e.broadcast(AUTOPILOT, &message);
+            }
+        }
+    }
+}
+
+fn refuse_param(e: &mut Endpoint, name: &str, error: MavParamError, a: &Arrival) {
+    e.answer(a.link, &param_error(a.from, name, -1, error));
+    if let Some((index, name, value)) = e.params.find(name) {
+        let message = param_value(name, value, index, e.params.count() as u16);
+        e.answer(a.link, &message);
+    }
+}
+
+/// PARAM_SET with a type that MAVLink does not know.
+pub(super) fn unknown_type(e: &mut Endpoint, name: &[u8], a: &Arrival) {
+    let name = name.split(|byte| *byte == 0).next().unwrap_or_default();
+    refuse_param(e, std::str::from_utf8(name).unwrap_or_default(), MavParamError::MAV_PARAM_ERROR_TYPE_UNSUPPORTED, a);
+}
+
+fn param_error(to: (u8, u8), name: &str, index: i16, error: MavParamError) -> MavMessage {
+    MavMessage::PARAM_ERROR(PARAM_ERROR_DATA {
+        param_index: index,
+        target_system: to.0,
+        target_component: to.1,
+        param_id: name.into(),
+        error,
+    })
+}
+
+pub(super) fn mission_list(e: &mut Endpoint, r: &MISSION_REQUEST_LIST_DATA, a: &mut Arrival) {
+    let message = e.plans.list(a.from, r.mission_type);
+    e.answer(a.link, &message);
+}
+
+pub(super) fn mission_item_int(e: &mut Endpoint, r: &MISSION_REQUEST_INT_DATA, a: &mut Arrival) {
+    let message = e.plans.item(a.from, r.mission_type, r.seq);
+    e.answer(a.link, &message);
+}
+
+/// The older request gets the same answer: MAVLink asks for it.
+pub(super) fn mission_item(e: &mut Endpoint, r: &MISSION_REQUEST_DATA, a: &mut Arrival) {
+    let message = e.plans.item(a.from, r.mission_type, r.seq);
+    e.answer(a.link, &message);
+}
+
+pub(super) fn mission_count(e: &mut Endpoint, c: &MISSION_COUNT_DATA, a: &mut Arrival) {
+    let reply = e.plans.begin(a.from, c.mission_type, c.count, a.view.now);
+    carry_out(e, reply, a);
+}
+
+pub(super) fn mission_receive_int(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut Arrival) {
+    let reply = e.plans.receive(a.from, item, a.view.plane, a.view.now);
+    carry_out(e, reply, a);
+}
+
+/// Items in floating degrees, of clients older than MISSION_ITEM_INT.
+pub(super) fn mission_receive(e: &mut Endpoint, item: &MISSION_ITEM_DATA, a: &mut Arrival) {
+    let scaled = |degrees: f32| if degrees.is_finite() { (f64::from(degrees) * 1e7).round() as i32 } else { i32::MAX };
+    let whole = MISSION_ITEM_INT_DATA {
+        param1: item.param1,
+        param2: item.param2,
+        param3: item.param3,
+        param4: item.param4,
+        x: scaled(item.x),
+        y: scaled(item.y),
+        z: item.z,
+        seq: item.seq,
+        command: item.command,
+        target_system: item.target_system,
+        target_component: item.target_component,
+        frame: item.frame,
+        current: item.current,
+        autocontinue: item.autocontinue,
+        mission_type: item.mission_type,
+    };
+    mission_receive_int(e, &whole, a);
+}
+
+pub(super) fn mission_clear(e: &mut Endpoint, c: &MISSION_CLEAR_ALL_DATA, a: &mut Arrival) {
+    let reply = e.plans.clear(a.from, c.mission_type);
+    carry_out(e, reply, a);
+}
+
+pub(super) fn mission_ack(e: &mut Endpoint, _: &MISSION_ACK_DATA, a: &mut Arrival) {
+    e.plans.acknowledged(a.from);
+}
+
+/// Answered by MISSION_CURRENT, or by a refusal.
+pub(super) fn mission_set_current(e: &mut Endpoint, c: &MISSION_SET_CURRENT_DATA, a: &mut Arrival) {
+    if !a.autopilot.set_mission_current(usize::from(c.seq)) {
+        let result = MavMissionResult::MAV_MISSION_INVALID_SEQUENCE;
+        let refusal = ack(a.from, MavMissionType::MAV_MISSION_TYPE_MISSION, result);
+        return e.answer(a.link, &refusal);
+    }
+    let status = a.autopilot.status();
+    let now = super::view::View { status, ..*a.view };
+    for (_, row) in streams::rows_of(MISSION_CURRENT_DATA::ID) {
+        if let Some(message) = (row.build)(&now) {
+            e.broadcast(AUTOPILOT, &message);
+        }
+    }
+}
+
+/// Parts of plans are neither given nor taken.
+pub(super) fn mission_request_partial(e: &mut Endpoint, r: &MISSION_REQUEST_PARTIAL_LIST_DATA, a: &mut Arrival) {
+    let refusal = ack(a.from, r.mission_type, MavMissionResult::MAV_MISSION_UNSUPPORTED);
+    e.answer(a.link, &refusal);
+}
+
+pub(super) fn mission_write_partial(e: &mut Endpoint, w: &MISSION_WRITE_PARTIAL_LIST_DATA, a: &mut Arrival) {
+    let refusal = ack(a.from, w.mission_type, MavMissionResult::MAV_MISSION_UNSUPPORTED);
+    e.answer(a.link, &refusal);
+}
+
+/// An item with a command, frame or plan type that MAVLink does not know ends the upload.
+pub(super) fn unknown_item(e: &mut Endpoint, mission_type: u8, a: &mut Arrival) {
+    match e.plans.receive_unknown(a.from) {
+        Reply::Nothing => unknown_plan(e, mission_type, a),
+        reply => carry_out(e, reply, a),
+    }
+}
+
+/// A request about a plan of an unknown type is refused with that type.
+pub(super) fn unknown_plan(e: &mut Endpoint, mission_type: u8, a: &Arrival) {
+    let refusal = [a.from.0, a.from.1, MavMissionResult::MAV_MISSION_UNSUPPORTED as u8, mission_type];
+    if let Some(link) = e.links.get_mut(&a.link) {
+        link.send_payload(AUTOPILOT, MISSION_ACK, &refusal);
+    }
+}
+
+fn carry_out(e: &mut Endpoint, reply: Reply, a: &mut Arrival) {
+    match reply {
+        Reply::Say(message) => e.answer(a.link, &message),
+        Reply::NewMission(message) => {
+            let home_up = a.view.status.home_m.map_or(0.0, |h| -h.down());
+            a.autopilot.set_mission(e.plans.steps(a.view.plane, home_up, a.autopilot.tuning.accept_radius_m));
+            e.payload.camera.mission_items = e.plans.mission().len() as u16;
+            e.answer(a.link, &message);
+        }
+        Reply::Nothing => {}
+    }
+}
+
+pub(super) fn timesync(e: &mut Endpoint, sync: &TIMESYNC_DATA, a: &mut Arrival) {
+    let (target_system, target_component) = a.from;
+    let tc1 = a.view.now.ns().max(1);
+    e.answer(a.link, &MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: sync.ts1, target_system, target_component }));
+}
+
+/// A ping to nobody is a request; one with a target answers one.
+pub(super) fn ping(e: &mut Endpoint, ping: &PING_DATA, a: &mut Arrival) {
+    if ping.target_system == 0 {
+        let (target_system, target_component) = a.from;
+        e.answer(a.link, &MavMessage::PING(PING_DATA { target_system, target_component, ..ping.clone() }));
+    }
+}
+
+/// The legacy way of asking for rates: groups of messages (Mission Planner, MAVProxy).
+pub(super) fn data_stream(e: &mut Endpoint, r: &REQUEST_DATA_STREAM_DATA, a: &mut Arrival) {
+    const GROUPS: [(u8, &[u32]); 7] = [
+        (1, &[24, 29, 105]),
+        (2, &[1, 147, 230, 42, 24]),
+        (3, &[65, 36]),
+        (6, &[33, 32]),
+        (10, &[30, 31]),
+        (11, &[74]),
+        (12, &[2, 242, 231]),
+    ];
+    let Some(link) = e.links.get_mut(&a.link) else { return };
+    let wanted = r.req_stream_id as u8;
+    let stop = r.start_stop == 0 || r.req_message_rate == 0;
+    let us = if stop { -1.0 } else { 1e6 / f64::from(r.req_message_rate) };
+    for (_, ids) in GROUPS.iter().filter(|(group, _)| wanted == 0 || *group == wanted) {
+        for (row, _) in ids.iter().flat_map(|id| streams::rows_of(*id)) {
+            link.set_interval(row, us, a.view.now);
+        }
+    }
+}
+
+/// There are no logs: the flight is in the session's telemetry.
+pub(super) fn log_list(e: &mut Endpoint, _: &LOG_REQUEST_LIST_DATA, a: &mut Arrival) {
+    e.answer(a.link, &MavMessage::LOG_ENTRY(LOG_ENTRY_DATA::default()));
+}
+
+pub(super) fn log_data(e: &mut Endpoint, r: &LOG_REQUEST_DATA_DATA, a: &mut Arrival) {
+    e.answer(a.link, &MavMessage::LOG_DATA(LOG_DATA_DATA { id: r.id, ofs: r.ofs, ..LOG_DATA_DATA::default() }));
+}

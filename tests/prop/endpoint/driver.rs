@@ -1,0 +1,213 @@
+//! Feeds datagrams to a vehicle and looks for what must never happen.
+
+use super::mutate;
+use spandrel::base::random::RandomStream;
+use spandrel::base::time::SimTime;
+use spandrel::mav::codec::{Decoder, Encoder, Received};
+use spandrel::mav::dialect::*;
+use spandrel::sitl::endpoint::{LinkId, LinkKind};
+use spandrel::sitl::sim::Sim;
+use std::collections::{BTreeMap, BTreeSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+pub const STATION: LinkId = LinkId(1);
+const SIDECAR: LinkId = LinkId(2);
+/// Answers and copies that one incoming frame may cause at once: all modes, their acknowledgement, a copy to the other link.
+const ANSWERS_A_FRAME: usize = 14;
+/// Frames in five ticks that nobody asked for just then: streams at their fastest, named values and full stocks of texts, on two links.
+const FRAMES_A_TICK: usize = 800;
+
+/// A vehicle under fire, or one with a planted fault.
+pub trait Subject {
+    fn receive(&mut self, bytes: &[u8]);
+    /// Lets the vehicle act on what has come, without a tick.
+    fn look(&mut self);
+    /// Some ticks.
+    fn tick(&mut self);
+    fn drain(&mut self) -> Vec<Vec<u8>>;
+    fn sound(&self) -> bool;
+}
+
+/// The real one.
+pub struct Vehicle(pub Sim);
+
+impl Vehicle {
+    pub fn new(mut sim: Sim) -> Self {
+        sim.open_link(SIDECAR, LinkKind::Payload, false);
+        Self(sim)
+    }
+}
+
+impl Subject for Vehicle {
+    fn receive(&mut self, bytes: &[u8]) {
+        self.0.handle_datagram(STATION, bytes);
+    }
+
+    fn look(&mut self) {
+        let now = self.0.now();
+        self.0.handle_timeout(now);
+    }
+
+    fn tick(&mut self) {
+        let until = self.0.now() + SimTime::from_ms(5);
+        self.0.handle_timeout(until);
+    }
+
+    fn drain(&mut self) -> Vec<Vec<u8>> {
+        std::iter::from_fn(|| self.0.poll_transmit()).map(|t| t.bytes).collect()
+    }
+
+    fn sound(&self) -> bool {
+        let truth = &self.0.truth().rigid;
+        let all = truth.position_m.array().into_iter().chain(truth.velocity_m_s.array()).chain(truth.rates_rad_s.array());
+        all.chain(truth.attitude.wxyz()).chain(truth.rotor_rad_s).all(f64::is_finite)
+    }
+}
+
+/// What must never happen has happened.
+#[derive(Debug)]
+pub struct Finding {
+    pub what: String,
+    pub datagram: Vec<u8>,
+}
+
+/// How deep the shots went: what the vehicle did because of them.
+#[derive(Debug, Default)]
+pub struct Depth {
+    pub datagrams: usize,
+    pub commands_accepted: BTreeSet<u16>,
+    pub plans_accepted: usize,
+    pub parameters_told: usize,
+    pub refusals: usize,
+    pub modes: BTreeSet<u32>,
+    pub answers: BTreeMap<u32, usize>,
+}
+
+pub struct Driver<'a> {
+    pub stream: RandomStream,
+    /// Commands that are handled.
+    pub numbers: &'a [u16],
+    pub depth: Depth,
+}
+
+impl Driver<'_> {
+    /// Shoots `count` datagrams, some ticks after every second one, and asks at the end whether the vehicle still answers.
+    pub fn shoot(&mut self, subject: &mut dyn Subject, count: usize) -> Result<(), Finding> {
+        let mut queue: Vec<Vec<u8>> = Vec::new();
+        for k in 0..count {
+            if queue.is_empty() {
+                queue = if self.stream.below(8) == 0 {
+                    mutate::upload(&mut self.stream)
+                } else {
+                    vec![mutate::datagram(self.numbers, &mut self.stream)]
+                };
+            }
+            let datagram = queue.remove(0);
+            self.depth.datagrams += 1;
+            let done = catch_unwind(AssertUnwindSafe(|| self.one(subject, &datagram, k % 2 == 0)));
+            let result = done.unwrap_or_else(|panic| {
+                let text = panic.downcast_ref::<String>().cloned();
+                Err(format!("panic: {}", text.unwrap_or_else(|| panic.downcast_ref::<&str>().unwrap_or(&"?").to_string())))
+            });
+            result.map_err(|what| Finding { what, datagram })?;
+        }
+        self.still_answers(subject).map_err(|what| Finding { what, datagram: Vec::new() })
+    }
+
+    fn one(&mut self, subject: &mut dyn Subject, datagram: &[u8], tick: bool) -> Result<(), String> {
+        let frames = Decoder::new().datagram(datagram).len();
+        subject.receive(datagram);
+        subject.look();
+        let answers = self.listen(subject)?;
+        if answers > ANSWERS_A_FRAME * frames {
+            return Err(format!("{answers} answers to {frames} frames"));
+        }
+        if tick {
+            subject.tick();
+            let said = self.listen(subject)?;
+            if said > FRAMES_A_TICK {
+                return Err(format!("{said} frames in five ticks"));
+            }
+        }
+        if subject.sound() { Ok(()) } else { Err("the state is no number any more".into()) }
+    }
+
+    /// Number of frames that came out; each whole, and with numbers in it.
+    fn listen(&mut self, subject: &mut dyn Subject) -> Result<usize, String> {
+        let mut count = 0;
+        for bytes in subject.drain() {
+            let mut decoder = Decoder::new();
+            let frames = decoder.datagram(&bytes);
+            if decoder.bad_bytes() > 0 {
+                return Err("a datagram that is not whole frames".into());
+            }
+            count += frames.len();
+            for frame in frames.iter().filter(|f| f.system_id == 1 && matches!(f.component_id, 1 | 100)) {
+                self.note(frame);
+                if !frame.message.as_ref().is_none_or(finite) {
+                    return Err(format!("no number in {:?}", frame.message));
+                }
+            }
+        }
+        Ok(count)
+    }
+
+    fn note(&mut self, frame: &Received) {
+        let depth = &mut self.depth;
+        *depth.answers.entry(frame.message_id).or_default() += 1;
+        match &frame.message {
+            Some(MavMessage::COMMAND_ACK(ack)) if ack.result == MavResult::MAV_RESULT_ACCEPTED => {
+                depth.commands_accepted.insert(ack.command as u16);
+            }
+            Some(MavMessage::COMMAND_ACK(_)) => depth.refusals += 1,
+            Some(MavMessage::MISSION_ACK(ack)) if ack.mavtype == MavMissionResult::MAV_MISSION_ACCEPTED => {
+                depth.plans_accepted += 1;
+            }
+            Some(MavMessage::MISSION_ACK(_)) => depth.refusals += 1,
+            Some(MavMessage::PARAM_VALUE(_)) => depth.parameters_told += 1,
+            Some(MavMessage::CURRENT_MODE(mode)) => {
+                depth.modes.insert(mode.custom_mode);
+            }
+            _ => {}
+        }
+    }
+
+    fn still_answers(&mut self, subject: &mut dyn Subject) -> Result<(), String> {
+        let mut encoder = Encoder::new(255, 190);
+        let read = PARAM_REQUEST_READ_DATA { target_system: 1, target_component: 1, ..Default::default() };
+        let beat = COMMAND_LONG_DATA {
+            command: MavCmd::MAV_CMD_REQUEST_MESSAGE,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        };
+        let mut heard = BTreeSet::new();
+        for question in [MavMessage::PARAM_REQUEST_READ(read), MavMessage::COMMAND_LONG(beat)] {
+            subject.receive(&encoder.encode(&question));
+        }
+        subject.look();
+        for bytes in subject.drain() {
+            heard.extend(Decoder::new().datagram(&bytes).iter().map(|f| f.message_id));
+        }
+        let missing: Vec<&u32> = [0, 22, 77].iter().filter(|id| !heard.contains(id)).collect();
+        if missing.is_empty() { Ok(()) } else { Err(format!("no answer any more: {missing:?} did not come")) }
+    }
+}
+
+/// Messages about the state have numbers in all their fields.
+fn finite(message: &MavMessage) -> bool {
+    let all = |values: &[f32]| values.iter().all(|v| v.is_finite());
+    match message {
+        MavMessage::ATTITUDE_QUATERNION(a) => all(&[a.q1, a.q2, a.q3, a.q4, a.rollspeed, a.pitchspeed, a.yawspeed]),
+        MavMessage::ATTITUDE_TARGET(a) => all(&a.q) && a.thrust.is_finite(),
+        MavMessage::LOCAL_POSITION_NED(p) => all(&[p.x, p.y, p.z, p.vx, p.vy, p.vz]),
+        MavMessage::POSITION_TARGET_LOCAL_NED(p) => all(&[p.x, p.y, p.z]),
+        MavMessage::HIL_STATE_QUATERNION(h) => all(&h.attitude_quaternion),
+        MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) => all(&g.q) && g.angular_velocity_y.is_finite(),
+        MavMessage::CAMERA_IMAGE_CAPTURED(c) => all(&c.q),
+        MavMessage::ILLUMINATOR_STATUS(l) => l.brightness.is_finite(),
+        MavMessage::VFR_HUD(h) => all(&[h.alt, h.climb, h.groundspeed]),
+        MavMessage::PARAM_VALUE(p) if p.param_type == MavParamType::MAV_PARAM_TYPE_REAL32 => p.param_value.is_finite(),
+        _ => true,
+    }
+}

@@ -1,0 +1,143 @@
+//! Datagrams that nobody meant to send: fields changed and the checksum mended, frames cut, bent, joined, or pure noise.
+
+use super::seeds;
+use mavlink::{MavlinkVersion, Message};
+use spandrel::base::random::RandomStream;
+use spandrel::mav::dialect::MavMessage;
+use spandrel::sitl::endpoint::HANDLED;
+
+const REALS: [f32; 14] = [
+    f32::NAN,
+    -f32::NAN,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::MAX,
+    f32::MIN,
+    f32::MIN_POSITIVE,
+    1e-42,
+    -0.0,
+    1.0,
+    -1.0,
+    1e30,
+    0.5,
+    90.0,
+];
+const LONGS: [i32; 9] = [i32::MIN, i32::MAX, -1, 0, 1, 900_000_001, -900_000_001, 1_800_000_001, 467_052_000];
+const SHORTS: [u16; 14] = [0, 1, 2, 3, 4, 5, 2000, 2001, 32_767, 32_768, 65_534, 65_535, 255, 256];
+const BYTES: [u8; 10] = [0, 1, 2, 3, 7, 8, 127, 128, 254, 255];
+/// Not UTF-8.
+const TEXT: [u8; 4] = [0xC3, 0x28, 0xFF, 0xFE];
+
+/// A whole frame around a payload, its checksum right.
+pub fn frame(id: u32, payload: &[u8], sender: (u8, u8), stream: &mut RandomStream) -> Vec<u8> {
+    let extra = MavMessage::extra_crc(id);
+    let sequence = stream.bits() as u8;
+    let old = id < 256 && stream.below(4) == 0;
+    let signed = stream.below(8) == 0;
+    let mut out = if old {
+        vec![0xFE, payload.len() as u8, sequence, sender.0, sender.1, id as u8]
+    } else {
+        let [a, b, c, _] = id.to_le_bytes();
+        vec![0xFD, payload.len() as u8, u8::from(signed), 0, sequence, sender.0, sender.1, a, b, c]
+    };
+    out.extend(payload);
+    out.extend(mavlink::calculate_crc(&out[1..], extra).to_le_bytes());
+    if signed && !old {
+        out.extend((0..13).map(|_| stream.bits() as u8));
+    }
+    out
+}
+
+/// A message's payload with all its fields, extensions too.
+pub fn payload(message: &MavMessage) -> Vec<u8> {
+    let mut bytes = [0; 255];
+    let base = message.ser(MavlinkVersion::V1, &mut bytes);
+    let mut bytes = [0; 255];
+    let used = message.ser(MavlinkVersion::V2, &mut bytes);
+    // Extensions are at most some bytes longer than what is in use; what lies beyond is ignored.
+    bytes[..used.max((base + 4).min(255))].to_vec()
+}
+
+/// Changes a field, or what could be one: MAVLink lays fields out by size, so that every place is right for some type.
+pub fn field(bytes: &mut [u8], stream: &mut RandomStream) {
+    fn put<const N: usize>(bytes: &mut [u8], value: [u8; N], stream: &mut RandomStream) {
+        let places = bytes.len() / N;
+        if places > 0 {
+            let at = N * stream.below(places);
+            bytes[at..at + N].copy_from_slice(&value);
+        }
+    }
+    match stream.below(7) {
+        0 | 1 => put(bytes, REALS[stream.below(REALS.len())].to_le_bytes(), stream),
+        2 => put(bytes, LONGS[stream.below(LONGS.len())].to_le_bytes(), stream),
+        3 => put(bytes, SHORTS[stream.below(SHORTS.len())].to_le_bytes(), stream),
+        4 => put(bytes, [BYTES[stream.below(BYTES.len())]], stream),
+        5 => {
+            let at = stream.below(bytes.len());
+            let end = (at + 1 + stream.below(8)).min(bytes.len());
+            bytes[at..end].fill(if stream.below(2) == 0 { 0xFF } else { stream.bits() as u8 });
+        }
+        _ => put(bytes, TEXT, stream),
+    }
+}
+
+/// A frame of a message that is handled: one in three as it should be, the others with some fields changed.
+fn handled(numbers: &[u16], stream: &mut RandomStream) -> Vec<u8> {
+    let (id, mut bytes) = if stream.below(4) == 0 {
+        seeds::command(numbers[stream.below(numbers.len())], stream)
+    } else {
+        let id = HANDLED[stream.below(HANDLED.len())];
+        let good = seeds::all(id);
+        (id, payload(&good[stream.below(good.len())]))
+    };
+    for _ in 0..[0, 1, 1, 2, 3, 4][stream.below(6)] {
+        field(&mut bytes, stream);
+    }
+    if stream.below(6) == 0 {
+        bytes.truncate(1 + stream.below(bytes.len()));
+    }
+    frame(id, &bytes, sender(stream), stream)
+}
+
+fn sender(stream: &mut RandomStream) -> (u8, u8) {
+    match stream.below(8) {
+        0 => (stream.bits() as u8, stream.bits() as u8),
+        1 => (1, 191),
+        2 => (254, 190),
+        _ => (255, 190),
+    }
+}
+
+/// The frames of an upload, one changed, left out, doubled or exchanged with its neighbour.
+pub fn upload(stream: &mut RandomStream) -> Vec<Vec<u8>> {
+    let items = 1 + stream.below(5) as u16;
+    let mut messages = vec![seeds::count(items)];
+    messages.extend((0..items).map(|seq| MavMessage::MISSION_ITEM_INT(seeds::item(seq))));
+    let mut payloads: Vec<(u32, Vec<u8>)> = messages.iter().map(|m| (m.message_id(), payload(m))).collect();
+    let at = stream.below(payloads.len());
+    match stream.below(6) {
+        0 => field(&mut payloads[at].1, stream),
+        1 => drop(payloads.remove(at)),
+        2 => payloads.insert(at, payloads[at].clone()),
+        3 => payloads.swap(at, 0),
+        _ => {}
+    }
+    payloads.iter().map(|(id, payload)| frame(*id, payload, (255, 190), stream)).collect()
+}
+
+/// One datagram.
+pub fn datagram(numbers: &[u16], stream: &mut RandomStream) -> Vec<u8> {
+    if stream.below(16) == 0 {
+        return (0..stream.below(400)).map(|_| if stream.below(8) == 0 { 0xFD } else { stream.bits() as u8 }).collect();
+    }
+    let mut bytes: Vec<u8> = (0..=stream.below(4)).flat_map(|_| handled(numbers, stream)).collect();
+    let at = stream.below(bytes.len());
+    match stream.below(12) {
+        0 => bytes[at] ^= 1 << stream.below(8),
+        1 => bytes.truncate(at),
+        2 => bytes.insert(at, stream.bits() as u8),
+        3 => drop(bytes.drain(..at)),
+        _ => {}
+    }
+    bytes
+}

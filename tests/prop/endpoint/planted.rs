@@ -1,0 +1,86 @@
+//! Vehicles with a fault in them, each for one rare value of one field: if the fuzzing does not find these, it finds nothing.
+
+use super::driver::{Subject, Vehicle};
+use spandrel::mav::codec::{Decoder, Encoder};
+use spandrel::mav::dialect::*;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    /// The last sequence number indexes past the end.
+    Index,
+    /// A not-a-number in a set-point gets into the state.
+    Poison,
+    /// The lowest index of a parameter is answered without end.
+    Flood,
+    /// An infinite parameter of a command makes it deaf.
+    Deaf,
+}
+
+/// Each with words of what must be reported.
+pub const FAULTS: [(Fault, &str); 4] = [
+    (Fault::Index, "panic: item 65535"),
+    (Fault::Poison, "no number in"),
+    (Fault::Flood, "answers to"),
+    (Fault::Deaf, "no answer any more"),
+];
+
+pub struct Planted {
+    vehicle: Vehicle,
+    fault: Fault,
+    struck: bool,
+    owed: usize,
+}
+
+impl Planted {
+    pub fn new(vehicle: Vehicle, fault: Fault) -> Self {
+        Self { vehicle, fault, struck: false, owed: 0 }
+    }
+
+    fn strike(&mut self, message: &MavMessage) {
+        match (self.fault, message) {
+            (Fault::Index, MavMessage::MISSION_ITEM_INT(item)) if item.seq == u16::MAX => panic!("item {} of a plan", item.seq),
+            (Fault::Poison, MavMessage::SET_POSITION_TARGET_LOCAL_NED(t)) if t.x.is_nan() => self.struck = true,
+            (Fault::Flood, MavMessage::PARAM_REQUEST_READ(r)) if r.param_index == i16::MIN => self.owed = 10_000,
+            (Fault::Deaf, MavMessage::COMMAND_LONG(c)) if c.param1 == f32::INFINITY => self.struck = true,
+            _ => {}
+        }
+    }
+}
+
+impl Subject for Planted {
+    fn receive(&mut self, bytes: &[u8]) {
+        if self.fault == Fault::Deaf && self.struck {
+            return;
+        }
+        for frame in Decoder::new().datagram(bytes) {
+            if let Some(message) = &frame.message {
+                self.strike(message);
+            }
+        }
+        self.vehicle.receive(bytes);
+    }
+
+    fn look(&mut self) {
+        self.vehicle.look();
+    }
+
+    fn tick(&mut self) {
+        self.vehicle.tick();
+    }
+
+    fn drain(&mut self) -> Vec<Vec<u8>> {
+        let mut out = self.vehicle.drain();
+        let mut encoder = Encoder::new(1, 1);
+        if self.fault == Fault::Poison && self.struck {
+            let x = f32::NAN;
+            out.push(encoder.encode(&MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { x, ..Default::default() })));
+        }
+        let answer = MavMessage::PARAM_VALUE(PARAM_VALUE_DATA::default());
+        out.extend((0..std::mem::take(&mut self.owed)).map(|_| encoder.encode(&answer)));
+        out
+    }
+
+    fn sound(&self) -> bool {
+        self.vehicle.sound()
+    }
+}

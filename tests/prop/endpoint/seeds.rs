@@ -1,0 +1,264 @@
+//! One good message or more of every kind that the vehicle acts on: what the mutation starts from.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use mavlink::Message;
+use spandrel::base::random::RandomStream;
+use spandrel::mav::dialect::*;
+
+const NAN: f32 = f32::NAN;
+/// The practice lake's origin, 1e-7 degrees: the job that the vehicle of these tests flies.
+pub const HERE: (i32, i32) = (467_052_000, 83_814_000);
+
+pub fn all(number: u32) -> Vec<MavMessage> {
+    let mut out = good(number);
+    // The codec's own default besides, addressed to the vehicle.
+    out.extend(MavMessage::default_message_from_id(number));
+    for message in &mut out {
+        if let Some(system) = message.target_system_id_mut() {
+            *system = 1;
+        }
+        if let Some(component) = message.target_component_id_mut() {
+            *component = 1;
+        }
+    }
+    out
+}
+
+/// Hand-made ones; a message without any fails the test that counts them.
+pub fn good(number: u32) -> Vec<MavMessage> {
+    let made = [connection(), sticks(), set_points(), gimbal(), parameters(), plans(), partial_plans(), commands()];
+    made.into_iter().flatten().filter(|m| m.message_id() == number).collect()
+}
+
+fn connection() -> Vec<MavMessage> {
+    vec![
+        MavMessage::HEARTBEAT(HEARTBEAT_DATA { mavtype: MavType::MAV_TYPE_GCS, mavlink_version: 3, ..Default::default() }),
+        MavMessage::TIMESYNC(TIMESYNC_DATA { ts1: 123_456, ..Default::default() }),
+        MavMessage::PING(PING_DATA { seq: 7, ..Default::default() }),
+        MavMessage::REQUEST_DATA_STREAM(REQUEST_DATA_STREAM_DATA { req_message_rate: 4, start_stop: 1, ..Default::default() }),
+        MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
+            payload: std::array::from_fn(|k| match k {
+                3 => 4,
+                4 => 5,
+                12..17 => b"@PARAM"[k - 12],
+                _ => 0,
+            }),
+            ..Default::default()
+        }),
+        MavMessage::LOG_REQUEST_LIST(LOG_REQUEST_LIST_DATA { end: u16::MAX, ..Default::default() }),
+        MavMessage::LOG_REQUEST_DATA(LOG_REQUEST_DATA_DATA { count: 90, ..Default::default() }),
+    ]
+}
+
+fn sticks() -> Vec<MavMessage> {
+    vec![
+        MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { x: 400, y: -300, z: 700, r: 100, ..Default::default() }),
+        MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { z: 500, ..Default::default() }),
+        MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+            chan1_raw: 1500,
+            chan2_raw: 1400,
+            chan3_raw: 1700,
+            chan4_raw: 1500,
+            ..Default::default()
+        }),
+        MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 3 << 16, ..Default::default() }),
+        MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 6 << 16, ..Default::default() }),
+    ]
+}
+
+fn set_points() -> Vec<MavMessage> {
+    use PositionTargetTypemask as P;
+    let only_position = P::from_bits_retain(0b0000_1101_1111_1000);
+    let only_velocity = P::from_bits_retain(0b0000_1101_1100_0111);
+    let local = |coordinate_frame, type_mask| {
+        MavMessage::SET_POSITION_TARGET_LOCAL_NED(SET_POSITION_TARGET_LOCAL_NED_DATA {
+            coordinate_frame,
+            type_mask,
+            x: 3.0,
+            y: 2.0,
+            z: -8.0,
+            vx: 1.0,
+            vy: -1.0,
+            vz: 0.2,
+            ..Default::default()
+        })
+    };
+    let attitude = |type_mask| {
+        MavMessage::SET_ATTITUDE_TARGET(SET_ATTITUDE_TARGET_DATA {
+            q: [1.0, 0.05, 0.0, 0.0],
+            thrust: 0.5,
+            body_roll_rate: 0.1,
+            type_mask: AttitudeTargetTypemask::from_bits_retain(type_mask),
+            ..Default::default()
+        })
+    };
+    vec![
+        local(MavFrame::MAV_FRAME_LOCAL_NED, only_position),
+        local(MavFrame::MAV_FRAME_LOCAL_NED, P::empty()),
+        local(MavFrame::MAV_FRAME_BODY_NED, only_velocity),
+        MavMessage::SET_POSITION_TARGET_GLOBAL_INT(SET_POSITION_TARGET_GLOBAL_INT_DATA {
+            coordinate_frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT,
+            type_mask: only_position,
+            lat_int: HERE.0,
+            lon_int: HERE.1,
+            alt: 10.0,
+            ..Default::default()
+        }),
+        attitude(0),
+        attitude(128),
+    ]
+}
+
+fn gimbal() -> Vec<MavMessage> {
+    vec![
+        MavMessage::GIMBAL_MANAGER_SET_ATTITUDE(GIMBAL_MANAGER_SET_ATTITUDE_DATA {
+            q: [0.9, 0.0, 0.3, 0.0],
+            angular_velocity_y: NAN,
+            ..Default::default()
+        }),
+        MavMessage::GIMBAL_MANAGER_SET_PITCHYAW(GIMBAL_MANAGER_SET_PITCHYAW_DATA { pitch: -0.5, ..Default::default() }),
+        MavMessage::GIMBAL_MANAGER_SET_PITCHYAW(GIMBAL_MANAGER_SET_PITCHYAW_DATA {
+            pitch: NAN,
+            pitch_rate: 0.3,
+            ..Default::default()
+        }),
+        MavMessage::GIMBAL_MANAGER_SET_MANUAL_CONTROL(GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA {
+            pitch: NAN,
+            pitch_rate: -0.5,
+            ..Default::default()
+        }),
+    ]
+}
+
+fn parameters() -> Vec<MavMessage> {
+    let set = |name: &str, param_value, param_type| {
+        MavMessage::PARAM_SET(PARAM_SET_DATA { param_value, param_id: name.into(), param_type, ..Default::default() })
+    };
+    let real = MavParamType::MAV_PARAM_TYPE_REAL32;
+    vec![
+        MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA::default()),
+        MavMessage::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA {
+            param_index: -1,
+            param_id: "NAV_RCL_ACT".into(),
+            ..Default::default()
+        }),
+        MavMessage::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA { param_index: 5, ..Default::default() }),
+        set("MIS_TAKEOFF_ALT", 5.0, real),
+        set("MPC_XY_VEL_MAX", 4.0, real),
+        set("COM_RC_LOSS_T", 1.0, real),
+        set("NAV_DLL_ACT", f32::from_bits(2), MavParamType::MAV_PARAM_TYPE_INT32),
+    ]
+}
+
+/// An item of a small flight about the origin.
+pub fn item(seq: u16) -> MISSION_ITEM_INT_DATA {
+    let command = match seq {
+        0 => MavCmd::MAV_CMD_NAV_TAKEOFF,
+        1 => MavCmd::MAV_CMD_NAV_WAYPOINT,
+        2 => MavCmd::MAV_CMD_DO_CHANGE_SPEED,
+        3 => MavCmd::MAV_CMD_IMAGE_START_CAPTURE,
+        _ => MavCmd::MAV_CMD_DO_JUMP,
+    };
+    let jump = command == MavCmd::MAV_CMD_DO_JUMP;
+    MISSION_ITEM_INT_DATA {
+        param1: if jump { 1.0 } else { 0.0 },
+        param2: 3.0,
+        param3: 1.0,
+        param4: NAN,
+        x: HERE.0 + i32::from(seq) * 500,
+        y: HERE.1,
+        z: 8.0,
+        seq,
+        command,
+        frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT,
+        autocontinue: 1,
+        ..Default::default()
+    }
+}
+
+pub fn count(count: u16) -> MavMessage {
+    MavMessage::MISSION_COUNT(MISSION_COUNT_DATA { count, ..Default::default() })
+}
+
+fn plans() -> Vec<MavMessage> {
+    let mut out: Vec<MavMessage> = (0..5).map(|seq| MavMessage::MISSION_ITEM_INT(item(seq))).collect();
+    out.extend([1, 2, 5].map(count));
+    out.push(MavMessage::MISSION_ITEM(MISSION_ITEM_DATA {
+        x: 46.7052,
+        y: 8.3814,
+        z: 9.0,
+        command: MavCmd::MAV_CMD_NAV_WAYPOINT,
+        frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT,
+        ..Default::default()
+    }));
+    out.push(MavMessage::MISSION_REQUEST_LIST(MISSION_REQUEST_LIST_DATA::default()));
+    out.push(MavMessage::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA { seq: 1, ..Default::default() }));
+    out.push(MavMessage::MISSION_REQUEST(MISSION_REQUEST_DATA { seq: 1, ..Default::default() }));
+    out.push(MavMessage::MISSION_SET_CURRENT(MISSION_SET_CURRENT_DATA { seq: 1, ..Default::default() }));
+    out
+}
+
+fn partial_plans() -> Vec<MavMessage> {
+    vec![
+        MavMessage::MISSION_CLEAR_ALL(MISSION_CLEAR_ALL_DATA::default()),
+        MavMessage::MISSION_ACK(MISSION_ACK_DATA::default()),
+        MavMessage::MISSION_REQUEST_PARTIAL_LIST(MISSION_REQUEST_PARTIAL_LIST_DATA::default()),
+        MavMessage::MISSION_WRITE_PARTIAL_LIST(MISSION_WRITE_PARTIAL_LIST_DATA::default()),
+    ]
+}
+
+fn commands() -> Vec<MavMessage> {
+    let long = |command, p: [f32; 7]| {
+        MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+            command,
+            param1: p[0],
+            param2: p[1],
+            param3: p[2],
+            param4: p[3],
+            param5: p[4],
+            param6: p[5],
+            param7: p[6],
+            ..Default::default()
+        })
+    };
+    vec![
+        long(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        long(MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        long(MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 4.0, 0.0, 0.0, 0.0, 0.0]),
+        long(MavCmd::MAV_CMD_NAV_TAKEOFF, [-1.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
+        long(MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        long(MavCmd::MAV_CMD_REQUEST_MESSAGE, [435.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        MavMessage::COMMAND_INT(COMMAND_INT_DATA {
+            command: MavCmd::MAV_CMD_DO_REPOSITION,
+            param1: 2.0,
+            param4: NAN,
+            x: HERE.0,
+            y: HERE.1,
+            z: 12.0,
+            frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT,
+            ..Default::default()
+        }),
+    ]
+}
+
+/// A command with any number and parameters that are often small and whole, as commands' are.
+pub fn command(number: u16, stream: &mut RandomStream) -> (u32, Vec<u8>) {
+    let whole = stream.below(3) > 0;
+    let id = if whole { 76 } else { 75 };
+    let mut payload = vec![0; if whole { 33 } else { 35 }];
+    for k in 0..7 {
+        let value = match stream.below(6) {
+            0 => 0.0,
+            1 => 1.0,
+            2 => NAN,
+            3 => stream.below(5) as f32,
+            4 => stream.range(-100.0, 100.0) as f32,
+            _ => -1.0,
+        };
+        payload[4 * k..4 * k + 4].copy_from_slice(&value.to_le_bytes());
+    }
+    payload[28..30].copy_from_slice(&number.to_le_bytes());
+    payload[30] = 1;
+    payload[31] = [0, 1, 100][stream.below(3)];
+    (id, payload)
+}
