@@ -56,8 +56,7 @@ impl<L: Copy + Ord> Router<L> {
         }
         let (system, component) = target(frame);
         let components = if component == 0 { (system, 0)..=(system, u8::MAX) } else { (system, component)..=(system, component) };
-        let reaches =
-            |link: &L| system == 0 || self.heard.range(components.clone()).any(|(_, links)| links.contains(link));
+        let reaches = |link: &L| system == 0 || self.heard.range(components.clone()).any(|(_, links)| links.contains(link));
         all.iter().copied().filter(|l| *l != from).filter(reaches).collect()
     }
 }

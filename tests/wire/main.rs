@@ -1,6 +1,11 @@
 //! The program as a user meets it: processes, sockets, files, exit codes.
 
+mod answers;
 mod flights;
+mod manual;
+mod offboard;
+mod payload;
+mod plans;
 mod program;
 mod station;
 mod vehicle;

@@ -60,6 +60,62 @@ impl Station {
         self.heard.iter().rev().filter_map(|f| f.message.as_ref()).find_map(pick)
     }
 
+    /// All messages that a filter likes, in order.
+    pub fn all<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Vec<T> {
+        self.heard.iter().filter_map(|f| f.message.as_ref()).filter_map(pick).collect()
+    }
+
+    /// Sends a message and returns the first answer that a filter likes, which must come at once.
+    pub fn ask<T>(&mut self, message: &MavMessage, pick: impl Fn(&MavMessage) -> Option<T>) -> Option<T> {
+        self.heard.clear();
+        self.send(message);
+        self.run_ms(1);
+        self.heard.iter().filter_map(|f| f.message.as_ref()).find_map(pick)
+    }
+
+    /// As another sender on the same link.
+    pub fn speak_as(&mut self, system: u8, component: u8) {
+        self.encoder = Encoder::new(system, component);
+    }
+
+    /// Runs until a condition holds; false when it does not within the time.
+    pub fn run_until(&mut self, limit_s: f64, mut done: impl FnMut(&mut Self) -> bool) -> bool {
+        let end = self.sim.now() + SimTime::from_s(limit_s);
+        while self.sim.now() < end {
+            self.run_ms(100);
+            if done(self) {
+                return true;
+            }
+            if self.heard.len() > 100_000 {
+                self.heard.drain(..50_000);
+            }
+        }
+        false
+    }
+
+    /// The vehicle's mode as its heartbeat names it.
+    pub fn mode(&self) -> Option<u32> {
+        self.heard.iter().rev().filter(|f| f.component_id == 1).find_map(|f| match &f.message {
+            Some(MavMessage::HEARTBEAT(beat)) => Some(beat.custom_mode),
+            _ => None,
+        })
+    }
+
+    /// The place as the vehicle reports it: north, east, down, m.
+    pub fn place(&self) -> [f32; 3] {
+        self.last(|m| match m {
+            MavMessage::LOCAL_POSITION_NED(p) => Some([p.x, p.y, p.z]),
+            _ => None,
+        })
+        .unwrap()
+    }
+
+    /// The place after a while.
+    pub fn place_after(&mut self, ms: i64) -> [f32; 3] {
+        self.run_ms(ms.max(25));
+        self.place()
+    }
+
     /// Sends a command and returns the result of its acknowledgement, which must come at once.
     pub fn command(&mut self, component: u8, command: MavCmd, p: [f32; 7]) -> MavResult {
         self.heard.clear();

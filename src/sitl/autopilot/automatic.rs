@@ -131,7 +131,8 @@ impl Autopilot {
     }
 
     pub(super) fn follow(&mut self, now: SimTime, dt_s: f64) -> Wanted {
-        let Some((setpoint, _)) = self.links.offboard.filter(|_| self.links.offboard_fresh(self.tuning.offboard_patience_s(), now))
+        let Some((setpoint, _)) =
+            self.links.offboard.filter(|_| self.links.offboard_fresh(self.tuning.offboard_patience_s(), now))
         else {
             return if self.estimate.position_valid { self.go(None, dt_s) } else { self.sink_blind(dt_s) };
         };

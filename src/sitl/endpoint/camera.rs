@@ -145,3 +145,27 @@ impl Shot {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_full_card_ends_a_series_and_every_picture_has_its_own_index() {
+        let (mut camera, mut now) = (CameraState::default(), SimTime::ZERO);
+        let here = Vec3::zero();
+        assert!(camera.start(1.0, 0.0, now));
+        while camera.due(now, here) {
+            let image_index = camera.summary().pictures as i32;
+            let shot = Shot { message: CAMERA_IMAGE_CAPTURED_DATA { image_index, ..Default::default() } };
+            camera.take(shot, now, here);
+            now += SimTime::from_s(1.0);
+        }
+        assert_eq!(camera.shots.len(), MOST_SHOTS);
+        assert!(camera.shots.iter().enumerate().all(|(k, shot)| shot.message.image_index == k as i32));
+        let left_mib = CARD_MIB - PICTURE_MIB * MOST_SHOTS as f32;
+        assert!((0.0..PICTURE_MIB).contains(&left_mib), "the storage that is told agrees: {left_mib}");
+        assert!(camera.full() && camera.summary().interval_s.is_none());
+        assert!(!camera.start(0.0, 1.0, now) && !camera.start_by_distance(5.0, false, here, now));
+    }
+}

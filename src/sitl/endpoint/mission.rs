@@ -148,8 +148,11 @@ impl Plans {
     /// An item of an upload.
     pub fn receive(&mut self, from: Peer, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, now: SimTime) -> Reply {
         let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && u.kind == item.mission_type) else {
-            let result =
-                if self.is_last_again(from, item) { MavMissionResult::MAV_MISSION_ACCEPTED } else { MavMissionResult::MAV_MISSION_ERROR };
+            let result = if self.is_last_again(from, item) {
+                MavMissionResult::MAV_MISSION_ACCEPTED
+            } else {
+                MavMissionResult::MAV_MISSION_ERROR
+            };
             return Reply::Say(ack(from, item.mission_type, result));
         };
         upload.heard = now;

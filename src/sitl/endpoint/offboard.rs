@@ -102,9 +102,7 @@ pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &View) -> Reading {
     let (yaw_rad, yaw_rate_rad_s) = (angle(t.yaw, mask.yaw), rate(t.yaw_rate, mask.yaw_rate));
     let fixed = OffboardSetpoint { velocity_m_s, acceleration_m_s2, yaw_rad, yaw_rate_rad_s, ..OffboardSetpoint::default() };
     match t.coordinate_frame {
-        F::MAV_FRAME_LOCAL_NED => {
-            checked(OffboardSetpoint { position_m: axes([t.x, t.y, t.z], mask.position)?, ..fixed })
-        }
+        F::MAV_FRAME_LOCAL_NED => checked(OffboardSetpoint { position_m: axes([t.x, t.y, t.z], mask.position)?, ..fixed }),
         F::MAV_FRAME_BODY_NED | F::MAV_FRAME_BODY_OFFSET_NED | F::MAV_FRAME_BODY_FRD => {
             let heading = view.estimate.attitude.yaw_rad();
             checked(OffboardSetpoint {

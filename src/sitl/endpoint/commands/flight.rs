@@ -52,11 +52,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 && c.p[0] > 0.5 => Request::Disarm { force: true },
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {
-            return Some(if x.view.status.armed {
-                DENIED
-            } else {
-                MavResult::MAV_RESULT_UNSUPPORTED
-            });
+            return Some(if x.view.status.armed { DENIED } else { MavResult::MAV_RESULT_UNSUPPORTED });
         }
         n if n == M::MAV_CMD_DO_SET_MISSION_CURRENT as u16 => {
             let known = c.given(0).is_some_and(|seq| seq >= 0.0 && x.autopilot.set_mission_current(seq as usize));

@@ -33,7 +33,9 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     }
     match c.number {
         n if n == M::MAV_CMD_REQUEST_MESSAGE as u16 => Some(id(0).map_or(DENIED, |m| request(m, c.p[1], c.component, x))),
-        n if n == M::MAV_CMD_SET_MESSAGE_INTERVAL as u16 => Some(id(0).map_or(DENIED, |m| set_interval(m, c.p[1], c.component, x))),
+        n if n == M::MAV_CMD_SET_MESSAGE_INTERVAL as u16 => {
+            Some(id(0).map_or(DENIED, |m| set_interval(m, c.p[1], c.component, x)))
+        }
         n if n == M::MAV_CMD_GET_MESSAGE_INTERVAL as u16 => Some(id(0).map_or(DENIED, |m| get_interval(m, c.component, x))),
         _ => None,
     }

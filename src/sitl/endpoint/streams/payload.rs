@@ -128,7 +128,6 @@ pub(super) fn gimbal_manager_status(v: &View) -> Option<MavMessage> {
         primary_control_compid: component,
         secondary_control_sysid: v.gimbal.secondary.0,
         secondary_control_compid: v.gimbal.secondary.1,
-        ..Default::default()
     }))
 }
 

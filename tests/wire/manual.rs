@@ -1,0 +1,129 @@
+//! Sticks by either message, who holds them, and how long a client may be silent.
+
+use super::station::{GCS, Station};
+use spandrel::mav::dialect::*;
+use spandrel::sitl::endpoint::{LinkId, LinkKind};
+
+const HOLD: u32 = 4 << 16 | 3 << 24;
+const POSITION: u32 = 3 << 16;
+
+fn channels(station: &mut Station, pitch: u16, throttle: u16) {
+    station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+        chan1_raw: 1500,
+        chan2_raw: pitch,
+        chan3_raw: throttle,
+        chan4_raw: 1500,
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    }));
+}
+
+#[test]
+fn wire_overridden_channels_fly_like_sticks_and_pitch_is_a_transmitters() {
+    let mut station = Station::airborne("drill-hover", 7);
+    // The first sender keeps the sticks until it has let go of them.
+    station.run_ms(600);
+    for _ in 0..150 {
+        channels(&mut station, 1200, 1500);
+        station.run_ms(20);
+    }
+    let (v, yaw) = (
+        station.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy]) } else { None }).unwrap(),
+        station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap(),
+    );
+    let forward = v[0] * yaw.cos() + v[1] * yaw.sin();
+    assert!(forward > 2.0, "a pitch channel below its middle flies forward: {forward}");
+    let echo = station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some((c.chan2_raw, c.chan3_raw)) } else { None });
+    assert_eq!(echo, Some((1800, 1500)), "the echo shows the axis: forward is above the middle");
+}
+
+#[test]
+fn wire_released_channels_are_no_sticks() {
+    let mut station = Station::new("drill-hover", 7);
+    station.run_ms(1_000);
+    station.heard.clear();
+    for value in [0, u16::MAX] {
+        station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+            chan1_raw: value,
+            chan2_raw: value,
+            chan3_raw: value,
+            chan4_raw: value,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        }));
+        station.run_ms(100);
+    }
+    assert!(station.all(|m| matches!(m, MavMessage::RC_CHANNELS(_)).then_some(())).is_empty());
+}
+
+/// Silence of a hand-flown vehicle's client until the failsafe, s, at a pace.
+fn patience_s(pace: f64, lockstep: bool) -> f64 {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.sim.set_pace(pace);
+    if lockstep {
+        station.sim.open_link(LinkId(9), LinkKind::Payload, true);
+    }
+    station.sticks(0, 0, 500, 0);
+    station.run_ms(1);
+    assert_eq!(station.mode(), Some(POSITION));
+    let silent_since = station.sim.now();
+    let lost = |s: &Station| {
+        s.last(|m| match m {
+            MavMessage::STATUSTEXT(t) => t.text.to_str().ok().filter(|t| t.contains("manual control lost")).map(|_| ()),
+            _ => None,
+        })
+        .is_some()
+    };
+    while !lost(&station) {
+        station.run_ms(20);
+        answer_lockstep(&mut station);
+        assert!((station.sim.now() - silent_since).s() < 60.0);
+    }
+    station.run_ms(20);
+    (station.sim.now() - silent_since).s()
+}
+
+/// The peer in step answers at once, so that time goes on.
+fn answer_lockstep(station: &mut Station) {
+    if station.sim.waiting() {
+        let now = station.sim.now().ns();
+        let answer = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 1, ts1: now, ..Default::default() });
+        let bytes = spandrel::mav::codec::Encoder::new(1, 191).encode(&answer);
+        station.sim.handle_datagram(LinkId(9), &bytes);
+    }
+}
+
+#[test]
+fn wire_without_lockstep_the_limits_of_clients_grow_with_the_speed_and_that_is_told() {
+    // COM_RC_LOSS_T is 0.5 s; the failsafe looks every 50 ms.
+    for (pace, lockstep, expected_s) in [(1.0, false, 0.5), (8.0, false, 4.0), (8.0, true, 0.5), (0.5, false, 0.5)] {
+        let s = patience_s(pace, lockstep);
+        assert!((expected_s..expected_s + 0.15).contains(&s), "pace {pace}, lockstep {lockstep}: {s} s for {expected_s} s");
+    }
+    let mut station = Station::new("drill-hover", 7);
+    station.sim.set_pace(8.0);
+    station.run_ms(10);
+    let told = station.last(|m| match m {
+        MavMessage::NAMED_VALUE_FLOAT(v) if v.name.to_str() == Ok("pace") => Some(v.value),
+        _ => None,
+    });
+    assert_eq!(told, Some(8.0), "every log says it");
+    let text = station.last(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None });
+    assert_eq!(text.as_deref(), Some("Time limits of clients are 8 times as long"));
+}
+
+#[test]
+fn wire_a_lost_hand_stops_the_flight_and_a_returning_one_takes_it_up_again() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.run_ms(1_700);
+    assert_eq!(station.mode(), Some(HOLD));
+    for _ in 0..60 {
+        station.sticks(0, 0, 500, 0);
+        station.run_ms(20);
+    }
+    assert_eq!(station.mode(), Some(POSITION));
+    station.sim.close_link(GCS);
+    station.run_ms(2_000);
+}

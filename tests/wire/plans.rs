@@ -1,0 +1,239 @@
+//! Plans: uploaded whole and in pieces, given back, flown.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use super::station::Station;
+use spandrel::mav::dialect::*;
+
+const NAN: f32 = f32::NAN;
+/// Degrees north for a metre on the ground (40,000 km round).
+const DEGREES_A_METRE: f64 = 360.0 / 40_000_000.0;
+
+fn origin() -> (i32, i32) {
+    let origin = super::station::scenario("drill-hover").origin;
+    ((origin.latitude_deg * 1e7).round() as i32, (origin.longitude_deg * 1e7).round() as i32)
+}
+
+fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_ITEM_INT_DATA {
+    let (lat, lon) = origin();
+    MISSION_ITEM_INT_DATA {
+        param4: NAN,
+        x: lat + (north_m * DEGREES_A_METRE * 1e7).round() as i32,
+        y: lon,
+        z,
+        seq,
+        command,
+        target_system: 1,
+        target_component: 1,
+        frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT,
+        autocontinue: 1,
+        ..Default::default()
+    }
+}
+
+/// Where the pad is, m north of the origin.
+fn home_north(station: &Station) -> f64 {
+    f64::from(station.place()[0])
+}
+
+fn count(count: u16, mission_type: MavMissionType) -> MavMessage {
+    MavMessage::MISSION_COUNT(MISSION_COUNT_DATA { count, target_system: 1, target_component: 1, mission_type, opaque_id: 0 })
+}
+
+fn asked(m: &MavMessage) -> Option<u16> {
+    if let MavMessage::MISSION_REQUEST_INT(r) = m { Some(r.seq) } else { None }
+}
+
+fn result(m: &MavMessage) -> Option<MavMissionResult> {
+    if let MavMessage::MISSION_ACK(a) = m { Some(a.mavtype) } else { None }
+}
+
+const PLAN: MavMissionType = MavMissionType::MAV_MISSION_TYPE_MISSION;
+const ACCEPTED: MavMissionResult = MavMissionResult::MAV_MISSION_ACCEPTED;
+
+/// Uploads as asked; the last acknowledgement.
+fn upload(station: &mut Station, items: &[MISSION_ITEM_INT_DATA]) -> MavMissionResult {
+    let kind = items.first().map_or(PLAN, |i| i.mission_type);
+    let mut wanted = station.ask(&count(items.len() as u16, kind), asked);
+    while let Some(seq) = wanted {
+        station.heard.clear();
+        station.send(&MavMessage::MISSION_ITEM_INT(items[usize::from(seq)].clone()));
+        station.run_ms(1);
+        wanted = station.last(asked);
+    }
+    station.last(result).expect("every upload ends with an acknowledgement")
+}
+
+fn ready(seed: u64) -> Station {
+    let mut station = Station::new("drill-hover", seed);
+    station.run_ms(2_500);
+    station
+}
+
+#[test]
+fn wire_a_mission_is_uploaded_given_back_and_flown_to_its_end() {
+    let mut station = ready(7);
+    let north = home_north(&station);
+    let items = [
+        item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, north, 6.0),
+        item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 12.0, 8.0),
+        MISSION_ITEM_INT_DATA {
+            param2: 0.0,
+            param3: 1.0,
+            frame: MavFrame::MAV_FRAME_MISSION,
+            ..item(2, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, north, 0.0)
+        },
+        MISSION_ITEM_INT_DATA {
+            param1: -40.0,
+            param3: NAN,
+            frame: MavFrame::MAV_FRAME_MISSION,
+            ..item(3, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, north, 0.0)
+        },
+        item(4, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 4.0, 8.0),
+        item(5, MavCmd::MAV_CMD_NAV_LAND, north, 0.0),
+    ];
+    assert_eq!(upload(&mut station, &items), ACCEPTED);
+    for (seq, sent) in items.iter().enumerate() {
+        let request = MISSION_REQUEST_INT_DATA { seq: seq as u16, target_system: 1, target_component: 1, ..Default::default() };
+        let got = station.ask(&MavMessage::MISSION_REQUEST_INT(request), |m| match m {
+            MavMessage::MISSION_ITEM_INT(item) => Some((item.seq, item.command, item.x, item.y, item.z.to_bits(), item.param1)),
+            _ => None,
+        });
+        assert_eq!(got, Some((sent.seq, sent.command, sent.x, sent.y, sent.z.to_bits(), sent.param1)));
+    }
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
+    let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
+    let mut furthest = north;
+    let ended = station.run_until(90.0, |s| {
+        furthest = furthest.max(home_north(s));
+        s.heard
+            .iter()
+            .any(|f| matches!(&f.message, Some(MavMessage::STATUSTEXT(t)) if t.text.to_str() == Ok("Disarmed by landing")))
+    });
+    assert!(ended, "it lands and stops its motors by itself, at {:?}", station.place());
+    let reached = station.all(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { Some(r.seq) } else { None });
+    assert_eq!(reached, [0, 1, 2, 3, 4, 5]);
+    assert!((furthest - north - 12.0).abs() < 2.5, "12 m north, within the radius of acceptance: {}", furthest - north);
+    assert!((home_north(&station) - north).abs() < 1.0, "it lands where it was told to");
+    let status = MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+        command: MavCmd::MAV_CMD_REQUEST_MESSAGE,
+        param1: 262.0,
+        target_system: 1,
+        target_component: 100,
+        ..Default::default()
+    });
+    let taken = station.ask(&status, |m| if let MavMessage::CAMERA_CAPTURE_STATUS(c) = m { Some(c.image_count) } else { None });
+    assert_eq!(taken, Some(1), "the picture of item 2 was taken");
+    let pitch = station.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2]) } else { None });
+    assert!(pitch.is_none_or(|p| p < -0.6), "the gimbal of item 3 looks down: {pitch:?}");
+}
+
+#[test]
+fn wire_lost_doubled_and_exchanged_items_are_asked_for_until_the_plan_is_whole() {
+    let mut station = ready(7);
+    let items: Vec<_> = (0..4).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0 * f64::from(k), 6.0)).collect();
+    let send = |s: &mut Station, k: usize| {
+        s.ask(&MavMessage::MISSION_ITEM_INT(items[k].clone()), |m| asked(m).map(Ok).or(result(m).map(Err)))
+    };
+    assert_eq!(station.ask(&count(4, PLAN), asked), Some(0));
+    assert_eq!(station.ask(&count(4, PLAN), asked), Some(0), "the first request was lost: the count comes again");
+    assert_eq!(send(&mut station, 0), Some(Ok(1)));
+    assert_eq!(send(&mut station, 0), Some(Ok(1)), "doubled");
+    assert_eq!(send(&mut station, 2), Some(Ok(1)), "out of turn");
+    // Nothing comes: the vehicle asks again by itself within two seconds.
+    station.heard.clear();
+    station.run_ms(2_000);
+    assert_eq!(station.all(asked).last(), Some(&1));
+    assert_eq!(send(&mut station, 1), Some(Ok(2)));
+    assert_eq!(send(&mut station, 2), Some(Ok(3)));
+    assert_eq!(send(&mut station, 3), Some(Err(ACCEPTED)));
+    assert_eq!(send(&mut station, 3), Some(Err(ACCEPTED)), "the acknowledgement was lost: it comes again");
+    assert_eq!(send(&mut station, 1), Some(Err(MavMissionResult::MAV_MISSION_ERROR)), "no upload runs any more");
+    let list = MISSION_REQUEST_LIST_DATA { target_system: 1, target_component: 1, mission_type: PLAN };
+    let counted = station.ask(&MavMessage::MISSION_REQUEST_LIST(list), |m| {
+        if let MavMessage::MISSION_COUNT(c) = m { Some(c.count) } else { None }
+    });
+    assert_eq!(counted, Some(4));
+}
+
+#[test]
+fn wire_an_upload_that_stalls_is_given_up_and_a_second_station_waits_its_turn() {
+    let mut station = ready(7);
+    assert_eq!(station.ask(&count(2, PLAN), asked), Some(0));
+    station.speak_as(254, 190);
+    assert_eq!(station.ask(&count(1, PLAN), result), Some(MavMissionResult::MAV_MISSION_DENIED));
+    station.heard.clear();
+    station.run_ms(11_000);
+    assert_eq!(station.last(result), Some(MavMissionResult::MAV_MISSION_OPERATION_CANCELLED));
+    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0), "its turn now");
+}
+
+#[test]
+fn wire_clearing_empties_the_plan_and_stops_nobody_else() {
+    let mut station = ready(7);
+    let fence = MISSION_ITEM_INT_DATA {
+        mission_type: MavMissionType::MAV_MISSION_TYPE_FENCE,
+        param1: 40.0,
+        ..item(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, 0.0, 0.0)
+    };
+    assert_eq!(upload(&mut station, &[fence]), ACCEPTED);
+    assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 5.0)]), ACCEPTED);
+    let clear = |mission_type| {
+        MavMessage::MISSION_CLEAR_ALL(MISSION_CLEAR_ALL_DATA { target_system: 1, target_component: 1, mission_type })
+    };
+    assert_eq!(station.ask(&clear(PLAN), result), Some(ACCEPTED));
+    let mut counted = |mission_type| {
+        let list = MISSION_REQUEST_LIST_DATA { target_system: 1, target_component: 1, mission_type };
+        station.ask(&MavMessage::MISSION_REQUEST_LIST(list), |m| {
+            if let MavMessage::MISSION_COUNT(c) = m { Some(c.count) } else { None }
+        })
+    };
+    assert_eq!((counted(PLAN), counted(MavMissionType::MAV_MISSION_TYPE_FENCE)), (Some(0), Some(1)));
+    assert_eq!(station.ask(&clear(MavMissionType::MAV_MISSION_TYPE_ALL), result), Some(ACCEPTED));
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
+}
+
+#[test]
+fn wire_items_that_cannot_be_flown_are_refused_by_the_parameter_that_is_wrong() {
+    use MavMissionResult as R;
+    let mut station = ready(7);
+    let waypoint = || item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 5.0);
+    for (wrong, expected) in [
+        (MISSION_ITEM_INT_DATA { x: 910_000_000, ..waypoint() }, R::MAV_MISSION_INVALID_PARAM5_X),
+        (MISSION_ITEM_INT_DATA { x: 0, ..waypoint() }, R::MAV_MISSION_INVALID_PARAM6_Y),
+        (MISSION_ITEM_INT_DATA { z: NAN, ..waypoint() }, R::MAV_MISSION_INVALID_PARAM7),
+        (MISSION_ITEM_INT_DATA { param1: -5.0, ..waypoint() }, R::MAV_MISSION_INVALID_PARAM1),
+        (MISSION_ITEM_INT_DATA { frame: MavFrame::MAV_FRAME_LOCAL_ENU, ..waypoint() }, R::MAV_MISSION_UNSUPPORTED_FRAME),
+        (
+            MISSION_ITEM_INT_DATA { z: f32::INFINITY, ..item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, 0.0, 0.0) },
+            R::MAV_MISSION_INVALID_PARAM7,
+        ),
+        (
+            MISSION_ITEM_INT_DATA { x: 910_000_000, ..item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, 0.0, 5.0) },
+            R::MAV_MISSION_INVALID_PARAM5_X,
+        ),
+        (
+            MISSION_ITEM_INT_DATA { y: 1_810_000_000, ..item(0, MavCmd::MAV_CMD_NAV_LAND, 0.0, 0.0) },
+            R::MAV_MISSION_INVALID_PARAM6_Y,
+        ),
+        (MISSION_ITEM_INT_DATA { param1: 7.0, ..item(0, MavCmd::MAV_CMD_DO_JUMP, 0.0, 0.0) }, R::MAV_MISSION_INVALID_PARAM1),
+        (item(0, MavCmd::MAV_CMD_DO_PARACHUTE, 0.0, 0.0), R::MAV_MISSION_UNSUPPORTED),
+    ] {
+        assert_eq!(upload(&mut station, std::slice::from_ref(&wrong)), expected, "{wrong:?}");
+    }
+    assert_eq!(station.ask(&count(60_000, PLAN), result), Some(R::MAV_MISSION_NO_SPACE));
+}
+
+#[test]
+fn wire_the_current_item_is_set_by_message_and_by_command() {
+    let mut station = ready(7);
+    let items: Vec<_> = (0..3).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0, 6.0)).collect();
+    upload(&mut station, &items);
+    let set = |seq| MavMessage::MISSION_SET_CURRENT(MISSION_SET_CURRENT_DATA { seq, target_system: 1, target_component: 1 });
+    let current = |m: &MavMessage| if let MavMessage::MISSION_CURRENT(c) = m { Some((c.seq, c.total)) } else { None };
+    assert_eq!(station.ask(&set(2), current), Some((2, 3)));
+    assert_eq!(station.ask(&set(77), result), Some(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE));
+    let one = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one), MavResult::MAV_RESULT_ACCEPTED);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, [9.0; 7]), MavResult::MAV_RESULT_DENIED);
+}
