@@ -1,16 +1,16 @@
 //! What stands still: bridge members, ground, water, pad. Members are found through a bounding-volume tree (parry's, in f64); the
-//! exact questions are answered by [`Convex`].
+//! exact questions are answered by [`Convex`] and [`HeightGrid`](super::heights::HeightGrid).
 
 use super::convex::{Convex, SurfacePoint};
 use super::terrain::Terrain;
 use super::{Contact, Nearest, ObjectId, Probe, RayHit, Surface};
 use crate::base::frames::{Enu, Vec3};
 use crate::scenario::bridges::Member;
+use crate::scenario::bridges::solid::{Builder, Placement};
 use crate::scenario::{GroundTeam, Scenario};
 use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::parry::math::Vector;
-use rapier3d::parry::partitioning::{Bvh, BvhBuildStrategy};
-use rapier3d::parry::query::{PointProjection, Ray};
+use rapier3d::parry::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost, BvhNode};
 
 /// The ground.
 pub const GROUND: ObjectId = ObjectId(900_000);
@@ -18,6 +18,10 @@ pub const GROUND: ObjectId = ObjectId(900_000);
 pub const WATER: ObjectId = ObjectId(900_001);
 /// The pad.
 pub const PAD: ObjectId = ObjectId(900_002);
+
+const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
+/// The pad reaches this far under its upper surface, m (the ground under it lies 0.05 m lower).
+const PAD_THICK_M: f64 = 0.3;
 
 /// Static geometry of a site.
 #[derive(Debug)]
@@ -27,12 +31,26 @@ pub struct Geometry {
     tree: Bvh,
     /// Ground and water level.
     pub terrain: Terrain,
+    pad: Member,
+    pad_shape: Convex,
     pad_m: Vec3<Enu>,
     pad_half_m: f64,
 }
 
 fn vector(v: Vec3<Enu>) -> Vector {
     Vector::new(v.east(), v.north(), v.up())
+}
+
+/// A leaf of the tree that was found, in order of its distance.
+struct Found<T> {
+    distance_m: f64,
+    what: T,
+}
+
+impl<T> BvhLeafCost for Found<T> {
+    fn cost(&self) -> f64 {
+        self.distance_m
+    }
 }
 
 impl Geometry {
@@ -50,7 +68,9 @@ impl Geometry {
             .collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
         let GroundTeam { pad_m, pad_half_m, .. } = scenario.ground_team;
-        Self { members, shapes, tree, terrain: Terrain::new(scenario), pad_m, pad_half_m }
+        let pad = pad_slab(pad_m, pad_half_m);
+        let pad_shape = Convex::new(&pad.solid);
+        Self { members, shapes, tree, terrain: Terrain::new(scenario), pad, pad_shape, pad_m, pad_half_m }
     }
 
     /// Bridge members.
@@ -59,10 +79,10 @@ impl Geometry {
         &self.members
     }
 
-    /// Centre of the pad's upper surface and half its side, m.
+    /// The pad: a level square slab, let into the ground.
     #[must_use]
-    pub fn pad(&self) -> (Vec3<Enu>, f64) {
-        (self.pad_m, self.pad_half_m)
+    pub fn pad(&self) -> &Member {
+        &self.pad
     }
 
     /// The shape of a member.
@@ -78,132 +98,147 @@ impl Geometry {
     /// Height of ground or pad under a point, m up.
     #[must_use]
     pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
-        let height = self.terrain.ground(east_m, north_m).0;
+        let height = self.terrain.ground.ground(east_m, north_m).0;
         if self.over_pad(Vec3::new(east_m, north_m, 0.0)) { height.max(self.pad_m.up()) } else { height }
     }
 
     /// The nearest member within `max_m`.
     #[must_use]
     pub fn nearest_member(&self, p: Vec3<Enu>, max_m: f64) -> Option<Nearest> {
-        if self.shapes.is_empty() {
-            return None;
-        }
-        let found = std::cell::Cell::new((f64::INFINITY, None::<(u32, SurfacePoint)>));
-        let _ = self.tree.project_point(vector(p), max_m, |leaf, _| {
+        let at = vector(p);
+        // The tree looks for costs below the limit; a member at the limit itself counts.
+        let limit = max_m.next_up();
+        let to_box = |node: &BvhNode, _: f64| {
+            let away = (node.mins() - at).max(at - node.maxs()).max(Vector::ZERO);
+            away.length()
+        };
+        let to_member = |leaf: u32, best_m: f64| {
             let near = self.shapes[leaf as usize].nearest(p);
-            if near.distance_m < found.get().0 && near.distance_m <= max_m {
-                found.set((near.distance_m, Some((leaf, near))));
-            }
-            let inside = near.distance_m <= 0.0;
-            // The tree compares plain distances; inside a solid the surface point itself is handed back as no distance at all.
-            Some(PointProjection::new(inside, if inside { vector(p) } else { vector(near.point_m) }))
-        });
-        found.get().1.map(|(leaf, near)| Nearest {
-            distance_m: near.distance_m,
-            point_m: near.point_m,
-            normal: near.normal,
-            surface: Surface::Bridge,
-            object: ObjectId(leaf),
-        })
+            (near.distance_m < best_m).then_some(Found { distance_m: near.distance_m, what: near })
+        };
+        let (leaf, found) = self.tree.find_best(limit, to_box, to_member)?;
+        let SurfacePoint { distance_m, point_m, normal } = found.what;
+        Some(Nearest { distance_m, point_m, normal, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
-    /// The nearest of members, ground and water within `max_m`; around the pad the ground does not count.
+    /// The nearest of members, ground and water within `max_m`; over the pad the ground does not count.
     #[must_use]
     pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<Nearest> {
-        let mut best = self.nearest_member(p, max_m);
-        let (ground, ground_normal) = self.terrain.distance(p);
-        let water = p.up() - self.terrain.water_m;
-        let mut offer = |distance_m: f64, normal: Vec3<Enu>, surface: Surface, object: ObjectId| {
-            if distance_m <= max_m && best.is_none_or(|b| distance_m < b.distance_m) {
-                best = Some(Nearest { distance_m, point_m: p - normal * distance_m, normal, surface, object });
+        let mut best: Option<Nearest> = None;
+        let mut offer = |found: Option<SurfacePoint>, surface: Surface, object: ObjectId| {
+            if let Some(SurfacePoint { distance_m, point_m, normal }) = found
+                && distance_m <= max_m
+                && best.is_none_or(|b| distance_m < b.distance_m)
+            {
+                best = Some(Nearest { distance_m, point_m, normal, surface, object });
             }
+            best.map_or(max_m, |b| b.distance_m)
         };
-        if !self.over_pad(p) {
-            offer(ground, ground_normal, Surface::Terrain, GROUND);
-        }
-        offer(water, Vec3::new(0.0, 0.0, 1.0), Surface::Water, WATER);
-        best
+        let reach = offer(Some(self.over_water(p)), Surface::Water, WATER);
+        let reach = if self.over_pad(p) { reach } else { offer(self.terrain.ground.nearest(p, reach), Surface::Terrain, GROUND) };
+        self.nearest_member(p, reach).or(best)
+    }
+
+    /// Distance to the nearest solid thing, pad and water included, if it is within `max_m`: nothing still can touch what keeps inside a
+    /// ball of this radius around `p`.
+    #[must_use]
+    pub fn free_radius(&self, p: Vec3<Enu>, max_m: f64) -> Option<f64> {
+        let pad = self.pad_shape.nearest(p).distance_m;
+        let near = self.nearest(p, max_m.min(pad)).map(|n| n.distance_m);
+        near.or((pad <= max_m).then_some(pad))
+    }
+
+    /// [`Self::nearest`] at every point of a path: how much room it leaves, m, at most `max_m`.
+    #[must_use]
+    pub fn clearance_along(&self, path_m: &[Vec3<Enu>], max_m: f64) -> Vec<f64> {
+        path_m.iter().map(|p| self.nearest(*p, max_m).map_or(max_m, |n| n.distance_m)).collect()
+    }
+
+    fn over_water(&self, p: Vec3<Enu>) -> SurfacePoint {
+        let distance_m = p.up() - self.terrain.water_m;
+        SurfacePoint { distance_m, point_m: p - UP * distance_m, normal: UP }
     }
 
     /// The first member, ground, pad or water along a ray.
     #[must_use]
     pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<RayHit> {
-        let mut best = self.ray_member(origin, direction, max_m);
-        let mut offer = |distance_m: f64, normal: Vec3<Enu>, surface: Surface, object: ObjectId| {
-            if distance_m <= max_m && best.is_none_or(|b| distance_m < b.distance_m) {
+        let mut best: Option<RayHit> = None;
+        let mut offer = |found: Option<(f64, Vec3<Enu>)>, surface: Surface, object: ObjectId| {
+            if let Some((distance_m, normal)) = found
+                && distance_m <= max_m
+                && best.is_none_or(|b| distance_m < b.distance_m)
+            {
                 best = Some(RayHit { distance_m, normal, surface, object });
             }
+            best.map_or(max_m, |b| b.distance_m)
         };
-        let up = Vec3::new(0.0, 0.0, 1.0);
-        let level = |height: f64| (direction.up() < 0.0).then(|| (height - origin.up()) / direction.up()).filter(|t| *t >= 0.0);
-        if let Some(t) = level(self.pad_m.up()).filter(|t| self.over_pad(origin + direction * *t)) {
-            offer(t, up, Surface::Pad, PAD);
-        }
-        if let Some(t) = level(self.terrain.water_m) {
-            offer(t, up, Surface::Water, WATER);
-        }
-        let ground_reach = best.map_or(max_m, |b| b.distance_m);
-        if let Some(t) = self.terrain.ray(origin, direction, ground_reach) {
-            let hit = origin + direction * t;
-            let normal = self.terrain.ground(hit.east(), hit.north()).1;
-            if t <= max_m && best.is_none_or(|b| t < b.distance_m) {
-                best = Some(RayHit { distance_m: t, normal, surface: Surface::Terrain, object: GROUND });
-            }
-        }
-        best
+        let depth = |t: &f64| *t >= 0.0 && direction.up() < 0.0;
+        let water = Some((self.terrain.water_m - origin.up()) / direction.up()).filter(depth);
+        let reach = offer(water.map(|t| (t, UP)), Surface::Water, WATER);
+        let reach = offer(self.pad_shape.ray(origin, direction, reach), Surface::Pad, PAD);
+        let reach = offer(self.terrain.ground.ray(origin, direction, reach), Surface::Terrain, GROUND);
+        self.ray_member(origin, direction, reach).or(best)
     }
 
     fn ray_member(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<RayHit> {
-        let ray = Ray::new(vector(origin), vector(direction));
-        let (leaf, distance_m) = self
-            .tree
-            .cast_ray(&ray, max_m, |leaf, best| self.shapes[leaf as usize].ray(origin, direction, best).map(|(t, _)| t))?;
-        let normal = self.shapes[leaf as usize].ray(origin, direction, max_m).map_or(-direction, |(_, n)| n);
-        Some(RayHit { distance_m, normal, surface: Surface::Bridge, object: ObjectId(leaf) })
+        let from = vector(origin);
+        let inverse = Vector::new(1.0 / direction.east(), 1.0 / direction.north(), 1.0 / direction.up());
+        let to_box = |node: &BvhNode, best_m: f64| {
+            let (low, high) = ((node.mins() - from) * inverse, (node.maxs() - from) * inverse);
+            // A component that does not move gives 0/0 where the origin lies on a side; min and max pass over it.
+            let enter = low.x.min(high.x).max(low.y.min(high.y)).max(low.z.min(high.z)).max(0.0);
+            let leave = low.x.max(high.x).min(low.y.max(high.y)).min(low.z.max(high.z));
+            if enter <= leave && enter <= best_m { enter } else { f64::MAX }
+        };
+        let to_member = |leaf: u32, best_m: f64| {
+            let (distance_m, normal) = self.shapes[leaf as usize].ray(origin, direction, best_m)?;
+            Some(Found { distance_m, what: normal })
+        };
+        let (leaf, found) = self.tree.find_best(max_m.next_up(), to_box, to_member)?;
+        Some(RayHit { distance_m: found.distance_m, normal: found.what, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
     /// Appends contacts of a probe with members, ground, pad and water.
     pub fn contacts(&self, probe: &Probe, margin_m: f64, out: &mut Vec<Contact>) {
-        let (low, high, radius) = probe_box(probe);
-        let reach = Vec3::new(radius + margin_m, radius + margin_m, radius + margin_m);
-        let around = Aabb::new(vector(low - reach), vector(high + reach));
+        let (low, high) = probe_bounds(probe, margin_m);
+        let around = Aabb::new(vector(low), vector(high));
+        let first = out.len();
+        for leaf in self.tree.intersect_aabb(&around) {
+            touch(probe, margin_m, &self.shapes[leaf as usize], (Surface::Bridge, ObjectId(leaf)), out);
+        }
         // The tree's order depends on its shape; members are reported in their own order.
-        let mut near: Vec<u32> = self.tree.intersect_aabb(&around).collect();
-        near.sort_unstable();
-        for leaf in near {
-            let shape = &self.shapes[leaf as usize];
-            touch(
-                probe,
-                margin_m,
-                |p| shape.nearest(p),
-                |a, b| shape.nearest_on_segment(a, b),
-                |near, radius| {
-                    out.push(contact(near, radius, Surface::Bridge, ObjectId(leaf)));
-                },
-            );
+        out[first..].sort_by_key(|c| c.object.0);
+        if near_pad(&self.pad_shape, low, high) {
+            touch(probe, margin_m, &self.pad_shape, (Surface::Pad, PAD), out);
         }
         self.floor_contacts(probe, margin_m, out);
     }
 
     fn floor_contacts(&self, probe: &Probe, margin_m: f64, out: &mut Vec<Contact>) {
         for (p, radius) in probe_ends(probe) {
-            let up = Vec3::new(0.0, 0.0, 1.0);
-            let (ground, normal) = self.terrain.distance(p);
-            let pad = p.up() - self.pad_m.up();
-            let water = p.up() - self.terrain.water_m;
-            let floor = if self.over_pad(p) && pad < ground + 0.2 {
-                (pad, up, Surface::Pad, PAD)
-            } else if water < ground {
-                (water, up, Surface::Water, WATER)
-            } else {
-                (ground, normal, Surface::Terrain, GROUND)
-            };
-            if floor.0 - radius <= margin_m {
-                let near = SurfacePoint { distance_m: floor.0, point_m: p - floor.1 * floor.0, normal: floor.1 };
-                out.push(contact(near, radius, floor.2, floor.3));
+            let reach = radius + margin_m;
+            if let Some(near) = self.terrain.ground.nearest(p, reach) {
+                out.push(contact(near, radius, Surface::Terrain, GROUND));
+            }
+            let water = self.over_water(p);
+            // Water lies only where the ground is lower.
+            if water.distance_m <= reach && self.terrain.ground.ground(p.east(), p.north()).0 < self.terrain.water_m {
+                out.push(contact(water, radius, Surface::Water, WATER));
             }
         }
     }
+}
+
+fn pad_slab(centre_m: Vec3<Enu>, half_m: f64) -> Member {
+    let mut builder = Builder::new("site", Placement::new(centre_m, 90.0));
+    builder.block("pad", 0, [-half_m, -half_m, -PAD_THICK_M], [half_m, half_m, 0.0]);
+    builder.finish().swap_remove(0)
+}
+
+fn near_pad(pad: &Convex, low: Vec3<Enu>, high: Vec3<Enu>) -> bool {
+    let (pad_low, pad_high) = pad.bounds();
+    let apart = |k: usize| low.array()[k] > pad_high.array()[k] || high.array()[k] < pad_low.array()[k];
+    !(0..3).any(apart)
 }
 
 fn contact(near: SurfacePoint, radius_m: f64, surface: Surface, object: ObjectId) -> Contact {
@@ -225,38 +260,31 @@ fn probe_ends(probe: &Probe) -> impl Iterator<Item = (Vec3<Enu>, f64)> {
     ends.into_iter().take(count).map(move |p| (p, radius))
 }
 
-fn probe_box(probe: &Probe) -> (Vec3<Enu>, Vec3<Enu>, f64) {
-    match *probe {
-        Probe::Ball { centre_m, radius_m } => (centre_m, centre_m, radius_m),
-        Probe::Capsule { a_m, b_m, radius_m } => {
-            let (a, b) = (a_m.array(), b_m.array());
-            let pick = |f: fn(f64, f64) -> f64| Vec3::new(f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]));
-            (pick(f64::min), pick(f64::max), radius_m)
-        }
-    }
+/// Corners of the axis-aligned box around a probe and its margin.
+fn probe_bounds(probe: &Probe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
+    let (a, b, radius) = match *probe {
+        Probe::Ball { centre_m, radius_m } => (centre_m.array(), centre_m.array(), radius_m),
+        Probe::Capsule { a_m, b_m, radius_m } => (a_m.array(), b_m.array(), radius_m),
+    };
+    let reach = radius + margin_m;
+    let pick = |f: fn(f64, f64) -> f64, by: f64| Vec3::new(f(a[0], b[0]) + by, f(a[1], b[1]) + by, f(a[2], b[2]) + by);
+    (pick(f64::min, -reach), pick(f64::max, reach))
 }
 
 /// Contacts of a probe with one convex thing: at a ball's centre; at a capsule's ends, and between them where it lies across an edge.
-fn touch(
-    probe: &Probe,
-    margin_m: f64,
-    nearest: impl Fn(Vec3<Enu>) -> SurfacePoint,
-    search: impl Fn(Vec3<Enu>, Vec3<Enu>) -> f64,
-    mut found: impl FnMut(SurfacePoint, f64),
-) {
-    for (p, radius) in probe_ends(probe) {
-        let near = nearest(p);
-        if near.distance_m - radius <= margin_m {
-            found(near, radius);
+fn touch(probe: &Probe, margin_m: f64, shape: &Convex, (surface, object): (Surface, ObjectId), out: &mut Vec<Contact>) {
+    let mut offer = |near: SurfacePoint, radius_m: f64| {
+        if near.distance_m - radius_m <= margin_m {
+            out.push(contact(near, radius_m, surface, object));
         }
-    }
-    if let Probe::Capsule { a_m, b_m, radius_m } = *probe {
-        let t = search(a_m, b_m);
-        // At the ends the contact is known already.
-        if t > 0.02 && t < 0.98 {
-            let near = nearest(a_m.lerp(b_m, t));
-            if near.distance_m - radius_m <= margin_m {
-                found(near, radius_m);
+    };
+    match *probe {
+        Probe::Ball { centre_m, radius_m } => offer(shape.nearest(centre_m), radius_m),
+        Probe::Capsule { a_m, b_m, radius_m } => {
+            let ends = [shape.nearest(a_m), shape.nearest(b_m)];
+            ends.into_iter().for_each(|near| offer(near, radius_m));
+            if let Some(near) = shape.between(a_m, b_m, [&ends[0], &ends[1]], radius_m + margin_m) {
+                offer(near, radius_m);
             }
         }
     }

@@ -31,21 +31,18 @@ struct Parts {
 pub fn glb(site: &Site) -> Vec<u8> {
     let mut parts = Parts::default();
     for member in site.members() {
-        let fan = |face: &Vec<u32>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
-        let triangles: Vec<[u32; 3]> = member.solid.faces.iter().flat_map(fan).collect();
-        parts.add(&member.name, &member.solid.vertices_m, &triangles, 0, &json!({ "element": member.element }));
+        parts.add(&member.name, &member.solid.vertices_m, &member.solid.triangles(), 0, &json!({ "element": member.element }));
     }
     let geometry = site.geometry();
-    let (corners, triangles) = geometry.terrain.triangles();
+    let (corners, triangles) = geometry.terrain.ground.triangles();
     parts.add("ground", &corners, &triangles, 1, &json!({ "surface": "terrain" }));
     if let (Some(first), Some(last)) = (corners.first(), corners.last()) {
         let up = geometry.terrain.water_m;
         let water = square([first.east(), first.north()], [last.east(), last.north()], up);
         parts.add("water", &water, &SQUARE, 2, &json!({ "surface": "water" }));
     }
-    let (pad, half_m) = geometry.pad();
-    let pad = square([pad.east() - half_m, pad.north() - half_m], [pad.east() + half_m, pad.north() + half_m], pad.up());
-    parts.add("pad", &pad, &SQUARE, 3, &json!({ "surface": "pad" }));
+    let pad = &geometry.pad().solid;
+    parts.add("pad", &pad.vertices_m, &pad.triangles(), 3, &json!({ "surface": "pad" }));
     parts.file()
 }
 

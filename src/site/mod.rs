@@ -14,6 +14,7 @@ pub mod wind;
 pub mod convex;
 pub mod geometry;
 pub mod gltf;
+pub mod heights;
 pub mod terrain;
 
 use crate::base::frames::{Enu, Vec3};
@@ -216,6 +217,14 @@ impl Site {
     #[must_use]
     pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: At) -> Option<Nearest> {
         self.dynamics.nearest(self.geometry.nearest(position_m, max_m), position_m, max_m, at)
+    }
+
+    /// Distance to the nearest solid thing within `max_m`, whatever it is (the pad too): what keeps inside a ball of this radius touches
+    /// nothing now.
+    #[must_use]
+    pub fn free_radius(&self, position_m: Vec3<Enu>, max_m: f64, at: At) -> Option<f64> {
+        let still = self.geometry.free_radius(position_m, max_m);
+        self.dynamics.traffic.nearest(position_m, still.unwrap_or(max_m), at).map(|n| n.distance_m).or(still)
     }
 
     /// The first hit of a ray within `max_m`, everything included (the pad and the water too). `direction` is a unit vector.

@@ -1,7 +1,8 @@
-//! The ground: a height grid of triangles from the scenario, with the bridges' approaches, the openings under them and the level
-//! ground around the pad worked into it; and the water.
+//! How the ground of a scenario is shaped: flat, a valley with a lake, or a file; with the bridges' approaches, the openings under them and
+//! the level ground around the pad worked into it.
 
-use crate::base::frames::{Enu, Vec3};
+use super::heights::HeightGrid;
+use crate::base::frames::Vec3;
 use crate::base::math;
 use crate::base::random::RandomStream;
 use crate::scenario::{Bridge, GroundTeam, Scenario, Terrain as Settings, TerrainSource};
@@ -13,14 +14,11 @@ const SLOPE: f64 = 1.2;
 /// Room under an arch's springings that is dug free, m.
 const DIG_M: f64 = 1.0;
 
-/// Height field and water level.
+/// The ground and the water level.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Terrain {
-    heights_m: Vec<f64>,
-    side: usize,
-    spacing_m: f64,
-    origin_m: f64,
-    highest_m: f64,
+    /// The ground's surface.
+    pub ground: HeightGrid,
     /// Water surface, m up.
     pub water_m: f64,
 }
@@ -31,7 +29,7 @@ impl Terrain {
     pub fn new(scenario: &Scenario) -> Self {
         let settings = &scenario.terrain;
         let side = (settings.size_m / settings.spacing_m).round().max(1.0) as usize + 1;
-        let origin_m = -0.5 * settings.size_m;
+        let origin_m = -0.5 * settings.spacing_m * (side - 1) as f64;
         let raw = Raw::new(settings);
         let mut heights_m = Vec::with_capacity(side * side);
         for row in 0..side {
@@ -42,90 +40,8 @@ impl Terrain {
                 heights_m.push(worked(natural, east, north, scenario));
             }
         }
-        let highest_m = heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        Self { heights_m, side, spacing_m: settings.spacing_m, origin_m, highest_m, water_m: settings.water_level_m }
+        Self { ground: HeightGrid::new(heights_m, settings.spacing_m), water_m: settings.water_level_m }
     }
-
-    /// Height and unit normal of the ground under a point; beyond the field its rim goes on level.
-    #[must_use]
-    pub fn ground(&self, east_m: f64, north_m: f64) -> (f64, Vec3<Enu>) {
-        let last = (self.side - 1) as f64;
-        let x = ((east_m - self.origin_m) / self.spacing_m).clamp(0.0, last);
-        let y = ((north_m - self.origin_m) / self.spacing_m).clamp(0.0, last);
-        let column = (x.floor() as usize).min(self.side - 2);
-        let row = (y.floor() as usize).min(self.side - 2);
-        let (u, v) = (x - column as f64, y - row as f64);
-        let at = |r: usize, c: usize| self.heights_m[r * self.side + c];
-        let (h00, h10, h01, h11) = (at(row, column), at(row, column + 1), at(row + 1, column), at(row + 1, column + 1));
-        // Each cell is two triangles, split from its south-west to its north-east corner.
-        let (dx, dy) = if u >= v { (h10 - h00, h11 - h10) } else { (h11 - h01, h01 - h00) };
-        let normal = Vec3::new(-dx, -dy, self.spacing_m).unit();
-        (h00 + u * dx + v * dy, normal)
-    }
-
-    /// Signed distance to the ground's plane under a point, with its normal. Exact on a slope, an estimate near a crease.
-    #[must_use]
-    pub fn distance(&self, p: Vec3<Enu>) -> (f64, Vec3<Enu>) {
-        let (height, normal) = self.ground(p.east(), p.north());
-        ((p.up() - height) * normal.up(), normal)
-    }
-
-    /// Distance along a ray to the ground.
-    #[must_use]
-    pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<f64> {
-        let over = |t: f64| {
-            let p = origin + direction * t;
-            p.up() - self.ground(p.east(), p.north()).0
-        };
-        let mut t = 0.0;
-        let mut height = over(0.0);
-        if height <= 0.0 {
-            return Some(0.0);
-        }
-        // Steps in proportion to the height over ground: slopes of up to 60 degrees are not stepped through.
-        while t < max_m {
-            let step = (0.4 * height).max(0.25);
-            let next = (t + step).min(max_m);
-            let there = over(next);
-            if there <= 0.0 {
-                return Some(bisect(over, t, next));
-            }
-            if direction.up() >= 0.0 && (origin + direction * next).up() > self.highest_m {
-                return None;
-            }
-            (t, height) = (next, there);
-        }
-        None
-    }
-
-    /// Triangles of the field for export: corner positions, row by row, and corner indices.
-    #[must_use]
-    pub fn triangles(&self) -> (Vec<Vec3<Enu>>, Vec<[u32; 3]>) {
-        let place = |k: usize| {
-            let (row, column) = (k / self.side, k % self.side);
-            let along = |n: usize| self.origin_m + n as f64 * self.spacing_m;
-            Vec3::new(along(column), along(row), self.heights_m[k])
-        };
-        let corners = (0..self.heights_m.len()).map(place).collect();
-        let mut triangles = Vec::with_capacity(2 * (self.side - 1) * (self.side - 1));
-        for row in 0..self.side - 1 {
-            for column in 0..self.side - 1 {
-                let a = (row * self.side + column) as u32;
-                let n = self.side as u32;
-                triangles.push([a, a + 1, a + n + 1]);
-                triangles.push([a, a + n + 1, a + n]);
-            }
-        }
-        (corners, triangles)
-    }
-}
-
-fn bisect(over: impl Fn(f64) -> f64, mut above: f64, mut below: f64) -> f64 {
-    for _ in 0..30 {
-        let middle = 0.5 * (above + below);
-        if over(middle) > 0.0 { above = middle } else { below = middle }
-    }
-    0.5 * (above + below)
 }
 
 /// Heights before earthworks.

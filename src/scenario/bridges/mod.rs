@@ -30,6 +30,15 @@ pub struct Solid {
     pub faces: Vec<Vec<u32>>,
 }
 
+impl Solid {
+    /// The faces as triangles, fanned from each face's first corner.
+    #[must_use]
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let fan = |face: &Vec<u32>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
+        self.faces.iter().flat_map(fan).collect()
+    }
+}
+
 /// A lane or walkway along which traffic moves: a polyline on the deck's upper surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {

@@ -10,7 +10,7 @@ use crate::base::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use crate::base::math;
 use crate::base::time::SimTime;
 use crate::scenario::BatteryModel;
-use crate::site::{Contact, Nearest, ObjectId, Probe, RayHit, Site, Surface};
+use crate::site::{Contact, ObjectId, Probe, RayHit, Site, Surface};
 use crate::vehicle::{Battery, Lamp, Rotor, RotorModel, Vehicle};
 use nalgebra::Vector3;
 
@@ -81,14 +81,7 @@ impl Obstacles for Site {
         Site::contacts(self, probe, margin_m, at, out);
     }
     fn clearance(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64> {
-        let near = Site::nearest(self, position_m, max_m, at).map(|near: Nearest| near.distance_m);
-        // The pad is left out of `nearest`; its level ground is what stands below.
-        let below = position_m.up() - self.ground_up_m(position_m.east(), position_m.north());
-        let floor = (below <= max_m).then_some(below);
-        match (near, floor) {
-            (Some(a), Some(b)) => Some(a.min(b)),
-            (a, b) => a.or(b),
-        }
+        self.free_radius(position_m, max_m, at)
     }
     fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit> {
         Site::ray(self, origin_m, direction, max_m, at)

@@ -1,0 +1,78 @@
+//! What the site's still geometry costs per question, by place: in the open, near the structure, in the interlayer, over the ground.
+
+use spandrel::base::frames::{Enu, Vec3};
+use spandrel::base::random::RandomStream;
+use spandrel::scenario::{Scenario, TaskKind};
+use spandrel::site::Probe;
+use spandrel::site::geometry::Geometry;
+use std::hint::black_box;
+use std::time::Duration;
+
+const POINTS: usize = 4000;
+const ROUNDS: usize = 9;
+
+#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+fn best(mut work: impl FnMut()) -> Duration {
+    let once = |_| {
+        let start = std::time::Instant::now();
+        work();
+        start.elapsed()
+    };
+    (0..ROUNDS).map(once).min().unwrap_or_default()
+}
+
+fn say(what: &str, points: &[Vec3<Enu>], ask: impl Fn(Vec3<Enu>)) {
+    let taken = best(|| points.iter().for_each(|p| ask(*p)));
+    println!("{what:<44} {:>8.0} ns", taken.as_secs_f64() * 1e9 / points.len() as f64);
+}
+
+/// Points strewn around a polyline.
+fn around(path: &[Vec3<Enu>], spread_m: f64, seed: u64) -> Vec<Vec3<Enu>> {
+    let mut random = RandomStream::new(seed, "bench");
+    let mut jitter = || random.range(-spread_m, spread_m);
+    (0..POINTS).map(|k| path[k % path.len()] + Vec3::new(jitter(), jitter(), jitter())).collect()
+}
+
+fn main() {
+    let text = include_str!("../scenarios/two-bridges.toml");
+    let scenario: Scenario = spandrel::scenario::read("two-bridges.toml", text, &|_| Err("no file".into())).expect("reads");
+    let built = best(|| {
+        black_box(Geometry::new(&scenario));
+    });
+    let geometry = Geometry::new(&scenario);
+    println!("{:<44} {:>8.1} ms, {} members", "built in", built.as_secs_f64() * 1e3, geometry.members().len());
+    let path = |kind: TaskKind| &scenario.tasks.iter().find(|t| t.kind == kind).expect("a task of each kind").path_m;
+    let places = [
+        ("in the open", around(&[Vec3::new(0.0, 75.0, 60.0)], 20.0, 1)),
+        ("along the slab", around(path(TaskKind::SlabSide), 1.0, 2)),
+        ("under the arch", around(path(TaskKind::ArchBottom), 1.0, 3)),
+        ("in the interlayer", around(path(TaskKind::Interlayer), 0.7, 4)),
+        ("around the pier", around(path(TaskKind::PierCircle), 1.0, 5)),
+        ("over the ground", around(&[scenario.ground_team.pad_m + Vec3::new(12.0, 0.0, 3.0)], 2.0, 6)),
+    ];
+    let diagonal = Vec3::<Enu>::new(1.0, 2.0, -0.5).unit();
+    for (place, points) in &places {
+        say(&format!("nearest within 3 m, {place}"), points, |p| drop(black_box(geometry.nearest(p, 3.0))));
+        say(&format!("nearest within 200 m, {place}"), points, |p| drop(black_box(geometry.nearest(p, 200.0))));
+        say(&format!("ray up 30 m, {place}"), points, |p| drop(black_box(geometry.ray(p, Vec3::new(0.0, 0.0, 1.0), 30.0))));
+        say(&format!("ray down 30 m, {place}"), points, |p| drop(black_box(geometry.ray(p, Vec3::new(0.0, 0.0, -1.0), 30.0))));
+        say(&format!("ray aslant 200 m, {place}"), points, |p| drop(black_box(geometry.ray(p, diagonal, 200.0))));
+        let mut found = Vec::new();
+        let taken = best(|| {
+            for p in points {
+                found.clear();
+                let probe = Probe::Capsule { a_m: *p, b_m: *p + Vec3::new(0.15, 0.1, 0.02), radius_m: 0.03 };
+                geometry.contacts(&probe, 0.05, &mut found);
+                black_box(&found);
+            }
+        });
+        println!("{:<44} {:>8.0} ns", format!("contacts of a capsule, {place}"), taken.as_secs_f64() * 1e9 / points.len() as f64);
+    }
+    let deck = around(&[Vec3::new(10.0, 1.0, 34.0)], 0.005, 7);
+    say("contacts of a capsule on the deck", &deck, |p| {
+        let mut found = Vec::new();
+        let probe = Probe::Capsule { a_m: p + Vec3::new(0.0, 0.0, 0.03), b_m: p + Vec3::new(0.15, 0.1, 0.03), radius_m: 0.03 };
+        geometry.contacts(&probe, 0.05, &mut found);
+        black_box(found);
+    });
+}

@@ -1,0 +1,371 @@
+//! The ground as a surface of triangles over a square grid, and the exact questions one may ask of it: height under a point, nearest point,
+//! first hit of a ray. Beyond the grid its rim goes on level.
+
+use super::convex::SurfacePoint;
+use crate::base::frames::{Enu, Vec3};
+
+/// Cells are pruned by the lowest and highest ground of squares of this many cells a side.
+const BLOCK: i64 = 8;
+/// A point nearer to the surface than this has the triangle's own normal, m.
+const TOUCHING_M: f64 = 1e-9;
+/// Rays are followed no farther than this, m (scenario files allow fields of 4 km).
+const FARTHEST_M: f64 = 20_000.0;
+
+/// Heights at the corners of a square grid of square cells, each split into two triangles from its south-west to its north-east corner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeightGrid {
+    heights_m: Vec<f64>,
+    side: usize,
+    spacing_m: f64,
+    origin_m: f64,
+    blocks: Vec<(f64, f64)>,
+    blocks_a_side: usize,
+    highest_m: f64,
+}
+
+/// A cell's south-west corner in grid steps and the heights of its corners.
+struct Cell {
+    column: i64,
+    row: i64,
+    sw: f64,
+    se: f64,
+    nw: f64,
+    ne: f64,
+}
+
+impl Cell {
+    fn lowest(&self) -> f64 {
+        self.sw.min(self.se).min(self.nw.min(self.ne))
+    }
+
+    fn highest(&self) -> f64 {
+        self.sw.max(self.se).max(self.nw.max(self.ne))
+    }
+
+    /// Rise per cell to the east and to the north in the triangle of the given side of the diagonal.
+    fn rise(&self, south_east: bool) -> (f64, f64) {
+        if south_east { (self.se - self.sw, self.ne - self.se) } else { (self.ne - self.nw, self.nw - self.sw) }
+    }
+}
+
+impl HeightGrid {
+    /// From heights row by row from the south, each row from the west; the grid is centred on the scenario's origin.
+    ///
+    /// # Panics
+    /// When there are fewer than four heights or they do not fill a square.
+    #[must_use]
+    pub fn new(heights_m: Vec<f64>, spacing_m: f64) -> Self {
+        let side = heights_m.len().isqrt();
+        assert!(side >= 2 && side * side == heights_m.len(), "{} heights make no square grid", heights_m.len());
+        let highest_m = heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let origin_m = -0.5 * spacing_m * (side - 1) as f64;
+        let blocks_a_side = (side - 1).div_ceil(BLOCK as usize);
+        let mut grid = Self { heights_m, side, spacing_m, origin_m, blocks: Vec::new(), blocks_a_side, highest_m };
+        grid.blocks =
+            (0..blocks_a_side * blocks_a_side).map(|k| grid.block_bounds(k / blocks_a_side, k % blocks_a_side)).collect();
+        grid
+    }
+
+    fn block_bounds(&self, block_row: usize, block_column: usize) -> (f64, f64) {
+        let span = |block: usize| block * BLOCK as usize..=((block + 1) * BLOCK as usize).min(self.side - 1);
+        let heights =
+            span(block_row).flat_map(|row| span(block_column).map(move |column| self.heights_m[row * self.side + column]));
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
+    }
+
+    /// Lowest and highest ground of a block; blocks beyond the rim continue it.
+    fn block(&self, row: i64, column: i64) -> (f64, f64) {
+        let last = self.blocks_a_side as i64 - 1;
+        self.blocks[row.clamp(0, last) as usize * self.blocks_a_side + column.clamp(0, last) as usize]
+    }
+
+    fn cell(&self, column: i64, row: i64) -> Cell {
+        let last = self.side as i64 - 1;
+        let (west, east) = (column.clamp(0, last) as usize, (column + 1).clamp(0, last) as usize);
+        let south = row.clamp(0, last) as usize * self.side;
+        let north = (row + 1).clamp(0, last) as usize * self.side;
+        let h = &self.heights_m;
+        Cell { column, row, sw: h[south + west], se: h[south + east], nw: h[north + west], ne: h[north + east] }
+    }
+
+    /// A point in grid steps from the south-west corner.
+    fn steps(&self, p: Vec3<Enu>) -> (f64, f64) {
+        ((p.east() - self.origin_m) / self.spacing_m, (p.north() - self.origin_m) / self.spacing_m)
+    }
+
+    fn normal(&self, (east, north): (f64, f64)) -> Vec3<Enu> {
+        Vec3::new(-east, -north, self.spacing_m).unit()
+    }
+
+    /// Height and upward unit normal of the ground under a point.
+    #[must_use]
+    pub fn ground(&self, east_m: f64, north_m: f64) -> (f64, Vec3<Enu>) {
+        let (x, y) = self.steps(Vec3::new(east_m, north_m, 0.0));
+        let cell = self.cell(x.floor() as i64, y.floor() as i64);
+        let (u, v) = (x - x.floor(), y - y.floor());
+        let rise = cell.rise(u >= v);
+        (cell.sw + u * rise.0 + v * rise.1, self.normal(rise))
+    }
+
+    /// The nearest point of the surface within `max_m`, with the distance negative for a point under the ground, which is found however
+    /// deep it lies.
+    #[must_use]
+    pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<SurfacePoint> {
+        let (height, normal) = self.ground(p.east(), p.north());
+        let above = p.up() - height;
+        if !above.is_finite() || above * normal.up() > FARTHEST_M {
+            return None;
+        }
+        let below = above < 0.0;
+        // The ground straight below or above is one point of the surface: none farther away need be looked at.
+        let reach = if below { -above } else { above.min(max_m) };
+        let mut best = (reach * reach, Vec3::new(p.east(), p.north(), height));
+        let mut found = below || above <= max_m;
+        self.search(p, &mut best, &mut found);
+        if !found {
+            return None;
+        }
+        let distance = (p - best.1).norm();
+        let signed = if below { -distance } else { distance };
+        let normal = if distance > TOUCHING_M { (p - best.1) / signed } else { normal };
+        Some(SurfacePoint { distance_m: signed, point_m: best.1, normal })
+    }
+
+    fn search(&self, p: Vec3<Enu>, best: &mut (f64, Vec3<Enu>), found: &mut bool) {
+        let (x, y) = self.steps(p);
+        let reach = best.0.sqrt() / self.spacing_m;
+        let range = |at: f64| ((at - reach).floor() as i64, (at + reach).floor() as i64);
+        let ((west, east), (south, north)) = (range(x), range(y));
+        for block_row in south.div_euclid(BLOCK)..=north.div_euclid(BLOCK) {
+            for block_column in west.div_euclid(BLOCK)..=east.div_euclid(BLOCK) {
+                let whole = (block_column * BLOCK, block_row * BLOCK, BLOCK);
+                if self.gap_squared(p, whole, self.block(block_row, block_column)) >= best.0 {
+                    continue;
+                }
+                for row in (block_row * BLOCK).max(south)..=(block_row * BLOCK + BLOCK - 1).min(north) {
+                    for column in (block_column * BLOCK).max(west)..=(block_column * BLOCK + BLOCK - 1).min(east) {
+                        self.search_cell(p, &self.cell(column, row), best, found);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Squared distance to the box over a square of cells (column, row, cells a side) between two heights.
+    fn gap_squared(&self, p: Vec3<Enu>, (column, row, cells): (i64, i64, i64), (low, high): (f64, f64)) -> f64 {
+        let west = self.origin_m + column as f64 * self.spacing_m;
+        let south = self.origin_m + row as f64 * self.spacing_m;
+        let side = cells as f64 * self.spacing_m;
+        let outside = |at: f64, from: f64, to: f64| (from - at).max(at - to).max(0.0);
+        let (e, n, u) =
+            (outside(p.east(), west, west + side), outside(p.north(), south, south + side), outside(p.up(), low, high));
+        e * e + n * n + u * u
+    }
+
+    fn search_cell(&self, p: Vec3<Enu>, cell: &Cell, best: &mut (f64, Vec3<Enu>), found: &mut bool) {
+        if self.gap_squared(p, (cell.column, cell.row, 1), (cell.lowest(), cell.highest())) >= best.0 {
+            return;
+        }
+        let west = self.origin_m + cell.column as f64 * self.spacing_m;
+        let south = self.origin_m + cell.row as f64 * self.spacing_m;
+        let (east, north) = (west + self.spacing_m, south + self.spacing_m);
+        let sw = Vec3::new(west, south, cell.sw);
+        let ne = Vec3::new(east, north, cell.ne);
+        for other in [Vec3::new(east, south, cell.se), Vec3::new(west, north, cell.nw)] {
+            let q = nearest_of_triangle(p, sw, ne, other);
+            let d = (p - q).norm_squared();
+            if d < best.0 {
+                *best = (d, q);
+                *found = true;
+            }
+        }
+    }
+
+    /// Distance along a ray to the ground and the normal there; a ray that starts under the ground hits at once.
+    #[must_use]
+    pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
+        let (height, normal) = self.ground(origin.east(), origin.north());
+        if origin.up() <= height {
+            return Some((0.0, normal));
+        }
+        // Over the highest ground there is nothing to hit.
+        let to_top = (self.highest_m - origin.up()) / direction.up();
+        let (start, end) = match (origin.up() > self.highest_m, direction.up() < 0.0) {
+            (true, false) => return None,
+            (true, true) => (to_top, max_m),
+            (false, true) => (0.0, max_m),
+            (false, false) => (0.0, if direction.up() > 0.0 { max_m.min(to_top) } else { max_m }),
+        };
+        self.walk(origin, direction, start.max(0.0), end.min(FARTHEST_M))
+    }
+
+    /// Follows the cells under a ray.
+    fn walk(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, start: f64, end: f64) -> Option<(f64, Vec3<Enu>)> {
+        let (x0, y0) = self.steps(origin);
+        let (dx, dy) = (direction.east() / self.spacing_m, direction.north() / self.spacing_m);
+        let mut column = (x0 + dx * start).floor() as i64;
+        let mut row = (y0 + dy * start).floor() as i64;
+        // The ray leaves a cell through the side that it moves towards.
+        let side_at = |cell: i64, from: f64, rate: f64| {
+            if rate == 0.0 { f64::INFINITY } else { ((cell + i64::from(rate > 0.0)) as f64 - from) / rate }
+        };
+        let (mut next_x, mut next_y) = (side_at(column, x0, dx), side_at(row, y0, dy));
+        let mut t = start;
+        while t < end {
+            // Rounding may put a cell's side a hair behind.
+            let leave = next_x.min(next_y).min(end).max(t);
+            let cell = self.cell(column, row);
+            let low = (origin.up() + direction.up() * t).min(origin.up() + direction.up() * leave);
+            if low <= cell.highest()
+                && let Some(hit) = self.hit_in_cell(&cell, [x0, y0, origin.up()], [dx, dy, direction.up()], (t, leave))
+            {
+                return Some(hit);
+            }
+            if next_x <= next_y {
+                column += if dx > 0.0 { 1 } else { -1 };
+                next_x = side_at(column, x0, dx);
+            } else {
+                row += if dy > 0.0 { 1 } else { -1 };
+                next_y = side_at(row, y0, dy);
+            }
+            t = leave;
+        }
+        None
+    }
+
+    /// The first point at which the ray is no longer over the cell's two triangles, between two distances.
+    fn hit_in_cell(&self, cell: &Cell, from: [f64; 3], rate: [f64; 3], (enter, leave): (f64, f64)) -> Option<(f64, Vec3<Enu>)> {
+        let at = |t: f64| (from[0] + rate[0] * t - cell.column as f64, from[1] + rate[1] * t - cell.row as f64);
+        let turn = rate[0] - rate[1];
+        let (u, v) = at(0.0);
+        let cross = if turn == 0.0 { enter } else { ((v - u) / turn).clamp(enter, leave) };
+        for (a, b) in [(enter, cross), (cross, leave)] {
+            let middle = at(0.5 * (a + b));
+            let rise = cell.rise(middle.0 >= middle.1);
+            let over = |t: f64| from[2] + rate[2] * t - (cell.sw + at(t).0 * rise.0 + at(t).1 * rise.1);
+            let (first, last) = (over(a), over(b));
+            if last <= 0.0 {
+                let share = if first > 0.0 { first / (first - last) } else { 0.0 };
+                return Some((a + (b - a) * share, self.normal(rise)));
+            }
+        }
+        None
+    }
+
+    /// The surface for export: corner positions, row by row, and the corners of each triangle, counter-clockwise from above.
+    #[must_use]
+    pub fn triangles(&self) -> (Vec<Vec3<Enu>>, Vec<[u32; 3]>) {
+        let along = |n: usize| self.origin_m + n as f64 * self.spacing_m;
+        let corner = |(k, height): (usize, &f64)| Vec3::new(along(k % self.side), along(k / self.side), *height);
+        let corners = self.heights_m.iter().enumerate().map(corner).collect();
+        let n = self.side as u32;
+        let cells = (0..n - 1).flat_map(|row| (0..n - 1).map(move |column| row * n + column));
+        (corners, cells.flat_map(|a| [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]]).collect())
+    }
+}
+
+/// The point of a triangle that is nearest to `p`.
+fn nearest_of_triangle(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>, c: Vec3<Enu>) -> Vec3<Enu> {
+    let normal = (b - a).cross(c - a);
+    let foot = p - normal * (normal.dot(p - a) / normal.norm_squared());
+    let outside = |from: Vec3<Enu>, to: Vec3<Enu>| (to - from).cross(foot - from).dot(normal) < 0.0;
+    if !outside(a, b) && !outside(b, c) && !outside(c, a) {
+        return foot;
+    }
+    let on = |from: Vec3<Enu>, to: Vec3<Enu>| {
+        let edge = to - from;
+        let q = from + edge * ((p - from).dot(edge) / edge.norm_squared()).clamp(0.0, 1.0);
+        ((p - q).norm_squared(), q)
+    };
+    let nearer = |a: (f64, Vec3<Enu>), b: (f64, Vec3<Enu>)| if b.0 < a.0 { b } else { a };
+    nearer(nearer(on(a, b), on(b, c)), on(c, a)).1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::RandomStream;
+
+    /// m; rounding at the scale of the test field.
+    const ROUNDING_M: f64 = 1e-9;
+
+    /// A rough field of 20 x 20 cells of 5 m.
+    fn rough() -> HeightGrid {
+        let mut random = RandomStream::new(9, "rough");
+        HeightGrid::new((0..21 * 21).map(|_| random.range(-6.0, 6.0)).collect(), 5.0)
+    }
+
+    #[test]
+    fn prop_the_nearest_point_is_the_nearest_of_all_triangles() {
+        let grid = rough();
+        let (corners, triangles) = grid.triangles();
+        let mut random = RandomStream::new(3, "points");
+        for _ in 0..1500 {
+            let p = Vec3::new(random.range(-40.0, 40.0), random.range(-40.0, 40.0), random.range(-12.0, 12.0));
+            let brute = triangles
+                .iter()
+                .map(|t| {
+                    (p - nearest_of_triangle(p, corners[t[0] as usize], corners[t[1] as usize], corners[t[2] as usize])).norm()
+                })
+                .fold(f64::INFINITY, f64::min);
+            let near = grid.nearest(p, f64::INFINITY).unwrap();
+            assert!((near.distance_m.abs() - brute).abs() < ROUNDING_M, "{p:?}: {} against {brute}", near.distance_m);
+            assert_eq!(near.distance_m < 0.0, p.up() < grid.ground(p.east(), p.north()).0);
+            assert!((near.point_m + near.normal * near.distance_m - p).norm() < ROUNDING_M);
+            let capped = grid.nearest(p, 2.0);
+            assert_eq!(capped.is_some(), near.distance_m <= 2.0);
+            assert!(capped.is_none_or(|c| (c.distance_m - near.distance_m).abs() < ROUNDING_M));
+        }
+    }
+
+    #[test]
+    fn prop_a_triangle_has_no_nearer_point() {
+        let mut random = RandomStream::new(4, "triangles");
+        let mut point = |spread: f64| {
+            Vec3::<Enu>::new(random.range(-spread, spread), random.range(-spread, spread), random.range(-spread, spread))
+        };
+        for _ in 0..300 {
+            let (p, a, b, c) = (point(4.0), point(2.0), point(2.0), point(2.0));
+            let q = nearest_of_triangle(p, a, b, c);
+            for (i, j) in (0..=20).flat_map(|i| (0..=20 - i).map(move |j| (f64::from(i) / 20.0, f64::from(j) / 20.0))) {
+                let other = a + (b - a) * i + (c - a) * j;
+                assert!((p - q).norm() <= (p - other).norm() + ROUNDING_M);
+            }
+        }
+    }
+
+    #[test]
+    fn prop_a_ray_ends_where_it_first_meets_the_ground() {
+        let grid = rough();
+        let mut random = RandomStream::new(5, "rays");
+        let over = |p: Vec3<Enu>| p.up() - grid.ground(p.east(), p.north()).0;
+        let mut hits = 0;
+        for _ in 0..1500 {
+            // Some start and end beyond the rim.
+            let origin = Vec3::new(random.range(-70.0, 70.0), random.range(-70.0, 70.0), random.range(-3.0, 15.0));
+            let direction = Vec3::new(random.normal(), random.normal(), 0.4 * random.normal()).unit();
+            let hit = grid.ray(origin, direction, 120.0);
+            let reach = hit.map_or(120.0, |h| h.0);
+            if let Some((t, normal)) = hit.filter(|h| h.0 > 0.0) {
+                hits += 1;
+                assert!(over(origin + direction * t).abs() < ROUNDING_M);
+                assert!(normal.dot(direction) < 0.0);
+            }
+            let clear = (0..2000).map(|k| reach * f64::from(k) / 2000.0).all(|t| over(origin + direction * t) > -ROUNDING_M);
+            assert!(clear || reach == 0.0, "{origin:?} {direction:?}");
+        }
+        assert!(hits > 500, "{hits}");
+    }
+
+    #[test]
+    fn exact_plumb_and_level_rays() {
+        let grid = HeightGrid::new(vec![2.0; 9], 10.0);
+        let down = grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(0.0, 0.0, -1.0), 50.0).unwrap();
+        assert!((down.0 - 5.0).abs() < ROUNDING_M && down.1 == Vec3::new(0.0, 0.0, 1.0));
+        assert_eq!(grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(0.0, 0.0, 1.0), 50.0), None);
+        assert_eq!(grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(1.0, 0.0, 0.0), f64::INFINITY), None);
+        assert_eq!(grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(0.0, 0.0, -1.0), 4.9), None);
+        let below = grid.ray(Vec3::new(1.0, 2.0, 1.0), Vec3::new(0.0, 0.0, 1.0), 50.0).unwrap();
+        assert_eq!(below.0, 0.0);
+    }
+}
