@@ -1,7 +1,13 @@
 //! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings, abutments.
 
 use super::solid::Builder;
-use super::{Field, Misfit};
+use super::{Field, Misfit, Misfits};
+use crate::base::math;
+
+/// Floorbeams end this far inside the deck's edge, m (estimate).
+const BEAM_INSET_M: f64 = 0.4;
+/// Shorter columns are left out, m (estimate).
+const SHORTEST_COLUMN_M: f64 = 0.25;
 
 /// The numbers of an open-spandrel deck arch. Own axes: x along the deck, y left, z up, origin on the deck at midspan.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,36 +103,6 @@ impl Arch {
         }
     }
 
-    /// Numbers that do not fit together, so that every member has a volume and the interlayer is open.
-    #[must_use]
-    pub fn misfits(&self) -> Vec<Misfit> {
-        let panel_m = self.span_m / self.panels;
-        super::misfits(&[
-            ("panels", self.panels, self.panels.fract() == 0.0, "a whole number".into()),
-            ("stringers", self.stringers, self.stringers.fract() == 0.0, "a whole number".into()),
-            ("panels", self.panels, panel_m >= 2.0 * self.column_m, "panels at least twice as long as column_m".into()),
-            (
-                "floorbeam_width_m",
-                self.floorbeam_width_m,
-                self.floorbeam_width_m <= 0.5 * panel_m,
-                format!("at most half a panel, {:.2}", 0.5 * panel_m),
-            ),
-            (
-                "rib_width_m",
-                self.rib_width_m,
-                self.rib_width_m + 1.0 <= self.rib_spacing_m,
-                format!("rib_spacing_m less 1 m for the struts: at most {:.2}", self.rib_spacing_m - 1.0),
-            ),
-            ("column_m", self.column_m, self.column_m <= self.rib_width_m, format!("at most rib_width_m, {}", self.rib_width_m)),
-            (
-                "floorbeam_depth_m",
-                self.floorbeam_depth_m,
-                self.floorbeam_depth_m + 0.5 <= self.crown_gap_m,
-                format!("crown_gap_m less 0.5 m: at most {:.2}", self.crown_gap_m - 0.5),
-            ),
-        ])
-    }
-
     /// Length of the deck, m.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
@@ -159,6 +135,21 @@ impl Arch {
         self.axis_z_m(x) - 0.5 * self.depth_m(x)
     }
 
+    /// Ends of the ribs' straight segments, from springing to springing: two segments a panel.
+    #[must_use]
+    pub fn rib_nodes(&self) -> Vec<f64> {
+        let n = 2 * self.panels.round() as i32;
+        (0..=n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
+    }
+
+    /// Top of the rib as built, straight between its nodes, which lie on [`Self::extrados_z_m`].
+    #[must_use]
+    pub fn rib_top_z_m(&self, x: f64) -> f64 {
+        let step = self.span_m / (2.0 * self.panels.round());
+        let from = ((x + 0.5 * self.span_m) / step).floor() * step - 0.5 * self.span_m;
+        math::lerp(self.extrados_z_m(from), self.extrados_z_m(from + step), (x - from) / step)
+    }
+
     /// Underside of the floorbeams.
     #[must_use]
     pub fn floorbeam_z_m(&self) -> f64 {
@@ -172,6 +163,29 @@ impl Arch {
         (1..n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
+    /// Numbers that do not fit together: none, or every member has a volume, stands on another, and the interlayer is open.
+    #[must_use]
+    pub fn misfits(&self) -> Vec<Misfit> {
+        let panel_m = self.span_m / self.panels.round();
+        let line_m = (self.deck_width_m - 2.0 * BEAM_INSET_M) / self.stringers.round();
+        let over_columns_m = self.rib_spacing_m + self.column_m + 2.0 * BEAM_INSET_M;
+        let mut m = Misfits::default();
+        m.whole("panels", self.panels);
+        m.whole("stringers", self.stringers);
+        m.at_least("rise_m", self.rise_m, self.span_m / 12.0, "not too flat for span_m");
+        m.at_most("rise_m", self.rise_m, self.span_m / 2.0, "not too steep for span_m");
+        m.at_least("springing_depth_m", self.springing_depth_m, self.crown_depth_m, "no thinner than the crown (crown_depth_m)");
+        m.at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m less 1 m for the struts");
+        m.at_most("column_m", self.column_m, self.rib_width_m, "no wider than the rib (rib_width_m)");
+        m.at_most("column_m", self.column_m, 0.5 * panel_m, "half a panel (span_m, panels)");
+        m.at_most("floorbeam_width_m", self.floorbeam_width_m, 0.5 * panel_m, "half a panel (span_m, panels)");
+        m.at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m less 0.5 m");
+        m.at_least("deck_width_m", self.deck_width_m, over_columns_m, "out over the columns (rib_spacing_m, column_m)");
+        m.at_most("stringer_width_m", self.stringer_width_m, line_m, "side by side under the deck (stringers, deck_width_m)");
+        m.at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m less 0.5 m");
+        m.0
+    }
+
     /// Builds every member.
     pub fn build(&self, b: &mut Builder) {
         self.ribs(b);
@@ -182,11 +196,9 @@ impl Arch {
     }
 
     fn ribs(&self, b: &mut Builder) {
-        let segments = 2 * self.panels.round() as i32;
-        let x = |k: i32| self.span_m * (f64::from(k) / f64::from(segments) - 0.5);
         for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
-            for k in 0..segments {
-                let (a, c) = (x(k), x(k + 1));
+            for (k, pair) in self.rib_nodes().windows(2).enumerate() {
+                let (a, c) = (pair[0], pair[1]);
                 let profile =
                     [[a, self.intrados_z_m(a)], [c, self.intrados_z_m(c)], [c, self.extrados_z_m(c)], [a, self.extrados_z_m(a)]];
                 let half = 0.5 * self.rib_width_m;
@@ -205,7 +217,11 @@ impl Arch {
         let top = self.floorbeam_z_m();
         for (k, x) in self.panel_points().into_iter().enumerate() {
             // The rib slopes under the column: it starts where both of its edges are inside the rib.
-            let foot = self.extrados_z_m(x + half).min(self.extrados_z_m(x - half));
+            let foot = self.rib_top_z_m(x + half).min(self.rib_top_z_m(x - half));
+            // Where the deck comes down to the crown, the floorbeam lies on the rib itself.
+            if top - foot < SHORTEST_COLUMN_M {
+                continue;
+            }
             for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
                 b.block(&format!("column-{side}/{k:02}"), 205, [x - half, y - half, foot], [x + half, y + half, top]);
             }
@@ -220,7 +236,7 @@ impl Arch {
 
     fn floor(&self, b: &mut Builder) {
         let half_width = 0.5 * self.deck_width_m;
-        let beam_half = half_width - 0.4;
+        let beam_half = half_width - BEAM_INSET_M;
         let soffit = -self.slab_m;
         let mut lines = vec![-0.5 * self.span_m];
         lines.extend(self.panel_points());

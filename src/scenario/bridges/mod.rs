@@ -76,10 +76,39 @@ pub struct Misfit {
     pub allowed: String,
 }
 
-/// The misfits among (key, value, fits, allowed).
-fn misfits(rules: &[(&'static str, f64, bool, String)]) -> Vec<Misfit> {
-    let wrong = rules.iter().filter(|(_, _, fits, _)| !fits);
-    wrong.map(|(key, value, _, allowed)| Misfit { key, value: *value, allowed: allowed.clone() }).collect()
+/// Collects misfits while a type's numbers are compared.
+#[derive(Debug, Default)]
+struct Misfits(Vec<Misfit>);
+
+impl Misfits {
+    fn whole(&mut self, key: &'static str, value: f64) {
+        if value.fract() != 0.0 {
+            self.0.push(Misfit { key, value, allowed: "a whole number".into() });
+        }
+    }
+
+    fn at_least(&mut self, key: &'static str, value: f64, low: f64, why: &str) {
+        if value < low {
+            self.0.push(Misfit { key, value, allowed: format!("{why}: at least {low:.2}") });
+        }
+    }
+
+    fn at_most(&mut self, key: &'static str, value: f64, high: f64, why: &str) {
+        if value > high {
+            self.0.push(Misfit { key, value, allowed: format!("{why}: at most {high:.2}") });
+        }
+    }
+}
+
+impl BridgeKind {
+    /// Numbers that do not fit together: none, or the bridge cannot be built.
+    #[must_use]
+    pub fn misfits(&self) -> Vec<Misfit> {
+        match self {
+            Self::Arch(arch) => arch.misfits(),
+            Self::Suspension(suspension) => suspension.misfits(),
+        }
+    }
 }
 
 /// A task's reference path with the line of sight at each point.

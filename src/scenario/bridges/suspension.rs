@@ -2,7 +2,18 @@
 
 use super::arch::railing;
 use super::solid::Builder;
-use super::{Field, Misfit};
+use super::{Field, Misfit, Misfits};
+
+/// Girders stand this far out over the deck's edge, m (estimate).
+const GIRDER_OUT_M: f64 = 0.2;
+/// Between girder and tower leg, m (estimate).
+const LEG_GAP_M: f64 = 0.02;
+/// Height of the bearings between girders and towers, m (estimate).
+const BEARING_M: f64 = 0.2;
+/// Depth of the towers' portal struts, m (estimate).
+const PORTAL_M: f64 = 1.2;
+/// Foot of the anchorages under the deck, m (estimate).
+const ANCHORAGE_FOOT_M: f64 = 12.0;
 
 /// The numbers of a suspension bridge. Own axes: x along the deck, y left, z up, origin on the deck at midspan.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,23 +113,6 @@ impl Suspension {
         }
     }
 
-    /// Numbers that do not fit together, so that the towers stand on their piers and the girders clear them.
-    #[must_use]
-    pub fn misfits(&self) -> Vec<Misfit> {
-        let legs_m = 2.0 * (self.cable_y_m() + self.leg_y_m - 0.35);
-        let under_m = self.slab_m + self.girder_depth_m;
-        super::misfits(&[
-            ("leg_x_m", self.leg_x_m, self.leg_x_m <= self.pier_x_m, format!("at most pier_x_m, {}", self.pier_x_m)),
-            (
-                "pier_y_m",
-                self.pier_y_m,
-                self.pier_y_m >= legs_m,
-                format!("wide enough for both tower legs: at least {legs_m:.2}"),
-            ),
-            ("pier_top_m", self.pier_top_m, self.pier_top_m >= under_m, format!("under slab and girders: at least {under_m:.2}")),
-        ])
-    }
-
     /// Length of the deck between the anchorages' far ends, m.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
@@ -138,10 +132,68 @@ impl Suspension {
         }
     }
 
-    /// Distance of the cables from the deck's middle, m: just outside the railings.
+    /// Distance of the cables from the deck's middle, m: just outside the girders.
     #[must_use]
     pub fn cable_y_m(&self) -> f64 {
-        0.5 * self.deck_width_m + 0.35
+        0.5 * self.deck_width_m + GIRDER_OUT_M + self.cable_radius_m
+    }
+
+    /// Distance of the tower legs' middles from the deck's, m: clear of the girders.
+    #[must_use]
+    pub fn leg_middle_y_m(&self) -> f64 {
+        0.5 * self.deck_width_m + GIRDER_OUT_M + LEG_GAP_M + 0.5 * self.leg_y_m
+    }
+
+    /// Underside of the girders.
+    #[must_use]
+    pub fn girder_z_m(&self) -> f64 {
+        -self.slab_m - self.girder_depth_m
+    }
+
+    /// Where the cables end and the anchorages begin, from midspan, m.
+    #[must_use]
+    pub fn anchor_x_m(&self) -> f64 {
+        0.5 * self.main_span_m + self.side_span_m
+    }
+
+    /// Floorbeams: at every hanger, and at the same spacing in the side spans, whose girders need no hangers.
+    #[must_use]
+    pub fn floorbeams(&self) -> Vec<f64> {
+        let n = (self.side_span_m / self.hanger_spacing_m).round().max(1.0) as i32;
+        let step = |k: i32| self.side_span_m * f64::from(k) / f64::from(n);
+        let half = 0.5 * self.main_span_m;
+        let mut out: Vec<f64> = (1..n).rev().map(|k| -half - step(k)).collect();
+        out.extend(self.hangers());
+        out.extend((1..n).map(|k| half + step(k)));
+        out
+    }
+
+    /// Ends of the deck's panels: at the deck's ends, anchorages, towers and floorbeams.
+    #[must_use]
+    pub fn panel_ends(&self) -> Vec<f64> {
+        let half = 0.5 * self.main_span_m;
+        let ends = [0.5 * self.deck_length_m(), self.anchor_x_m(), half];
+        let mut out = self.floorbeams();
+        out.extend(ends.iter().flat_map(|x| [-x, *x]));
+        out.sort_by(f64::total_cmp);
+        out
+    }
+
+    /// Numbers that do not fit together: none, or the towers stand on their piers, the girders clear them and all members meet.
+    #[must_use]
+    pub fn misfits(&self) -> Vec<Misfit> {
+        let legs_m = 2.0 * self.leg_middle_y_m() + self.leg_y_m;
+        let portal_m = BEARING_M + PORTAL_M - self.girder_z_m();
+        let mut m = Misfits::default();
+        m.at_least("sag_m", self.sag_m, self.main_span_m / 20.0, "not too flat for main_span_m");
+        m.at_most("sag_m", self.sag_m, self.main_span_m / 4.0, "not too steep for main_span_m");
+        m.at_least("cable_clearance_m", self.cable_clearance_m, self.cable_radius_m, "clear of the deck (cable_radius_m)");
+        m.at_least("leg_y_m", self.leg_y_m, 2.0 * self.cable_radius_m, "no narrower than the cable (cable_radius_m)");
+        m.at_most("leg_x_m", self.leg_x_m, self.pier_x_m, "no wider than the pier (pier_x_m)");
+        m.at_least("pier_y_m", self.pier_y_m, legs_m, "wide enough for both tower legs (deck_width_m, leg_y_m)");
+        m.at_least("pier_top_m", self.pier_top_m, portal_m, "under girders and portal (slab_m, girder_depth_m)");
+        m.at_least("girder_depth_m", self.girder_depth_m, self.floorbeam_depth_m, "no shallower than the floorbeams");
+        m.0
     }
 
     /// Hanger places: evenly spaced in the main span, none at the towers.
@@ -166,15 +218,24 @@ impl Suspension {
             let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
             let foot = -self.pier_top_m;
             b.block(&format!("pier-{name}"), 210, [x - px, -py, foot - self.pier_height_m], [x + px, py, foot]);
-            let y = self.cable_y_m();
             let (lx, ly) = (0.5 * self.leg_x_m, 0.5 * self.leg_y_m);
-            for (side, y) in [("left", y + ly - 0.35), ("right", -y - ly + 0.35)] {
+            for (side, y) in [("left", self.leg_middle_y_m()), ("right", -self.leg_middle_y_m())] {
                 b.block(&format!("tower-{name}/{side}"), 207, [x - lx, y - ly, foot], [x + lx, y + ly, top]);
+                self.bearing(b, &format!("bearing-{name}/{side}"), x, y.signum());
             }
-            for (part, z) in [("portal-top", top - 1.2), ("portal-deck", -self.slab_m - self.girder_depth_m - 1.4)] {
-                b.block(&format!("tower-{name}/{part}"), 207, [x - 0.6, -y, z], [x + 0.6, y, z + 1.2]);
+            let inner = self.leg_middle_y_m() - ly;
+            for (part, z) in [("portal-top", top), ("portal-deck", self.girder_z_m() - BEARING_M)] {
+                b.block(&format!("tower-{name}/{part}"), 207, [x - 0.6, -inner, z - PORTAL_M], [x + 0.6, inner, z]);
             }
         }
+    }
+
+    /// Between girder and portal strut: fixed at one tower, movable at the other.
+    fn bearing(&self, b: &mut Builder, name: &str, x: f64, side: f64) {
+        let element = if x < 0.0 { 313 } else { 311 };
+        let y = side * 0.5 * self.deck_width_m;
+        let z = self.girder_z_m();
+        b.block(name, element, [x - 0.3, y - 0.15, z - BEARING_M], [x + 0.3, y + 0.15, z]);
     }
 
     fn cables(&self, b: &mut Builder) {
@@ -195,17 +256,13 @@ impl Suspension {
     }
 
     fn floor(&self, b: &mut Builder) {
-        let half_length = 0.5 * self.deck_length_m();
         let half_width = 0.5 * self.deck_width_m;
         let soffit = -self.slab_m;
-        let mut lines = vec![-half_length, -0.5 * self.main_span_m];
-        lines.extend(self.hangers());
-        lines.extend([0.5 * self.main_span_m, half_length]);
-        for (k, pair) in lines.windows(2).enumerate() {
+        for (k, pair) in self.panel_ends().windows(2).enumerate() {
             b.block(&format!("slab/{k:02}"), 12, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
-            for (side, y) in [("left", half_width - 0.2), ("right", -half_width - 0.2)] {
+            for (side, y) in [("left", half_width - GIRDER_OUT_M), ("right", -half_width - GIRDER_OUT_M)] {
                 let name = format!("girder-{side}/{k:02}");
-                b.block(&name, 107, [pair[0], y, soffit - self.girder_depth_m], [pair[1], y + 0.4, soffit]);
+                b.block(&name, 107, [pair[0], y, soffit - self.girder_depth_m], [pair[1], y + 2.0 * GIRDER_OUT_M, soffit]);
             }
             for (line, y) in [(0, -0.25), (1, 0.25)] {
                 let y = y * self.deck_width_m;
@@ -213,18 +270,27 @@ impl Suspension {
                 b.block(&name, 113, [pair[0], y - 0.12, soffit - 0.5], [pair[1], y + 0.12, soffit]);
             }
         }
-        for (k, x) in self.hangers().into_iter().enumerate() {
-            let inner = half_width - 0.2;
+        // In the main span they reach out to the hangers, which hold them.
+        let held = self.cable_y_m() + 0.15;
+        for (k, x) in self.floorbeams().into_iter().enumerate() {
+            let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
             let name = format!("floorbeam/{k:02}");
-            b.block(&name, 152, [x - 0.15, -inner, soffit - self.floorbeam_depth_m], [x + 0.15, inner, soffit]);
+            b.block(&name, 152, [x - 0.15, -reach, soffit - self.floorbeam_depth_m], [x + 0.15, reach, soffit]);
         }
     }
 
     fn anchorages(&self, b: &mut Builder) {
-        let inner = 0.5 * self.main_span_m + self.side_span_m;
-        let y = self.cable_y_m() + 0.6;
-        for (name, low, high) in [("start", -inner - self.anchorage_m, -inner), ("end", inner, inner + self.anchorage_m)] {
-            b.block(&format!("anchorage-{name}"), 220, [low, -y, -12.0], [high, y, -self.slab_m - self.girder_depth_m]);
+        let (inner, outer) = (self.anchor_x_m(), self.anchor_x_m() + self.anchorage_m);
+        let (near, far) = (0.5 * self.deck_width_m + GIRDER_OUT_M, self.cable_y_m() + self.cable_radius_m + 0.45);
+        let foot = -ANCHORAGE_FOOT_M.max(-self.girder_z_m() + 3.0);
+        for (name, low, high) in [("start", -outer, -inner), ("end", inner, outer)] {
+            b.block(&format!("anchorage-{name}"), 220, [low, -far, foot], [high, far, self.girder_z_m()]);
+            // The cables come down beside the deck into a block on either side.
+            for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
+                let part = format!("anchorage-{name}/{side}");
+                let grip = if low < 0.0 { high - 2.0 } else { low };
+                b.block(&part, 220, [grip, low_y, self.girder_z_m()], [grip + 2.0, high_y, 0.6]);
+            }
         }
     }
 }
