@@ -5,7 +5,7 @@ use super::files::{self, Source};
 use crate::base::frames::{Enu, Vec3};
 use crate::base::toml::Problem;
 use crate::scenario::{self, Scenario, Task};
-use crate::site::{Site, defects};
+use crate::site::{Nearest, Site, defects};
 use crate::vehicle::{self, Vehicle};
 use serde_json::json;
 
@@ -136,19 +136,15 @@ fn none_placed(scenario: &Scenario) -> scenario::Defects {
     scenario::Defects { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
 }
 
-/// The place with the least room, when that is less than needed. Between the points of the path (at most 1 m apart) the middles are
-/// looked at as well.
+/// The place with the least room, when that is less than needed, anywhere along the straight pieces between the path's points.
 fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, String)> {
     let points = &task.path_m;
-    let wrap = if task.closed { points.first() } else { None };
-    let next = points.iter().skip(1).chain(wrap);
-    let middles = points.iter().zip(next).map(|(a, b)| (*a + *b) * 0.5);
-    let found = points.iter().copied().chain(middles).filter_map(|point| {
-        let nearest = site.geometry().nearest(point, needed_m)?;
-        (nearest.distance_m < needed_m).then_some((point, nearest.distance_m, nearest.object))
-    });
-    let (point, clearance_m, object) = found.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some((point, clearance_m, site.object_name(object)))
+    let wrap = if task.closed { points.first() } else { points.last() };
+    let pieces = points.iter().zip(points.iter().skip(1).chain(wrap));
+    let (at_m, near) = pieces.fold(None, |best: Option<(Vec3<Enu>, Nearest)>, (from, to)| {
+        site.geometry().tightest(*from, *to, best.map_or(needed_m, |b| b.1.distance_m)).or(best)
+    })?;
+    Some((at_m, near.distance_m, site.object_name(near.object)))
 }
 
 /// Lines on which the tasks begin.

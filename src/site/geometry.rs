@@ -139,19 +139,34 @@ impl Geometry {
         self.nearest_member(p, reach).or(best)
     }
 
-    /// Distance to the nearest solid thing, pad and water included, if it is within `max_m`: nothing still can touch what keeps inside a
+    /// Distance to the nearest solid thing, pad and water included, if it is less than `max_m`: nothing still can touch what keeps inside a
     /// ball of this radius around `p`.
     #[must_use]
     pub fn free_radius(&self, p: Vec3<Enu>, max_m: f64) -> Option<f64> {
-        let pad = self.pad_shape.nearest(p).distance_m;
-        let near = self.nearest(p, max_m.min(pad)).map(|n| n.distance_m);
-        near.or((pad <= max_m).then_some(pad))
+        let slab = self.pad_shape.nearest(p).distance_m.min(max_m);
+        let reach = self.terrain.ground.nearest(p, slab).map_or(slab, |near| near.distance_m).min(self.over_water(p).distance_m);
+        let free = self.nearest_member(p, reach).map_or(reach, |near| near.distance_m);
+        (free < max_m).then_some(free)
     }
 
-    /// [`Self::nearest`] at every point of a path: how much room it leaves, m, at most `max_m`.
+    /// The nearest thing along a straight piece of a path, and where, if it comes nearer than `less_than_m`; to within a millimetre.
     #[must_use]
-    pub fn clearance_along(&self, path_m: &[Vec3<Enu>], max_m: f64) -> Vec<f64> {
-        path_m.iter().map(|p| self.nearest(*p, max_m).map_or(max_m, |n| n.distance_m)).collect()
+    pub fn tightest(&self, from: Vec3<Enu>, to: Vec3<Enu>, less_than_m: f64) -> Option<(Vec3<Enu>, Nearest)> {
+        const CLOSE_M: f64 = 1e-3;
+        let middle = (from + to) * 0.5;
+        let half_m = 0.5 * (to - from).norm();
+        // Distance changes no faster than one metre a metre.
+        let near = self.nearest(middle, less_than_m + half_m)?;
+        if near.distance_m - half_m >= less_than_m {
+            return None;
+        }
+        let here = (near.distance_m < less_than_m).then_some((middle, near));
+        if half_m <= CLOSE_M {
+            return here;
+        }
+        let limit = |best: &Option<(Vec3<Enu>, Nearest)>| best.map_or(less_than_m, |b| b.1.distance_m);
+        let first = self.tightest(from, middle, limit(&here)).or(here);
+        self.tightest(middle, to, limit(&first)).or(first)
     }
 
     fn over_water(&self, p: Vec3<Enu>) -> SurfacePoint {
@@ -211,20 +226,38 @@ impl Geometry {
         if near_pad(&self.pad_shape, low, high) {
             touch(probe, margin_m, &self.pad_shape, (Surface::Pad, PAD), out);
         }
-        self.floor_contacts(probe, margin_m, out);
+        self.floor_contacts(probe, margin_m, (low, high), out);
     }
 
-    fn floor_contacts(&self, probe: &Probe, margin_m: f64, out: &mut Vec<Contact>) {
+    fn floor_contacts(&self, probe: &Probe, margin_m: f64, (low, high): (Vec3<Enu>, Vec3<Enu>), out: &mut Vec<Contact>) {
+        if !self.terrain.ground.lies_under(low, high, low.up()) {
+            self.ground_contacts(probe, margin_m, out);
+        }
+        if low.up() > self.terrain.water_m {
+            return;
+        }
         for (p, radius) in probe_ends(probe) {
-            let reach = radius + margin_m;
-            if let Some(near) = self.terrain.ground.nearest(p, reach) {
-                out.push(contact(near, radius, Surface::Terrain, GROUND));
-            }
             let water = self.over_water(p);
             // Water lies only where the ground is lower.
-            if water.distance_m <= reach && self.terrain.ground.ground(p.east(), p.north()).0 < self.terrain.water_m {
+            if water.distance_m <= radius + margin_m && self.terrain.ground.ground(p.east(), p.north()).0 < self.terrain.water_m {
                 out.push(contact(water, radius, Surface::Water, WATER));
             }
+        }
+    }
+
+    /// Contacts at a probe's ends, and between them where it lies across a ridge.
+    fn ground_contacts(&self, probe: &Probe, margin_m: f64, out: &mut Vec<Contact>) {
+        let mut ends_m = f64::INFINITY;
+        for (p, radius) in probe_ends(probe) {
+            if let Some(near) = self.terrain.ground.nearest(p, radius + margin_m) {
+                ends_m = ends_m.min(near.distance_m);
+                out.push(contact(near, radius, Surface::Terrain, GROUND));
+            }
+        }
+        if let Probe::Capsule { a_m, b_m, radius_m } = *probe
+            && let Some(near) = self.terrain.ground.between(a_m, b_m, ends_m, radius_m + margin_m)
+        {
+            out.push(contact(near, radius_m, Surface::Terrain, GROUND));
         }
     }
 }

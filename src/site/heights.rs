@@ -8,6 +8,8 @@ use crate::base::frames::{Enu, Vec3};
 const BLOCK: i64 = 8;
 /// A point nearer to the surface than this has the triangle's own normal, m.
 const TOUCHING_M: f64 = 1e-9;
+/// Differences of distance below this count as none, m.
+const LEVEL_M: f64 = 1e-7;
 /// Rays are followed no farther than this, m (scenario files allow fields of 4 km).
 const FARTHEST_M: f64 = 20_000.0;
 
@@ -129,6 +131,42 @@ impl HeightGrid {
         let signed = if below { -distance } else { distance };
         let normal = if distance > TOUCHING_M { (p - best.1) / signed } else { normal };
         Some(SurfacePoint { distance_m: signed, point_m: best.1, normal })
+    }
+
+    /// Nowhere over this rectangle does the ground reach up to `up_m`; says so only where it is certain.
+    #[must_use]
+    pub fn lies_under(&self, low: Vec3<Enu>, high: Vec3<Enu>, up_m: f64) -> bool {
+        let ((west, south), (east, north)) = (self.steps(low), self.steps(high));
+        (south.floor() as i64..=north.floor() as i64)
+            .all(|row| (west.floor() as i64..=east.floor() as i64).all(|column| self.cell(column, row).highest() < up_m))
+    }
+
+    /// Where a segment comes nearer to a crease of the ground than `enough_m` and nearer than both of its ends, whose distances are given:
+    /// it lies across a ridge.
+    #[must_use]
+    pub fn between(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends_m: f64, enough_m: f64) -> Option<SurfacePoint> {
+        let ((xa, ya), (xb, yb)) = (self.steps(a), self.steps(b));
+        let reach = enough_m / self.spacing_m;
+        let range = |a: f64, b: f64| ((a.min(b) - reach).floor() as i64)..=((a.max(b) + reach).floor() as i64 + 1);
+        let mut nearest: Option<(f64, SurfacePoint)> = None;
+        for row in range(ya, yb) {
+            for column in range(xa, xb) {
+                let cell = self.cell(column, row);
+                let corner = |k: i64, l: i64, up: f64| {
+                    let at = |n: i64| self.origin_m + n as f64 * self.spacing_m;
+                    Vec3::new(at(column + k), at(row + l), up)
+                };
+                let sw = corner(0, 0, cell.sw);
+                for to in [corner(1, 0, cell.se), corner(0, 1, cell.nw), corner(1, 1, cell.ne)] {
+                    // A crease that the segment has gone through comes before all others, the deepest first.
+                    let (rank, near) = over_crease((a, b), (sw, to));
+                    if near.distance_m.abs() > TOUCHING_M && nearest.is_none_or(|n| rank < n.0) {
+                        nearest = Some((rank, near));
+                    }
+                }
+            }
+        }
+        nearest.map(|n| n.1).filter(|n| n.distance_m < enough_m.min(ends_m - LEVEL_M))
     }
 
     fn search(&self, p: Vec3<Enu>, best: &mut (f64, Vec3<Enu>), found: &mut bool) {
@@ -264,6 +302,40 @@ impl HeightGrid {
     }
 }
 
+/// The point of a crease that is nearest to a segment, after its rank: the distance, or where the segment passes under the crease, less
+/// than nothing by how far.
+fn over_crease((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (f64, SurfacePoint) {
+    let (q, e) = nearest_of_segments((a, b), (c, d));
+    let distance_m = (q - e).norm();
+    let depth = depth_under((a, b), (c, d)).unwrap_or(0.0);
+    let signed = if depth > 0.0 { -distance_m } else { distance_m };
+    let rank = if depth > 0.0 { -depth } else { distance_m };
+    (rank, SurfacePoint { distance_m: signed, point_m: e, normal: (q - e) / signed })
+}
+
+/// How far a segment passes under another where they cross, seen from above.
+fn depth_under((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> Option<f64> {
+    let (u, v, w) = (b - a, d - c, c - a);
+    let turn = |p: Vec3<Enu>, q: Vec3<Enu>| p.east() * q.north() - p.north() * q.east();
+    let cross = turn(u, v);
+    let (s, t) = (turn(w, v) / cross, turn(w, u) / cross);
+    let within = (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t);
+    within.then(|| (c + v * t).up() - (a + u * s).up())
+}
+
+/// The points of two segments that are nearest to each other.
+fn nearest_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (Vec3<Enu>, Vec3<Enu>) {
+    let (u, v, w) = (b - a, d - c, a - c);
+    let (uu, uv, vv) = (u.norm_squared(), u.dot(v), v.norm_squared());
+    let square = uu * vv - uv * uv;
+    // Parallel lines are equally near everywhere: any start will do.
+    let s = if square > 0.0 { ((uv * v.dot(w) - vv * u.dot(w)) / square).clamp(0.0, 1.0) } else { 0.0 };
+    let t = (v.dot(a + u * s - c) / vv).clamp(0.0, 1.0);
+    let e = c + v * t;
+    let s = if uu > 0.0 { (u.dot(e - a) / uu).clamp(0.0, 1.0) } else { 0.0 };
+    (a + u * s, e)
+}
+
 /// The point of a triangle that is nearest to `p`.
 fn nearest_of_triangle(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>, c: Vec3<Enu>) -> Vec3<Enu> {
     let normal = (b - a).cross(c - a);
@@ -331,6 +403,87 @@ mod tests {
                 let other = a + (b - a) * i + (c - a) * j;
                 assert!((p - q).norm() <= (p - other).norm() + ROUNDING_M);
             }
+        }
+    }
+
+    #[test]
+    fn prop_no_part_of_a_segment_comes_nearer_to_the_ground_than_its_ends_and_the_creases_it_crosses() {
+        // m; half the spacing of the points tried.
+        const COARSE_M: f64 = 0.5 * 4.0 / 400.0;
+        let grid = rough();
+        let mut random = RandomStream::new(6, "segments");
+        let mut across = 0;
+        for _ in 0..2000 {
+            let a = Vec3::new(random.range(-40.0, 40.0), random.range(-40.0, 40.0), random.range(-4.0, 8.0));
+            let b = a + Vec3::new(random.normal(), random.normal(), 0.5 * random.normal()).unit() * random.range(0.2, 4.0);
+            let signed = |t: f64| grid.nearest(a.lerp(b, t), f64::INFINITY).map_or(f64::INFINITY, |n| n.distance_m);
+            let ends = signed(0.0).min(signed(1.0));
+            let tried = (0..=400).map(|k| signed(f64::from(k) / 400.0)).fold(f64::INFINITY, f64::min);
+            // Under the ground the depth is that of the deepest crease passed, not of the deepest point: enough for what only just touches.
+            if ends < 0.0 || tried < 0.0 {
+                continue;
+            }
+            let between = grid.between(a, b, ends, 2.0);
+            across += usize::from(between.is_some());
+            let least = between.map_or(ends, |n| n.distance_m);
+            assert!(least > tried - COARSE_M && (least < tried + 1e-6 || tried > 2.0), "{least} but {tried}");
+            if let Some(near) = between {
+                assert!((near.point_m.up() - grid.ground(near.point_m.east(), near.point_m.north()).0).abs() < ROUNDING_M);
+                assert!((near.normal.norm() - 1.0).abs() < ROUNDING_M && near.normal.up() > 0.0);
+            }
+        }
+        assert!(across > 30, "{across}");
+    }
+
+    #[test]
+    fn exact_a_rod_across_a_ridge_rests_on_the_ridge() {
+        // A roof 1 m high along the middle column of the grid, slopes of 1 in 4.
+        let heights = (0..9).map(|k| if k % 3 == 1 { 1.0 } else { 0.0 }).collect();
+        let grid = HeightGrid::new(heights, 4.0);
+        let rod = |up: f64| (Vec3::new(-1.0, 0.3, up), Vec3::new(1.0, 0.3, up));
+        for (up, gap) in [(1.2, 0.2), (0.9, -0.1)] {
+            let (a, b) = rod(up);
+            let near = grid.between(a, b, f64::INFINITY, 0.5).unwrap();
+            assert!((near.distance_m - gap).abs() < ROUNDING_M && (near.normal.up() - 1.0).abs() < ROUNDING_M, "{near:?}");
+            assert!((near.point_m - Vec3::new(0.0, 0.3, 1.0)).norm() < ROUNDING_M);
+        }
+    }
+
+    #[test]
+    fn prop_what_lies_under_is_lower() {
+        let grid = rough();
+        let mut random = RandomStream::new(7, "under");
+        let mut certain = 0;
+        for _ in 0..500 {
+            let low = Vec3::new(random.range(-60.0, 60.0), random.range(-60.0, 60.0), 0.0);
+            let high = low + Vec3::new(random.range(0.0, 3.0), random.range(0.0, 3.0), 0.0);
+            let up = random.range(-4.0, 8.0);
+            if grid.lies_under(low, high, up) {
+                certain += 1;
+                let at = |k: u32, l: u32| {
+                    let share = |n: u32, a: f64, b: f64| a + (b - a) * f64::from(n) / 20.0;
+                    grid.ground(share(k, low.east(), high.east()), share(l, low.north(), high.north())).0
+                };
+                assert!((0..=20).all(|k| (0..=20).all(|l| at(k, l) < up)));
+            }
+        }
+        assert!(certain > 100, "{certain}");
+    }
+
+    #[test]
+    fn prop_a_ray_never_passes_a_thin_ridge() {
+        // One row of corners stands up as a blade of one cell; looked at along many lines, some through its corners.
+        let heights = (0..81 * 81).map(|k| if k / 81 == 40 { 3.0 } else { 0.0 }).collect();
+        let grid = HeightGrid::new(heights, 1.0);
+        let mut random = RandomStream::new(8, "blade");
+        for k in 0..4000 {
+            let aim = Vec3::<Enu>::new(random.range(-30.0, 30.0), 0.0, random.range(0.01, 2.99));
+            let aim = if k % 4 == 0 { Vec3::new(aim.east().round(), 0.0, aim.up()) } else { aim };
+            let from = Vec3::new(random.range(-39.0, 39.0), random.range(3.0, 39.0), random.range(0.5, 30.0));
+            let direction = (aim - from).unit();
+            let far = (aim - from).norm();
+            let (t, _) = grid.ray(from, direction, 200.0).unwrap();
+            assert!(t <= far, "{from:?} to {aim:?} went on to {t} m of {far} m");
         }
     }
 

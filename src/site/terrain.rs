@@ -13,6 +13,8 @@ const LEVEL_M: f64 = 16.0;
 const SLOPE: f64 = 1.2;
 /// Room under an arch's springings that is dug free, m.
 const DIG_M: f64 = 1.0;
+/// What stands on the ground reaches at least this far into it, m.
+const HOLD_M: f64 = 0.5;
 
 /// The ground and the water level.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,27 +96,33 @@ impl<'a> Raw<'a> {
 
 /// The height after earthworks: openings under bridges, approaches to their ends, level ground around the pad.
 fn worked(natural: f64, east: f64, north: f64, scenario: &Scenario) -> f64 {
-    let height = scenario.bridges.iter().fold(natural, |h, bridge| bridge_earthworks(h, east, north, bridge));
+    let spacing_m = scenario.terrain.spacing_m;
+    let height = scenario.bridges.iter().fold(natural, |h, bridge| bridge_earthworks(h, east, north, bridge, spacing_m));
     level_pad(height, east, north, &scenario.ground_team)
 }
 
-fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge) -> f64 {
+fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacing_m: f64) -> f64 {
     let [x, y, _] = bridge.placement().local(Vec3::new(east, north, 0.0));
     let deck = bridge.centre_m.up();
     let half_length = 0.5 * bridge.deck_length_m();
     let opening = bridge.opening_half_m();
     let off_side = (y.abs() - 0.5 * bridge.deck_width_m() - 2.0).max(0.0);
-    if x.abs() < opening + 4.0 {
+    let cut = if x.abs() < opening + 4.0 {
         // The ground under the span falls away from the springings so that nothing of the bridge is buried.
         let inside = (opening + 4.0 - x.abs()).max(0.0);
-        let roof = deck - clear_depth_m(bridge) - DIG_M - 0.3 * inside + off_side / SLOPE;
-        return height.min(roof);
-    }
-    // Approaches rise to just under the road's surface and go on level for a while.
-    let beyond = (x.abs() - half_length - 12.0).max(0.0);
-    let reach = if x.abs() > half_length { 0.0 } else { half_length - x.abs() };
-    let fill = deck - 0.15 - (off_side + beyond) / SLOPE - reach * 2.5;
-    height.max(fill)
+        height.min(deck - clear_depth_m(bridge) - DIG_M - 0.3 * inside + off_side / SLOPE)
+    } else {
+        // Approaches rise to just under the road's surface and go on level for a while.
+        let beyond = (x.abs() - half_length - 12.0).max(0.0);
+        let reach = if x.abs() > half_length { 0.0 } else { half_length - x.abs() };
+        height.max(deck - 0.15 - (off_side + beyond) / SLOPE - reach * 2.5)
+    };
+    // Under what stands on it the ground comes up, a cell of the grid farther out than the foot.
+    bridge.footings().iter().fold(cut, |height, foot| {
+        let out = |at: f64, (low, high): (f64, f64)| (low - at).max(at - high).max(0.0);
+        let away = (math::hypot(out(x, foot.x_m), out(y, foot.y_m)) - spacing_m).max(0.0);
+        height.max(deck + foot.up_m + HOLD_M - away / SLOPE)
+    })
 }
 
 /// How far below the deck the bridge's foot reaches at the opening's ends, m.

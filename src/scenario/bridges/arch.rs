@@ -1,11 +1,15 @@
 //! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings, abutments.
 
 use super::solid::Builder;
-use super::{Field, Misfit, Misfits};
+use super::{Field, Footing, Misfit, Misfits};
 use crate::base::math;
 
 /// Floorbeams end this far inside the deck's edge, m (estimate).
 const BEAM_INSET_M: f64 = 0.4;
+/// Abutments and skewbacks reach this far under the springings' intrados, m (estimate).
+const FOUNDATION_M: f64 = 3.5;
+/// Length of the skewbacks, m (estimate).
+const SKEWBACK_M: f64 = 3.0;
 /// Shorter columns are left out, m (estimate).
 const SHORTEST_COLUMN_M: f64 = 0.25;
 
@@ -133,6 +137,12 @@ impl Arch {
     #[must_use]
     pub fn intrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) - 0.5 * self.depth_m(x)
+    }
+
+    /// The intrados falls by this times x² from the crown, 1/m.
+    #[must_use]
+    pub fn intrados_bend_per_m(&self) -> f64 {
+        (4.0 * self.rise_m + 2.0 * (self.springing_depth_m - self.crown_depth_m)) / (self.span_m * self.span_m)
     }
 
     /// Ends of the ribs' straight segments, from springing to springing: two segments a panel.
@@ -269,18 +279,42 @@ impl Arch {
         railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, 331);
     }
 
-    fn abutments(&self, b: &mut Builder) {
+    /// Underside of abutments and skewbacks.
+    #[must_use]
+    pub fn foot_z_m(&self) -> f64 {
+        self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_M
+    }
+
+    /// Abutments and skewbacks.
+    #[must_use]
+    pub fn footings(&self) -> Vec<Footing> {
         let (inner, outer) = (0.5 * self.span_m, 0.5 * self.deck_length_m());
-        let half = 0.5 * self.deck_width_m;
-        let foot = self.intrados_z_m(0.5 * self.span_m) - 1.5;
-        for (name, low, high) in [("abutment-start", -outer, -inner - 1.0), ("abutment-end", inner + 1.0, outer)] {
-            b.block(name, 215, [low, -half, foot], [high, half, -self.slab_m - self.stringer_depth_m]);
-        }
+        let (half, narrow) = (0.5 * self.deck_width_m, self.skewback_half_m());
+        let at = |low: f64, high: f64, y: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m: self.foot_z_m() };
+        vec![
+            at(-outer, -inner - 1.0, half),
+            at(inner + 1.0, outer, half),
+            at(-inner - SKEWBACK_M, -inner, narrow),
+            at(inner, inner + SKEWBACK_M, narrow),
+        ]
+    }
+
+    fn skewback_half_m(&self) -> f64 {
+        0.5 * (self.rib_spacing_m + self.rib_width_m) + 0.5
+    }
+
+    fn abutments(&self, b: &mut Builder) {
         // Skewbacks carry the ribs.
-        for (name, low, high) in [("skewback-start", -inner - 3.0, -inner), ("skewback-end", inner, inner + 3.0)] {
-            let y = 0.5 * (self.rib_spacing_m + self.rib_width_m) + 0.5;
-            let top = self.extrados_z_m(inner) + 0.8;
-            b.block(name, 215, [low, -y, foot], [high, y, top]);
+        let under_deck = -self.slab_m - self.stringer_depth_m;
+        let over_ribs = self.extrados_z_m(0.5 * self.span_m) + 0.8;
+        let names = [
+            ("abutment-start", under_deck),
+            ("abutment-end", under_deck),
+            ("skewback-start", over_ribs),
+            ("skewback-end", over_ribs),
+        ];
+        for ((name, top), Footing { x_m, y_m, up_m }) in names.into_iter().zip(self.footings()) {
+            b.block(name, 215, [x_m.0, y_m.0, up_m], [x_m.1, y_m.1, top]);
         }
     }
 }

@@ -111,6 +111,17 @@ impl BridgeKind {
     }
 }
 
+/// Where a bridge stands on the ground, in its own axes, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Footing {
+    /// From and to along the bridge.
+    pub x_m: (f64, f64),
+    /// From and to across.
+    pub y_m: (f64, f64),
+    /// Its underside.
+    pub up_m: f64,
+}
+
 /// A task's reference path with the line of sight at each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskPath {
@@ -167,6 +178,15 @@ impl Bridge {
         }
     }
 
+    /// Everything that stands on the ground.
+    #[must_use]
+    pub fn footings(&self) -> Vec<Footing> {
+        match &self.kind {
+            BridgeKind::Arch(arch) => arch.footings(),
+            BridgeKind::Suspension(suspension) => suspension.footings(),
+        }
+    }
+
     /// Two lanes and two walkways; `index` is this bridge's place in the scenario.
     #[must_use]
     pub fn lanes(&self, index: usize) -> Vec<Lane> {
@@ -191,7 +211,7 @@ impl Bridge {
             (BridgeKind::Arch(arch), TaskKind::SlabSide) => path::slab_side(arch, stand_off_m),
             (BridgeKind::Arch(arch), TaskKind::ArchBottom) => path::arch_bottom(arch, stand_off_m),
             (BridgeKind::Arch(arch), TaskKind::Interlayer) => path::interlayer(arch),
-            (BridgeKind::Suspension(suspension), TaskKind::PierCircle) => path::pier_circle(suspension, stand_off_m),
+            (BridgeKind::Suspension(suspension), TaskKind::PierCircle) => path::pier_circle(suspension, stand_off_m)?,
             (BridgeKind::Arch(_), _) => return Err("an arch has slab_side, arch_bottom and interlayer".into()),
             (BridgeKind::Suspension(_), _) => return Err("a suspension bridge has pier_circle".into()),
         };

@@ -43,29 +43,36 @@ pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> Drawn {
     Drawn { look: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
 }
 
-/// Task 2: under the arch between the ribs, at the stand-off below the intrados, looking up and ahead at it.
+/// Task 2: under the arch between the ribs, at the stand-off square to the intrados, looking up and ahead at it.
 pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> Drawn {
     let reach = 0.5 * arch.span_m * 0.78;
-    let mut points: Vec<Local> = Vec::new();
-    // Even steps along the curve: halve the step in x where the curve is steep.
-    let steepest = 8.0 * arch.rise_m / (arch.span_m * arch.span_m) * reach;
+    let bend = arch.intrados_bend_per_m();
+    // The ribs are built straight between their nodes, which lie on the curve: at most this far inside it.
+    let step = 0.5 * arch.span_m / arch.panels.round();
+    let off = stand_off_m + 0.25 * bend * step * step;
+    let steepest = 2.0 * bend * reach;
     let n = (2.0 * reach * (1.0 + steepest * steepest).sqrt() / SPACING_M).ceil() as i32;
-    for k in 0..=n {
-        let x = reach * (2.0 * f64::from(k) / f64::from(n) - 1.0);
-        let slope = 8.0 * arch.rise_m / (arch.span_m * arch.span_m) * x;
-        // The stand-off is measured square to the intrados, whose normal leans by the slope.
-        let stretch = (1.0 + slope * slope).sqrt();
-        points.push([x, 0.0, arch.intrados_z_m(x) - stand_off_m * stretch]);
-    }
-    let look = points.iter().enumerate().map(|(k, _)| under_arch_look(k)).collect();
+    let on_curve = (0..=n).map(|k| reach * (2.0 * f64::from(k) / f64::from(n) - 1.0));
+    let points: Vec<Local> = on_curve
+        .map(|x| {
+            let fall = 2.0 * bend * x;
+            let stretch = (1.0 + fall * fall).sqrt();
+            [x - off * fall / stretch, 0.0, arch.intrados_z_m(x) - off / stretch]
+        })
+        .collect();
+    let look = points.iter().enumerate().map(|(k, p)| under_arch_look(arch, *p, off, k)).collect();
     Drawn { points, look, closed: false }
 }
 
-/// Up at the soffits, swinging slowly from the left rib over the struts to the right rib.
-fn under_arch_look(k: usize) -> Local {
+/// Up at the soffits a little ahead, swinging slowly from the left rib over the struts to the right rib.
+fn under_arch_look(arch: &Arch, from: Local, off: f64, k: usize) -> Local {
     const PERIOD_POINTS: f64 = 30.0;
     let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
-    [0.25, 0.55 * side, 0.8]
+    // Straight over a point of the path the arch is farther away than the stand-off: seen square to it, it lies out from the crown.
+    let bend = 2.0 * arch.intrados_bend_per_m();
+    let square = from[0] / (1.0 - off * bend / (1.0 + (bend * from[0]) * (bend * from[0])).sqrt());
+    let ahead = (square + 0.3 * off).min(0.5 * arch.span_m);
+    [ahead - from[0], 0.5 * arch.rib_spacing_m * side, arch.intrados_z_m(ahead) - from[2]]
 }
 
 /// Task 3: between deck and arch on the centreline, half way between floorbeams and crown, level.
@@ -84,11 +91,15 @@ fn interlayer_look(k: usize) -> Local {
     [0.6, 0.5 * math::sin(0.5 * phase), 0.8 * math::sin(phase)]
 }
 
-/// Task 4: once around the start pier at the stand-off from its faces (corners rounded), 2 m under its top, looking at it.
-pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Drawn {
+/// Task 4: once around the start pier at the stand-off from its faces (corners rounded), 2 m under its top or as far under the girders
+/// as the stand-off asks, looking at it.
+pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<Drawn, String> {
     let centre = [-0.5 * suspension.main_span_m, 0.0];
     let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
-    let z = -suspension.pier_top_m - 2.0;
+    let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_z_m() - stand_off_m);
+    if z < -suspension.pier_top_m - suspension.pier_height_m {
+        return Err("a pier that reaches down to stand_off_m under the girders".into());
+    }
     let mut points = Vec::new();
     let mut look = Vec::new();
     let mut add = |x: f64, y: f64, nx: f64, ny: f64| {
@@ -113,5 +124,5 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Drawn {
             add(x + stand_off_m * c, y + stand_off_m * s, c, s);
         }
     }
-    Drawn { points, look, closed: true }
+    Ok(Drawn { points, look, closed: true })
 }

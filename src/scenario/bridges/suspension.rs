@@ -2,18 +2,22 @@
 
 use super::arch::railing;
 use super::solid::Builder;
-use super::{Field, Misfit, Misfits};
+use super::{Field, Footing, Misfit, Misfits};
 
 /// Girders stand this far out over the deck's edge, m (estimate).
 const GIRDER_OUT_M: f64 = 0.2;
 /// Between girder and tower leg, m (estimate).
 const LEG_GAP_M: f64 = 0.02;
-/// Height of the bearings between girders and towers, m (estimate).
+/// Height of the bearings under the girders, m (estimate).
 const BEARING_M: f64 = 0.2;
 /// Depth of the towers' portal struts, m (estimate).
 const PORTAL_M: f64 = 1.2;
 /// Foot of the anchorages under the deck, m (estimate).
 const ANCHORAGE_FOOT_M: f64 = 12.0;
+/// The cables reach this far into the anchorages' blocks, which are twice as long, m (estimate).
+const GRIP_M: f64 = 1.0;
+/// Steel between cable and tower leg, m (estimate).
+const SADDLE_M: f64 = 0.1;
 
 /// The numbers of a suspension bridge. Own axes: x along the deck, y left, z up, origin on the deck at midspan.
 #[derive(Debug, Clone, PartialEq)]
@@ -132,15 +136,9 @@ impl Suspension {
         }
     }
 
-    /// Distance of the cables from the deck's middle, m: just outside the girders.
+    /// Distance of cables, hangers and tower legs from the deck's middle, m: the legs clear the girders.
     #[must_use]
     pub fn cable_y_m(&self) -> f64 {
-        0.5 * self.deck_width_m + GIRDER_OUT_M + self.cable_radius_m
-    }
-
-    /// Distance of the tower legs' middles from the deck's, m: clear of the girders.
-    #[must_use]
-    pub fn leg_middle_y_m(&self) -> f64 {
         0.5 * self.deck_width_m + GIRDER_OUT_M + LEG_GAP_M + 0.5 * self.leg_y_m
     }
 
@@ -182,7 +180,7 @@ impl Suspension {
     /// Numbers that do not fit together: none, or the towers stand on their piers, the girders clear them and all members meet.
     #[must_use]
     pub fn misfits(&self) -> Vec<Misfit> {
-        let legs_m = 2.0 * self.leg_middle_y_m() + self.leg_y_m;
+        let legs_m = 2.0 * self.cable_y_m() + self.leg_y_m;
         let portal_m = BEARING_M + PORTAL_M - self.girder_z_m();
         let mut m = Misfits::default();
         m.at_least("sag_m", self.sag_m, self.main_span_m / 20.0, "not too flat for main_span_m");
@@ -212,27 +210,48 @@ impl Suspension {
         self.anchorages(b);
     }
 
+    /// Top of the tower legs: under the cables, which come down on either side of the saddle.
+    fn leg_top_m(&self) -> f64 {
+        self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_M
+    }
+
+    /// Height of the cable where it leaves the saddle, at the legs' faces.
+    fn saddle_edge_z_m(&self) -> f64 {
+        let (half, reach) = (0.5 * self.main_span_m, 0.5 * self.leg_x_m);
+        self.cable_z_m(half - reach).min(self.cable_z_m(half + reach))
+    }
+
     fn towers(&self, b: &mut Builder) {
-        let top = self.cable_z_m(0.5 * self.main_span_m) + 0.5;
+        let top = self.leg_top_m();
         for (name, x) in [("start", -0.5 * self.main_span_m), ("end", 0.5 * self.main_span_m)] {
             let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
             let foot = -self.pier_top_m;
             b.block(&format!("pier-{name}"), 210, [x - px, -py, foot - self.pier_height_m], [x + px, py, foot]);
             let (lx, ly) = (0.5 * self.leg_x_m, 0.5 * self.leg_y_m);
-            for (side, y) in [("left", self.leg_middle_y_m()), ("right", -self.leg_middle_y_m())] {
+            for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
                 b.block(&format!("tower-{name}/{side}"), 207, [x - lx, y - ly, foot], [x + lx, y + ly, top]);
-                self.bearing(b, &format!("bearing-{name}/{side}"), x, y.signum());
+                self.saddle(b, &format!("tower-{name}/saddle-{side}"), x, y);
+                // Fixed at one tower, movable at the other.
+                let element = if x < 0.0 { 313 } else { 311 };
+                self.bearing(b, &format!("bearing-{name}/{side}"), element, x, y.signum());
             }
-            let inner = self.leg_middle_y_m() - ly;
+            let inner = self.cable_y_m() - ly;
             for (part, z) in [("portal-top", top), ("portal-deck", self.girder_z_m() - BEARING_M)] {
                 b.block(&format!("tower-{name}/{part}"), 207, [x - 0.6, -inner, z - PORTAL_M], [x + 0.6, inner, z]);
             }
         }
     }
 
-    /// Between girder and portal strut: fixed at one tower, movable at the other.
-    fn bearing(&self, b: &mut Builder, name: &str, x: f64, side: f64) {
-        let element = if x < 0.0 { 313 } else { 311 };
+    /// Carries the cable over the leg: up to the middle of the cable, whose lower half lies in it.
+    fn saddle(&self, b: &mut Builder, name: &str, x: f64, y: f64) {
+        let (reach, half) = (0.5 * self.leg_x_m, self.cable_radius_m + SADDLE_M);
+        let (low, edge, crown) = (self.leg_top_m(), self.saddle_edge_z_m(), self.cable_z_m(0.5 * self.main_span_m));
+        let profile = [[x - reach, low], [x + reach, low], [x + reach, edge], [x, crown], [x - reach, edge]];
+        b.across(name, 207, &profile, y - half, y + half);
+    }
+
+    /// Between a girder and what carries it.
+    fn bearing(&self, b: &mut Builder, name: &str, element: u32, x: f64, side: f64) {
         let y = side * 0.5 * self.deck_width_m;
         let z = self.girder_z_m();
         b.block(name, element, [x - 0.3, y - 0.15, z - BEARING_M], [x + 0.3, y + 0.15, z]);
@@ -240,9 +259,10 @@ impl Suspension {
 
     fn cables(&self, b: &mut Builder) {
         let half = 0.5 * self.main_span_m;
-        let mut xs = vec![-half - self.side_span_m, -half];
+        let grip = self.anchor_x_m() + GRIP_M;
+        let mut xs = vec![-grip, -half];
         xs.extend(self.hangers());
-        xs.extend([half, half + self.side_span_m]);
+        xs.extend([half, grip]);
         for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
             for (k, pair) in xs.windows(2).enumerate() {
                 let ends = [pair[0], pair[1]].map(|x| [x, y, self.cable_z_m(x)]);
@@ -279,17 +299,42 @@ impl Suspension {
         }
     }
 
-    fn anchorages(&self, b: &mut Builder) {
+    /// Half width of the anchorages.
+    fn anchorage_half_m(&self) -> f64 {
+        self.cable_y_m() + self.cable_radius_m + 0.45
+    }
+
+    /// Piers and anchorages.
+    #[must_use]
+    pub fn footings(&self) -> Vec<Footing> {
+        let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
         let (inner, outer) = (self.anchor_x_m(), self.anchor_x_m() + self.anchorage_m);
-        let (near, far) = (0.5 * self.deck_width_m + GIRDER_OUT_M, self.cable_y_m() + self.cable_radius_m + 0.45);
-        let foot = -ANCHORAGE_FOOT_M.max(-self.girder_z_m() + 3.0);
-        for (name, low, high) in [("start", -outer, -inner), ("end", inner, outer)] {
-            b.block(&format!("anchorage-{name}"), 220, [low, -far, foot], [high, far, self.girder_z_m()]);
-            // The cables come down beside the deck into a block on either side.
+        let half = 0.5 * self.main_span_m;
+        let anchor_up_m = -ANCHORAGE_FOOT_M.max(3.0 - self.girder_z_m());
+        let at = |low: f64, high: f64, y: f64, up_m: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m };
+        let pier_up_m = -self.pier_top_m - self.pier_height_m;
+        vec![
+            at(-half - px, px - half, py, pier_up_m),
+            at(half - px, half + px, py, pier_up_m),
+            at(-outer, -inner, self.anchorage_half_m(), anchor_up_m),
+            at(inner, outer, self.anchorage_half_m(), anchor_up_m),
+        ]
+    }
+
+    fn anchorages(&self, b: &mut Builder) {
+        let near = (self.cable_y_m() - self.cable_radius_m - 0.45).max(0.5 * self.deck_width_m + GIRDER_OUT_M);
+        let top = self.girder_z_m() - BEARING_M;
+        for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {
+            let (low, high, far) = (foot.x_m.0, foot.x_m.1, foot.y_m.1);
+            b.block(&format!("anchorage-{name}"), 220, [low, -far, foot.up_m], [high, far, top]);
+            // The cables come down beside the deck into a block on either side; the girders end on movable bearings.
             for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
-                let part = format!("anchorage-{name}/{side}");
-                let grip = if low < 0.0 { high - 2.0 } else { low };
-                b.block(&part, 220, [grip, low_y, self.girder_z_m()], [grip + 2.0, high_y, 0.6]);
+                let grip = if low < 0.0 { high - 2.0 * GRIP_M } else { low };
+                let block = format!("anchorage-{name}/{side}");
+                b.block(&block, 220, [grip, low_y, top], [grip + 2.0 * GRIP_M, high_y, self.cable_radius_m + 0.45]);
+                for (end, x) in [("low", low + 0.5), ("high", high - 0.5)] {
+                    self.bearing(b, &format!("bearing-{name}/{side}-{end}"), 311, x, low_y.signum());
+                }
             }
         }
     }
