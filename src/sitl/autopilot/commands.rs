@@ -30,9 +30,7 @@ impl Autopilot {
         }
         let reasons = self.arming_reasons(now);
         if !force && !reasons.is_empty() {
-            let text = reasons.join(", ");
-            self.say(Severity::Critical, format!("Arming denied: {text}"));
-            return Outcome::TemporarilyRejected(text);
+            return Outcome::TemporarilyRejected(format!("Arming denied: {}", reasons.join(", ")));
         }
         self.status.armed = true;
         self.status.landed = Landed::OnGround;
@@ -54,8 +52,7 @@ impl Autopilot {
 
     fn disarm_on_request(&mut self, force: bool) -> Outcome {
         if self.status.armed && self.status.landed != Landed::OnGround && !force {
-            self.say(Severity::Critical, "Disarming denied: not landed");
-            return Outcome::TemporarilyRejected("not landed".into());
+            return Outcome::TemporarilyRejected("Disarming denied: not landed".into());
         }
         if self.status.armed {
             self.disarm("Disarmed");
@@ -82,16 +79,16 @@ impl Autopilot {
     fn refusal(&self, mode: Mode, now: SimTime) -> Option<Outcome> {
         let flying = self.status.armed && self.status.landed != Landed::OnGround;
         if mode == Mode::Mission && self.mission.is_empty() {
-            return Some(Outcome::Denied("no mission".into()));
+            return Some(Outcome::Denied("No mission to fly".into()));
         }
         if mode == Mode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_patience_s(), now) {
-            return Some(Outcome::TemporarilyRejected("no external set-points".into()));
+            return Some(Outcome::TemporarilyRejected("Offboard needs external set-points first".into()));
         }
         if flying && mode.needs_position() && !self.estimate.position_valid {
-            return Some(Outcome::TemporarilyRejected("no position estimate".into()));
+            return Some(Outcome::TemporarilyRejected("No position estimate".into()));
         }
         if mode == Mode::Return && self.status.home_m.is_none() {
-            return Some(Outcome::TemporarilyRejected("no home position".into()));
+            return Some(Outcome::TemporarilyRejected("No home position".into()));
         }
         None
     }
@@ -106,7 +103,7 @@ impl Autopilot {
 
     fn request_takeoff(&mut self, height_m: Option<f64>, now: SimTime) -> Outcome {
         if height_m.is_some_and(|h| !h.is_finite() || h.abs() > FAR_M) {
-            return Outcome::Denied("take-off height out of range".into());
+            return Outcome::Denied("Take-off height out of range".into());
         }
         let home_up = self.status.home_m.map_or(0.0, |h| -h.down());
         self.course.takeoff_up_m = Some(home_up + height_m.unwrap_or(self.tuning.takeoff_height_m));
@@ -133,13 +130,13 @@ impl Autopilot {
     ) -> Outcome {
         let given = [north_east_m.map(|p| p.0), north_east_m.map(|p| p.1), up_m, yaw_rad, speed_m_s];
         if given.iter().flatten().any(|v| !v.is_finite() || v.abs() > FAR_M) {
-            return Outcome::Denied("target out of range".into());
+            return Outcome::Denied("Target out of range".into());
         }
         if !self.status.armed || self.status.landed == Landed::OnGround {
-            return Outcome::TemporarilyRejected("not flying".into());
+            return Outcome::TemporarilyRejected("Not flying".into());
         }
         if !self.estimate.position_valid {
-            return Outcome::TemporarilyRejected("no position estimate".into());
+            return Outcome::TemporarilyRejected("No position estimate".into());
         }
         self.watch.intended = Mode::Hold;
         self.watch.overridden = false;
@@ -154,18 +151,17 @@ impl Autopilot {
 
     fn start_mission(&mut self, first: Option<usize>, now: SimTime) -> Outcome {
         if self.mission.is_empty() {
-            self.say(Severity::Critical, "No mission");
-            return Outcome::Denied("no mission".into());
+            return Outcome::Denied("Mission start denied: no mission".into());
         }
         if first.is_some_and(|index| !self.set_mission_current(index)) {
-            return Outcome::Denied("no such mission item".into());
+            return Outcome::Denied("No such mission item".into());
         }
         self.set_mode(Mode::Mission, now)
     }
 
     fn set_speed(&mut self, speed: f64) -> Outcome {
         if !(speed.is_finite() && speed > 0.0) {
-            return Outcome::Denied("speed out of range".into());
+            return Outcome::Denied("Speed out of range".into());
         }
         self.tuning.cruise_m_s = speed.min(self.tuning.horizontal_speed_max_m_s);
         if self.course.speed_m_s.is_some() {
@@ -176,7 +172,7 @@ impl Autopilot {
 
     fn set_home(&mut self, home_m: Vec3<Ned>) -> Outcome {
         if !home_m.is_finite() || home_m.norm() > FAR_M {
-            return Outcome::Denied("home out of range".into());
+            return Outcome::Denied("Home out of range".into());
         }
         self.status.home_m = Some(home_m);
         Outcome::Accepted

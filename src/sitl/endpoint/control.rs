@@ -42,7 +42,7 @@ pub(super) fn enter_mode(e: &mut Endpoint, custom_mode: u32, a: &mut Arrival) {
         None => Outcome::Denied(format!("No such mode: {custom_mode}")),
     };
     if let Outcome::TemporarilyRejected(reason) | Outcome::Denied(reason) | Outcome::Failed(reason) = outcome {
-        e.tell(MavSeverity::MAV_SEVERITY_WARNING, &reason);
+        e.tell(MavSeverity::MAV_SEVERITY_CRITICAL, &reason);
     }
 }
 

@@ -170,15 +170,14 @@ pub(super) fn mission_ack(e: &mut Endpoint, _: &MISSION_ACK_DATA, a: &mut Arriva
     e.plans.acknowledged(a.from);
 }
 
-/// Answered by MISSION_CURRENT, or by a refusal.
+/// Answered by MISSION_CURRENT, after a refusal where there is no such item.
 pub(super) fn mission_set_current(e: &mut Endpoint, c: &MISSION_SET_CURRENT_DATA, a: &mut Arrival) {
     if !a.autopilot.set_mission_current(usize::from(c.seq)) {
         let result = MavMissionResult::MAV_MISSION_INVALID_SEQUENCE;
         let refusal = ack(a.from, MavMissionType::MAV_MISSION_TYPE_MISSION, result);
-        return e.answer(a.link, &refusal);
+        e.answer(a.link, &refusal);
     }
-    let status = a.autopilot.status();
-    let now = super::view::View { status, ..*a.view };
+    let now = super::view::View { status: a.autopilot.status(), ..*a.view };
     for (_, row) in streams::rows_of(MISSION_CURRENT_DATA::ID) {
         if let Some(message) = (row.build)(&now) {
             e.broadcast(AUTOPILOT, &message);

@@ -85,10 +85,10 @@ pub struct Context<'a, 'v> {
 }
 
 impl Context<'_, '_> {
-    /// Says something to everybody.
+    /// Says to everybody what is refused and why, as gravely as PX4 does.
     pub fn tell(&mut self, text: &str) {
         if self.texts.len() < MOST_TEXTS {
-            self.texts.push((MavSeverity::MAV_SEVERITY_WARNING, text.to_string()));
+            self.texts.push((MavSeverity::MAV_SEVERITY_CRITICAL, text.to_string()));
         }
     }
 

@@ -175,7 +175,9 @@ pub(super) fn vibration(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
+    let flying = v.status.mode == Mode::Mission;
     let state = match (v.status.mode, v.status.mission_finished) {
+        _ if v.camera.mission_items == 0 => MissionState::MISSION_STATE_NO_MISSION,
         (_, true) => MissionState::MISSION_STATE_COMPLETE,
         (Mode::Mission, _) if v.status.armed => MissionState::MISSION_STATE_ACTIVE,
         _ => MissionState::MISSION_STATE_NOT_STARTED,
@@ -184,7 +186,8 @@ pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
         seq: v.status.mission_current as u16,
         total: v.camera.mission_items,
         mission_state: state,
-        mission_mode: u8::from(v.status.mode == Mode::Mission),
+        // 1 in mission mode, 2 not.
+        mission_mode: if flying { 1 } else { 2 },
         ..Default::default()
     }))
 }
@@ -200,7 +203,8 @@ pub(super) fn current_mode(v: &View) -> Option<MavMessage> {
 
 pub(super) fn version(v: &View) -> Option<MavMessage> {
     use MavProtocolCapability as C;
-    let capabilities = C::MAV_PROTOCOL_CAPABILITY_MISSION_INT
+    let capabilities = C::MAV_PROTOCOL_CAPABILITY_MISSION_FLOAT
+        | C::MAV_PROTOCOL_CAPABILITY_MISSION_INT
         | C::MAV_PROTOCOL_CAPABILITY_COMMAND_INT
         | C::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
         | C::MAV_PROTOCOL_CAPABILITY_SET_ATTITUDE_TARGET
