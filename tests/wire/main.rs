@@ -3,6 +3,7 @@
 mod answers;
 mod flights;
 mod manual;
+mod noise;
 mod offboard;
 mod payload;
 mod plans;

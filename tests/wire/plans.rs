@@ -237,3 +237,32 @@ fn wire_the_current_item_is_set_by_message_and_by_command() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one), MavResult::MAV_RESULT_ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, [9.0; 7]), MavResult::MAV_RESULT_DENIED);
 }
+
+#[test]
+fn wire_heights_over_home_follow_a_home_that_is_set_anew() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let north = home_north(&station);
+    let amsl = MISSION_ITEM_INT_DATA {
+        frame: MavFrame::MAV_FRAME_GLOBAL,
+        ..item(1, MavCmd::MAV_CMD_NAV_LOITER_UNLIM, north, super::station::scenario("drill-hover").origin.altitude_m as f32 + 7.0)
+    };
+    upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_LOITER_UNLIM, north, 5.0), amsl]);
+    let set_home = MavMessage::COMMAND_INT(COMMAND_INT_DATA {
+        command: MavCmd::MAV_CMD_DO_SET_HOME,
+        x: origin().0,
+        y: origin().1,
+        z: super::station::scenario("drill-hover").origin.altitude_m as f32 + 6.0,
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    });
+    let answer = station.ask(&set_home, |m| if let MavMessage::COMMAND_ACK(a) = m { Some(a.result) } else { None });
+    assert_eq!(answer, Some(MavResult::MAV_RESULT_ACCEPTED));
+    // Home 6 m above the origin: the first item lies 11 m above it, the second 7 m whatever home is.
+    for (seq, up) in [(0.0, 11.0), (1.0, 7.0)] {
+        station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, [seq, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [-1.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
+        station.run_ms(10_000);
+        assert!((-station.place()[2] - up).abs() < 0.4, "item {seq}: {} m up for {up} m", -station.place()[2]);
+    }
+}

@@ -39,7 +39,7 @@ impl Autopilot {
         self.watch.upset_since = None;
         self.watch.aim_cosine = 1.0;
         if self.estimate.position_valid {
-            self.status.home_m = Some(self.estimate.position_m);
+            self.move_home(self.estimate.position_m);
         }
         // Nobody at the sticks: what flies by itself flies.
         if self.watch.intended.is_manual() && !self.links.sticks_fresh(self.tuning.manual_patience_s(), now) {
@@ -174,7 +174,13 @@ impl Autopilot {
         if !home_m.is_finite() || home_m.norm() > FAR_M {
             return Outcome::Denied("Home out of range".into());
         }
-        self.status.home_m = Some(home_m);
+        self.move_home(home_m);
         Outcome::Accepted
+    }
+
+    pub(super) fn move_home(&mut self, home_m: Vec3<Ned>) {
+        let before_down_m = self.status.home_m.map_or(0.0, |h| h.down());
+        self.mission.raise_home(before_down_m - home_m.down());
+        self.status.home_m = Some(home_m);
     }
 }

@@ -164,6 +164,11 @@ impl Autopilot {
         }
     }
 
+    /// Names the mission's steps whose heights count from home; given right after the mission, with the home of that moment in them.
+    pub fn hang_mission_on_home(&mut self, over_home: Vec<bool>) {
+        self.mission.hang_on_home(over_home);
+    }
+
     /// Jumps to a mission item; false when there is none.
     pub fn set_mission_current(&mut self, index: usize) -> bool {
         let known = self.mission.jump(index);

@@ -1,6 +1,7 @@
 //! The mission's list and where it stands; `modes.rs` flies the steps.
 
 use super::MissionStep;
+use crate::base::frames::Vec3;
 use crate::base::time::SimTime;
 
 /// Steps without flight that may follow each other in one go; a list of jumps to itself ends there.
@@ -10,6 +11,10 @@ const GO_ON_MAX: usize = 64;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mission {
     steps: Vec<MissionStep>,
+    /// Steps whose heights count from home; the others' from the origin.
+    over_home: Vec<bool>,
+    /// Home has risen by this much since the list came, m.
+    home_rise_m: f64,
     jumps_done: Vec<u32>,
     /// Current step.
     pub current: usize,
@@ -30,6 +35,16 @@ impl Mission {
         Self { jumps_done: vec![0; steps.len()], steps, ..Self::default() }
     }
 
+    /// Names the steps whose heights count from home: they rise and sink with it.
+    pub fn hang_on_home(&mut self, over_home: Vec<bool>) {
+        self.over_home = over_home;
+    }
+
+    /// Home has moved up by so much, m.
+    pub fn raise_home(&mut self, up_m: f64) {
+        self.home_rise_m += up_m;
+    }
+
     /// Nothing to fly.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -39,7 +54,15 @@ impl Mission {
     /// The step to fly now; `None` at the end.
     #[must_use]
     pub fn step(&self) -> Option<MissionStep> {
-        self.steps.get(self.current).copied()
+        let hangs = self.over_home.get(self.current).copied().unwrap_or(false);
+        let rise_m = if hangs { self.home_rise_m } else { 0.0 };
+        Some(match *self.steps.get(self.current)? {
+            MissionStep::Waypoint { position_m, accept_m, hold_s, yaw_rad } => {
+                MissionStep::Waypoint { position_m: position_m - Vec3::new(0.0, 0.0, rise_m), accept_m, hold_s, yaw_rad }
+            }
+            MissionStep::Takeoff { up_m } => MissionStep::Takeoff { up_m: up_m + rise_m },
+            other => other,
+        })
     }
 
     /// Goes to a step; false when there is none.

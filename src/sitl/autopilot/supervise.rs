@@ -74,7 +74,7 @@ impl Autopilot {
         }
         self.watch.due = now + PERIOD;
         if self.status.home_m.is_none() && self.estimate.position_valid {
-            self.status.home_m = Some(self.estimate.position_m);
+            self.move_home(self.estimate.position_m);
         }
         self.warn_of_battery();
         if !self.status.armed {

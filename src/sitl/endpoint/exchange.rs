@@ -218,6 +218,7 @@ fn carry_out(e: &mut Endpoint, reply: Reply, a: &mut Arrival) {
         Reply::NewMission(message) => {
             let home_up = a.view.status.home_m.map_or(0.0, |h| -h.down());
             a.autopilot.set_mission(e.plans.steps(a.view.plane, home_up, a.autopilot.tuning.accept_radius_m));
+            a.autopilot.hang_mission_on_home(e.plans.over_home());
             e.payload.camera.mission_items = e.plans.mission().len() as u16;
             e.answer(a.link, &message);
         }

@@ -237,6 +237,12 @@ impl Plans {
     pub fn steps(&self, plane: &LocalPlane, home_up_m: f64, accept_m: f64) -> Vec<MissionStep> {
         self.kept[0].iter().map(|item| step(item, plane, home_up_m, accept_m)).collect()
     }
+
+    /// Which items of the mission give their height over home.
+    #[must_use]
+    pub fn over_home(&self) -> Vec<bool> {
+        self.kept[0].iter().map(|item| relative(item.frame) == Some(true)).collect()
+    }
 }
 
 fn ask(to: Peer, kind: MavMissionType, seq: u16) -> MavMessage {

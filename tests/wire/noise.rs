@@ -1,0 +1,70 @@
+//! A running simulator and its socket under noise: it goes on answering, and says at the end what it could not read.
+
+use spandrel::base::random::RandomStream;
+use spandrel::mav::codec::{Decoder, Encoder};
+use spandrel::mav::dialect::{MavMessage, PARAM_REQUEST_READ_DATA};
+use std::io::{BufRead, BufReader, Read};
+use std::net::UdpSocket;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+/// The longest payload of a UDP datagram over IPv4, bytes.
+const LONGEST: usize = 65_507;
+/// A simulator that says nothing for this long is gone; the limit only turns a hang into a failure.
+const GONE: Duration = Duration::from_secs(30);
+
+#[test]
+fn wire_noise_on_the_socket_stops_nothing_and_is_counted() {
+    let mut sim = Command::new(env!("CARGO_BIN_EXE_spandrel"))
+        .args([
+            "sim",
+            "--ports",
+            "ephemeral",
+            "--announce",
+            "--leash",
+            "--scenario",
+            "drill-hover",
+            "--seed",
+            "1",
+            "--log",
+            "warn",
+        ])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    BufReader::new(sim.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    let announced: serde_json::Value = serde_json::from_str(&line).unwrap();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    socket.connect(("127.0.0.1", announced["gcs_port"].as_u64().unwrap() as u16)).unwrap();
+    socket.set_read_timeout(Some(GONE)).unwrap();
+
+    let mut stream = RandomStream::new(9, "noise");
+    let mut encoder = Encoder::new(255, 190);
+    let question = MavMessage::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA {
+        param_index: -1,
+        target_system: 1,
+        target_component: 1,
+        param_id: "MIS_TAKEOFF_ALT".into(),
+    });
+    let mut answered = 0;
+    for round in 0..20 {
+        let length = [0, 1, 12, 280, 4_000, LONGEST][round % 6];
+        let noise: Vec<u8> = (0..length).map(|k| if k % 3 == 0 { 0xFD } else { stream.bits() as u8 }).collect();
+        socket.send(&noise).unwrap();
+        socket.send(&encoder.encode(&question)).unwrap();
+        let mut buffer = [0; 2_000];
+        while answered == round {
+            let len = socket.recv(&mut buffer).expect("it answers");
+            let frames = Decoder::new().datagram(&buffer[..len]);
+            answered += frames.iter().filter(|f| matches!(f.message, Some(MavMessage::PARAM_VALUE(_)))).count();
+        }
+    }
+    drop(sim.stdin.take());
+    let mut told = String::new();
+    sim.stderr.take().unwrap().read_to_string(&mut told).unwrap();
+    assert!(sim.wait().unwrap().success());
+    assert!(told.contains("belonged to no MAVLink frame"), "{told}");
+}
