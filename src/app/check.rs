@@ -186,4 +186,35 @@ mod tests {
         assert!(problem.contains("interlayer") || problem.contains("task 3"), "{problem}");
         assert!(problem.contains("allowed: at least 15.50 m") && problem.contains("up "), "{problem}");
     }
+
+    #[test]
+    fn exact_a_path_is_refused_from_the_very_size_that_no_longer_fits() {
+        // m; the search along the path stops within a millimetre of the tightest place.
+        const CLOSE_M: f64 = 2e-3;
+        let source = files::any_source("drill-gap").unwrap();
+        let scenario = scenario::read(&source.file, &source.text, &|name| source.sibling(name)).unwrap();
+        let site = Site::build(&scenario, 0);
+        let room = |p: &Vec3<Enu>| site.geometry().nearest(*p, 100.0).map_or(100.0, |near| near.distance_m);
+        let path = &scenario.tasks[0].path_m;
+        let tightest_m = path.windows(2).flat_map(|w| (0..200).map(|k| w[0].lerp(w[1], f64::from(k) / 200.0)));
+        let tightest_m = tightest_m.map(|p| room(&p)).fold(f64::INFINITY, f64::min);
+        let problems = |tip_to_tip_m: f64| {
+            let mut aircraft = files::vehicle("phantom2").unwrap().vehicle;
+            aircraft.hull.tip_to_tip_m = tip_to_tip_m;
+            too_tight(&source, &scenario, &aircraft)
+        };
+        let fits_m = 2.0 * (tightest_m - MARGIN_M);
+        assert_eq!(problems(fits_m - CLOSE_M), []);
+        let refused = problems(fits_m + 2.0 * CLOSE_M);
+        assert_eq!(refused.len(), 1);
+        assert_eq!(task_lines(&source.text), [refused[0].line]);
+        // It says where: the place has the room that is complained of.
+        let number = |after: &str| {
+            let rest = refused[0].message.split(after).nth(1).unwrap();
+            rest.trim_start().split(' ').next().unwrap().parse::<f64>().unwrap()
+        };
+        let at = Vec3::new(number("at east"), number("north"), number("up"));
+        assert!((room(&at) - tightest_m).abs() < 0.1, "{}", refused[0].message);
+        assert!(refused[0].value == format!("{tightest_m:.2} m"), "{}", refused[0].value);
+    }
 }

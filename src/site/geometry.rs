@@ -109,8 +109,9 @@ impl Geometry {
         // The tree looks for costs below the limit; a member at the limit itself counts.
         let limit = max_m.next_up();
         let to_box = |node: &BvhNode, _: f64| {
-            let away = (node.mins() - at).max(at - node.maxs()).max(Vector::ZERO);
-            away.length()
+            let over = (node.mins() - at).max(at - node.maxs());
+            // Inside a box nothing in it can be deeper than the box's nearest side.
+            if over.max_element() < 0.0 { over.max_element() } else { over.max(Vector::ZERO).length() }
         };
         let to_member = |leaf: u32, best_m: f64| {
             let near = self.shapes[leaf as usize].nearest(p);

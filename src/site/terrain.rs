@@ -11,6 +11,8 @@ use crate::scenario::{Bridge, GroundTeam, Scenario, Terrain as Settings, Terrain
 const LEVEL_M: f64 = 16.0;
 /// Slope of earthworks: one up on this many along.
 const SLOPE: f64 = 1.2;
+/// Fall of the roads that lead away from the bridges (estimate: the steepest that highways allow in mountains).
+const ROAD_GRADE: f64 = 0.07;
 /// Room under an arch's springings that is dug free, m.
 const DIG_M: f64 = 1.0;
 /// What stands on the ground reaches at least this far into it, m.
@@ -112,10 +114,10 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
         let inside = (opening + 4.0 - x.abs()).max(0.0);
         height.min(deck - clear_depth_m(bridge) - DIG_M - 0.3 * inside + off_side / SLOPE)
     } else {
-        // Approaches rise to just under the road's surface and go on level for a while.
+        // Approaches rise to just under the road's surface, which goes on level for a while and then falls to the natural ground.
         let beyond = (x.abs() - half_length - 12.0).max(0.0);
         let reach = if x.abs() > half_length { 0.0 } else { half_length - x.abs() };
-        height.max(deck - 0.15 - (off_side + beyond) / SLOPE - reach * 2.5)
+        height.max(deck - 0.15 - off_side / SLOPE - ROAD_GRADE * beyond - reach * 2.5)
     };
     // Under what stands on it the ground comes up, a cell of the grid farther out than the foot.
     bridge.footings().iter().fold(cut, |height, foot| {

@@ -179,13 +179,14 @@ fn exact_a_suspension_bridge_has_as_many_members_as_its_formulas_say() {
         let count = counts(&bridge.members());
         assert_eq!(count[&148], 2 * (main - 1));
         assert_eq!(count[&147], 2 * (main + 2));
-        assert_eq!(count[&152], beams);
-        assert_eq!((count[&12], count[&107], count[&113]), (panels, 2 * panels, 2 * panels));
+        // A steel beam is two flanges and a web.
+        assert_eq!(count[&152], 3 * beams);
+        assert_eq!((count[&12], count[&107], count[&113]), (panels, 3 * 2 * panels, 3 * 2 * panels));
         assert_eq!((count[&207], count[&210], count[&220], count[&311], count[&313]), (12, 2, 6, 10, 2));
         assert_eq!(count[&330], 2 * ((s.deck_length_m() / 2.0).floor() as usize + 1) + 6);
     }
     let count = counts(&suspension().members());
-    assert_eq!((count[&148], count[&147], count[&152], count[&12], count[&330]), (38, 44, 29, 34, 254));
+    assert_eq!((count[&148], count[&147], count[&152], count[&12], count[&330]), (38, 44, 3 * 29, 34, 254));
 }
 
 #[test]
@@ -205,7 +206,9 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers() {
             }
             BridgeKind::Suspension(s) => {
                 close(sum(&members, "slab"), s.deck_length_m() * s.deck_width_m * s.slab_m);
-                close(sum(&members, "girder"), 2.0 * s.deck_length_m() * 0.4 * s.girder_depth_m);
+                // Flanges of 400 mm by 40 mm, webs of 16 mm.
+                let section = 2.0 * 0.4 * 0.04 + (s.girder_depth_m - 2.0 * 0.04) * 0.016;
+                close(sum(&members, "girder"), 2.0 * s.deck_length_m() * section);
                 let octagon = 2.0 * 2f64.sqrt() * s.cable_radius_m * s.cable_radius_m;
                 let hexagon = 1.5 * 3f64.sqrt() * s.hanger_radius_m * s.hanger_radius_m;
                 let z = |x: f64| s.cable_clearance_m + 4.0 * s.sag_m * x * x / (s.main_span_m * s.main_span_m);
@@ -372,4 +375,43 @@ fn exact_numbers_that_do_not_go_together_are_refused_with_their_line() {
     let said = problems.to_string();
     assert!(said.contains("rib_width_m = 5.5") && said.contains("at most 4.80"), "{said}");
     assert!(said.starts_with("wide.toml:"), "{said}");
+}
+
+/// Elements of the MBEI (numbers and names in the AASHTO manual, 2015 interims) by the material and the part that they name.
+const MBEI: [(u32, &[&str]); 18] = [
+    (12, &["slab"]),
+    (107, &["girder"]),
+    (113, &["stringer"]),
+    (116, &["stringer"]),
+    (144, &["rib", "strut"]),
+    (147, &["cable"]),
+    (148, &["hanger"]),
+    (152, &["floorbeam"]),
+    (155, &["floorbeam"]),
+    (205, &["column"]),
+    (207, &["tower"]),
+    (210, &["pier"]),
+    (215, &["abutment", "skewback"]),
+    (220, &["anchorage"]),
+    (311, &["bearing"]),
+    (313, &["bearing"]),
+    (330, &["post", "rail"]),
+    (331, &["post", "rail"]),
+];
+
+#[test]
+fn exact_every_member_carries_the_element_number_of_what_it_is() {
+    let steel = [107, 113, 147, 148, 152, 207, 311, 313, 330];
+    for bridge in many() {
+        for member in bridge.members() {
+            let part = member.name.split('/').nth(1).unwrap();
+            let names = MBEI.iter().find(|(number, _)| *number == member.element).map(|(_, names)| *names);
+            let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
+            assert!(fits, "{} is element {}", member.name, member.element);
+            // The arch is of concrete; of the suspension bridge deck, piers and anchorages are.
+            let concrete =
+                matches!(bridge.kind, BridgeKind::Arch(_)) || ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n));
+            assert_eq!(concrete, !steel.contains(&member.element), "{} is element {}", member.name, member.element);
+        }
+    }
 }

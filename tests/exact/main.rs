@@ -3,6 +3,8 @@
 mod aircraft;
 mod bridges;
 mod contact;
+mod export;
 mod free_flight;
+mod on_bridges;
 mod score;
 mod site;

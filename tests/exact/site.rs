@@ -268,3 +268,100 @@ fn regress_two_builds_answer_with_the_same_bits() {
         assert_eq!(one.ray(p, Vec3::new(0.6, 0.0, 0.8), 50.0), other.ray(p, Vec3::new(0.6, 0.0, 0.8), 50.0));
     }
 }
+
+#[test]
+fn prop_the_tightest_place_of_a_piece_of_path_is_the_least_of_many() {
+    // m; half the spacing of the places tried, and the millimetre within which the search stops.
+    const COARSE_M: f64 = 0.5 * 6.0 / 600.0 + 1e-3;
+    let geometry = Geometry::new(&two_bridges());
+    let mut random = RandomStream::new(11, "pieces");
+    let mut tight = 0;
+    for from in points(&geometry, 150) {
+        let to = from + Vec3::new(random.normal(), random.normal(), random.normal()).unit() * random.range(0.0, 6.0);
+        let tried = (0..=600)
+            .filter_map(|k| geometry.nearest(from.lerp(to, f64::from(k) / 600.0), 5.0))
+            .map(|n| n.distance_m)
+            .fold(f64::INFINITY, f64::min);
+        let needed_m = random.range(0.2, 2.0);
+        match geometry.tightest(from, to, needed_m) {
+            Some((at, near)) => {
+                tight += 1;
+                assert!((near.distance_m - tried).abs() < COARSE_M && near.distance_m < needed_m, "{near:?}, tried {tried}");
+                assert_eq!(geometry.nearest(at, 5.0).map(|n| n.distance_m), Some(near.distance_m));
+            }
+            None => assert!(tried > needed_m - COARSE_M, "{tried} m, asked for {needed_m} m"),
+        }
+    }
+    assert!(tight > 50, "{tight}");
+}
+
+#[test]
+fn prop_beside_steep_ground_the_free_radius_ends_at_the_nearest_triangle() {
+    let scenario = two_bridges();
+    let geometry = Geometry::new(&scenario);
+    let (corners, triangles) = geometry.terrain.ground.triangles();
+    let ground: Vec<Triangle> = triangles.iter().map(|t| t.map(|k| corners[k as usize])).collect();
+    let mut faces = triangles_near(&ground, Vec3::zero(), 250.0);
+    faces.extend(self::triangles(&geometry));
+    let pad = geometry.pad();
+    faces.extend(pad.solid.triangles().iter().map(|t| t.map(|k| pad.solid.vertices_m[k as usize])));
+    let mut random = RandomStream::new(12, "slopes");
+    let mut steep = 0;
+    for _ in 0..400 {
+        let (e, n) = (random.range(-140.0, 140.0), random.range(-60.0, 90.0));
+        let (height, normal) = geometry.terrain.ground.ground(e, n);
+        let p = Vec3::new(e, n, height.max(scenario.terrain.water_level_m) + random.range(0.05, 4.0));
+        let near = triangles_near(&faces, p, 5.0);
+        let brute = near.iter().map(|t| to_triangle(p, t)).fold(p.up() - scenario.terrain.water_level_m, f64::min);
+        if geometry.nearest_member(p, 0.0).is_some() {
+            continue;
+        }
+        let free = geometry.free_radius(p, 5.0).unwrap_or(5.0);
+        assert!((free - brute.min(5.0)).abs() < ROUNDING_M, "{p:?}: {free} m, by triangles {brute} m");
+        steep += usize::from(normal.up() < 0.85 && free < 4.0);
+    }
+    assert!(steep > 30, "{steep}");
+}
+
+/// Triangles with a corner-box that comes within reach of a point.
+fn triangles_near(all: &[Triangle], p: Vec3<Enu>, reach_m: f64) -> Vec<Triangle> {
+    let near = |t: &&Triangle| {
+        (0..3).all(|k| {
+            let at = t.map(|c| c.array()[k]);
+            let (low, high) = (at[0].min(at[1]).min(at[2]), at[0].max(at[1]).max(at[2]));
+            low - reach_m <= p.array()[k] && p.array()[k] <= high + reach_m
+        })
+    };
+    all.iter().filter(near).copied().collect()
+}
+
+#[test]
+fn exact_shipped_tasks_one_two_and_four_keep_four_metres_from_every_member() {
+    // design: stand-off of tasks 1, 2 and 4, m.
+    const STAND_OFF_M: f64 = 4.0;
+    let mut seen = 0;
+    for text in [
+        include_str!("../../scenarios/two-bridges.toml"),
+        include_str!("../../scenarios/practice.toml"),
+        include_str!("../../scenarios/drill-curve-under-arch.toml"),
+        include_str!("../../scenarios/drill-orbit.toml"),
+    ] {
+        let scenario = scenario(text);
+        let geometry = Geometry::new(&scenario);
+        for task in &scenario.tasks {
+            if !matches!(task.kind, TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::PierCircle) {
+                continue;
+            }
+            seen += 1;
+            let points = &task.path_m;
+            for k in 0..points.len() - usize::from(!task.closed) {
+                for share in [0.0, 0.25, 0.5, 0.75] {
+                    let p = points[k].lerp(points[(k + 1) % points.len()], share);
+                    let near = geometry.nearest_member(p, STAND_OFF_M);
+                    assert_eq!(near, None, "{}: point {k} of {}", scenario.name, task.name);
+                }
+            }
+        }
+    }
+    assert_eq!(seen, 8);
+}

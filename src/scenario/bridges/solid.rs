@@ -44,6 +44,24 @@ impl Placement {
     }
 }
 
+/// Direction of a steel beam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Runs {
+    /// Along the bridge, x.
+    Along,
+    /// Across it, y.
+    Across,
+}
+
+/// Plate thicknesses of a steel beam, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plates {
+    /// Of both flanges.
+    pub flange_m: f64,
+    /// Of the web.
+    pub web_m: f64,
+}
+
 /// Collects members under one bridge's name.
 #[derive(Debug)]
 pub struct Builder {
@@ -75,6 +93,22 @@ impl Builder {
     pub fn block(&mut self, part: &str, element: u32, low: Local, high: Local) {
         let profile = [[low[0], low[2]], [high[0], low[2]], [high[0], high[2]], [low[0], high[2]]];
         self.across(part, element, &profile, low[1], high[1]);
+    }
+
+    /// A rolled or welded steel beam between two opposite corners: two flanges and a web, each a member of its own. It runs along x, or
+    /// across along y.
+    pub fn steel_beam(&mut self, part: &str, element: u32, (low, high): (Local, Local), runs: Runs, plates: Plates) {
+        let side = match runs {
+            Runs::Along => 1,
+            Runs::Across => 0,
+        };
+        let middle = 0.5 * (low[side] + high[side]);
+        let (mut web_low, mut web_high) = (low, high);
+        (web_low[side], web_high[side]) = (middle - 0.5 * plates.web_m, middle + 0.5 * plates.web_m);
+        (web_low[2], web_high[2]) = (low[2] + plates.flange_m, high[2] - plates.flange_m);
+        self.block(&format!("{part}/top"), element, [low[0], low[1], web_high[2]], high);
+        self.block(&format!("{part}/web"), element, web_low, web_high);
+        self.block(&format!("{part}/bottom"), element, low, [high[0], high[1], web_low[2]]);
     }
 
     /// A convex profile in the x-z plane (counter-clockwise seen with x right and z up), extruded from `y_low` to `y_high`.

@@ -1,11 +1,17 @@
 //! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, floor, railings, anchorages.
 
 use super::arch::railing;
-use super::solid::Builder;
+use super::solid::{Builder, Plates, Runs};
 use super::{Field, Footing, Misfit, Misfits};
 
 /// Girders stand this far out over the deck's edge, m (estimate).
 const GIRDER_OUT_M: f64 = 0.2;
+/// Plates of the welded stiffening girders (estimate).
+const GIRDER: Plates = Plates { flange_m: 0.04, web_m: 0.016 };
+/// Plates of the floorbeams (estimate).
+const FLOORBEAM: Plates = Plates { flange_m: 0.025, web_m: 0.012 };
+/// Plates of the stringers, those of a rolled W21 (estimate).
+const STRINGER: Plates = Plates { flange_m: 0.02, web_m: 0.012 };
 /// Between girder and tower leg, m (estimate).
 const LEG_GAP_M: f64 = 0.02;
 /// Height of the bearings under the girders, m (estimate).
@@ -282,12 +288,14 @@ impl Suspension {
             b.block(&format!("slab/{k:02}"), 12, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
             for (side, y) in [("left", half_width - GIRDER_OUT_M), ("right", -half_width - GIRDER_OUT_M)] {
                 let name = format!("girder-{side}/{k:02}");
-                b.block(&name, 107, [pair[0], y, soffit - self.girder_depth_m], [pair[1], y + 2.0 * GIRDER_OUT_M, soffit]);
+                let corners = ([pair[0], y, self.girder_z_m()], [pair[1], y + 2.0 * GIRDER_OUT_M, soffit]);
+                b.steel_beam(&name, 107, corners, Runs::Along, GIRDER);
             }
             for (line, y) in [(0, -0.25), (1, 0.25)] {
                 let y = y * self.deck_width_m;
                 let name = format!("stringer-{line}/{k:02}");
-                b.block(&name, 113, [pair[0], y - 0.12, soffit - 0.5], [pair[1], y + 0.12, soffit]);
+                let corners = ([pair[0], y - 0.12, soffit - 0.5], [pair[1], y + 0.12, soffit]);
+                b.steel_beam(&name, 113, corners, Runs::Along, STRINGER);
             }
         }
         // In the main span they reach out to the hangers, which hold them.
@@ -295,7 +303,8 @@ impl Suspension {
         for (k, x) in self.floorbeams().into_iter().enumerate() {
             let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
             let name = format!("floorbeam/{k:02}");
-            b.block(&name, 152, [x - 0.15, -reach, soffit - self.floorbeam_depth_m], [x + 0.15, reach, soffit]);
+            let corners = ([x - 0.15, -reach, soffit - self.floorbeam_depth_m], [x + 0.15, reach, soffit]);
+            b.steel_beam(&name, 152, corners, Runs::Across, FLOORBEAM);
         }
     }
 
