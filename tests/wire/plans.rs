@@ -266,3 +266,43 @@ fn wire_heights_over_home_follow_a_home_that_is_set_anew() {
         assert!((-station.place()[2] - up).abs() < 0.4, "item {seq}: {} m up for {up} m", -station.place()[2]);
     }
 }
+
+#[test]
+fn wire_older_and_partial_forms_are_taken_or_refused_but_always_answered() {
+    use MavMissionResult as R;
+    let mut station = ready(7);
+    let origin = super::station::scenario("drill-hover").origin;
+    let old = MavMessage::MISSION_ITEM(MISSION_ITEM_DATA {
+        param4: NAN,
+        x: origin.latitude_deg as f32,
+        y: origin.longitude_deg as f32,
+        z: 5.0,
+        command: MavCmd::MAV_CMD_NAV_WAYPOINT,
+        target_system: 1,
+        target_component: 1,
+        frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT,
+        ..Default::default()
+    });
+    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0));
+    assert_eq!(station.ask(&old, result), Some(ACCEPTED), "an item in floating degrees");
+    let part = MISSION_WRITE_PARTIAL_LIST_DATA { target_system: 1, target_component: 1, ..Default::default() };
+    assert_eq!(station.ask(&MavMessage::MISSION_WRITE_PARTIAL_LIST(part), result), Some(R::MAV_MISSION_UNSUPPORTED));
+    let part = MISSION_REQUEST_PARTIAL_LIST_DATA { target_system: 1, target_component: 1, ..Default::default() };
+    assert_eq!(station.ask(&MavMessage::MISSION_REQUEST_PARTIAL_LIST(part), result), Some(R::MAV_MISSION_UNSUPPORTED));
+    // A plan of a type that MAVLink does not know: MISSION_REQUEST_LIST, type 9.
+    station.heard.clear();
+    station.send_payload(43, &[1, 1, 9]);
+    station.run_ms(1);
+    let refused = station.heard.iter().find(|f| f.message_id == 47).map(|f| f.payload(4));
+    assert_eq!(refused.as_deref(), Some(&[255, 190, R::MAV_MISSION_UNSUPPORTED as u8, 9][..]));
+    // An item with a command that nobody knows ends its upload.
+    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0));
+    let mut unknown = [0u8; 38];
+    unknown[30..32].copy_from_slice(&31_998u16.to_le_bytes());
+    (unknown[32], unknown[33], unknown[34]) = (1, 1, 3);
+    station.heard.clear();
+    station.send_payload(73, &unknown);
+    station.run_ms(1);
+    assert_eq!(station.last(result), Some(R::MAV_MISSION_UNSUPPORTED));
+    assert_eq!(station.last(asked), None);
+}

@@ -44,6 +44,12 @@ impl Station {
         self.sim.handle_datagram(GCS, &bytes);
     }
 
+    /// Sends a payload laid out by hand, for numbers that the dialect does not know.
+    pub fn send_payload(&mut self, id: u32, payload: &[u8]) {
+        let bytes = self.encoder.encode_payload(id, payload);
+        self.sim.handle_datagram(GCS, &bytes);
+    }
+
     /// Runs for a while and collects what the vehicle says.
     pub fn run_ms(&mut self, ms: i64) {
         let until = self.sim.now() + SimTime::from_ms(ms);
