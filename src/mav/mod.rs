@@ -1,6 +1,7 @@
 //! The common language, sans-IO: framing and codec, unit doors, router, signing. Knows base only.
 
 pub mod codec;
+pub mod ftp;
 pub mod router;
 pub mod units;
 

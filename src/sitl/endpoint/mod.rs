@@ -4,6 +4,7 @@ pub mod camera;
 pub mod commands;
 mod control;
 mod exchange;
+pub mod files;
 mod ftp;
 pub mod gimbal;
 pub mod lamp;

@@ -1,0 +1,72 @@
+//! Paths that clients ask for, cleaned: whatever is asked, none leads out of the root.
+
+/// A path below the root: parts joined by '/', no leading '/', no empty part, no `.` or `..`; empty for the root itself.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FilePath(String);
+
+impl FilePath {
+    /// Cleans what a client sent. `None` for a path that tries to climb, is not UTF-8, or holds a character that a path of some system
+    /// could take for a separator or a drive.
+    #[must_use]
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len());
+        let text = std::str::from_utf8(&bytes[..end]).ok()?;
+        let odd = |c: char| c.is_control() || matches!(c, '\\' | ':');
+        let parts: Vec<&str> = text.split('/').filter(|part| !part.is_empty() && *part != ".").collect();
+        if text.contains(odd) || parts.contains(&"..") {
+            return None;
+        }
+        Some(Self(parts.join("/")))
+    }
+
+    /// The path as text; empty for the root.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+
+    /// What of this path lies below another.
+    #[must_use]
+    pub fn below<'a>(&'a self, directory: &Self) -> Option<&'a str> {
+        if directory.is_root() {
+            return Some(&self.0);
+        }
+        self.0.strip_prefix(&directory.0)?.strip_prefix('/')
+    }
+
+    /// True for the root itself.
+    #[must_use]
+    pub fn is_root(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl std::fmt::Display for FilePath {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "/{}", self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_same_place_has_one_name() {
+        for text in ["/log/a.ulg", "log/a.ulg", "//log/./a.ulg/", "log/a.ulg\0rubbish"] {
+            assert_eq!(FilePath::of(text.as_bytes()).unwrap().as_str(), "log/a.ulg", "{text:?}");
+        }
+        for text in ["", "/", ".", "./", "\0"] {
+            assert!(FilePath::of(text.as_bytes()).unwrap().is_root(), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn exact_nobody_climbs() {
+        for text in ["..", "/..", "a/../b", "a/..", "..\\..\\b", "C:/x", "a\nb", "../log-of-somebody-else"] {
+            assert_eq!(FilePath::of(text.as_bytes()), None, "{text:?}");
+        }
+        assert_eq!(FilePath::of(&[0xff, 0xfe]), None);
+        assert_eq!(FilePath::of(b"a/...").unwrap().as_str(), "a/...");
+    }
+}
