@@ -3,6 +3,7 @@
 pub mod codec;
 pub mod ftp;
 pub mod router;
+pub mod signing;
 pub mod units;
 
 pub use mavlink::dialects::common as dialect;

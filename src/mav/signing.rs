@@ -1,0 +1,245 @@
+//! MAVLink 2 message signing (<https://mavlink.io/en/guide/message_signing.html>): sign, verify, refuse what was heard before.
+
+use super::codec::Received;
+use super::dialect::MavMessage;
+use mavlink::Message;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+
+/// First byte, place of the incompatibility flags and of the message id, and length of the header of a MAVLink 2 frame.
+const STX: u8 = 0xFD;
+const FLAGS: usize = 2;
+const MESSAGE_ID: usize = 7;
+const HEADER: usize = 10;
+/// Incompatibility flag of a signed frame.
+const SIGNED: u8 = 0x01;
+/// Link id, 48-bit timestamp, 48-bit signature.
+const SIGNATURE: usize = 13;
+/// RADIO_STATUS comes from radios, which know no key.
+const RADIO_STATUS: u32 = 109;
+/// A stream that speaks for the first time may be this far behind, in timestamp units (one minute).
+const SLACK: u64 = 6_000_000;
+/// Streams (system, component, link id) whose newest timestamp is kept.
+const STREAMS_MAX: usize = 512;
+/// 2015-01-01T00:00:00Z in Unix microseconds, from when timestamps count.
+const EPOCH_UNIX_US: u64 = 1_420_070_400_000_000;
+
+/// A secret shared by both ends.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Key(pub [u8; 32]);
+
+impl std::fmt::Debug for Key {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Key(secret)")
+    }
+}
+
+impl Key {
+    /// The key of a passphrase: its SHA-256, as MAVProxy, Mission Planner and QGroundControl make it.
+    #[must_use]
+    pub fn of_passphrase(text: &str) -> Self {
+        Self(Sha256::digest(text.as_bytes()).into())
+    }
+
+    fn signature(&self, frame: &[u8], tail: &[u8]) -> [u8; 6] {
+        let digest = Sha256::new().chain_update(self.0).chain_update(frame).chain_update(tail).finalize();
+        let mut out = [0; 6];
+        out.copy_from_slice(&digest[..6]);
+        out
+    }
+}
+
+/// A signing timestamp, units of 10 microseconds since 2015, from Unix time in microseconds.
+#[must_use]
+pub fn stamp(unix_us: u64) -> u64 {
+    unix_us.saturating_sub(EPOCH_UNIX_US) / 10
+}
+
+/// What a frame is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Signed with our key, and new.
+    Good,
+    /// Not signed.
+    Unsigned,
+    /// Signed with another key, or altered.
+    Forged,
+    /// Signed with our key, but heard before, or too old.
+    Replayed,
+}
+
+/// Signs and verifies for one end of one link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Signing {
+    key: Key,
+    link_id: u8,
+    /// Newest timestamp sent or heard.
+    newest: u64,
+    heard: BTreeMap<(u8, u8, u8), u64>,
+}
+
+impl Signing {
+    /// Begins with a timestamp that must not lie before the last one used with this key.
+    #[must_use]
+    pub fn new(key: Key, link_id: u8, stamp: u64) -> Self {
+        Self { key, link_id, newest: stamp, heard: BTreeMap::new() }
+    }
+
+    /// The newest timestamp, to be kept for the next start.
+    #[must_use]
+    pub fn newest(&self) -> u64 {
+        self.newest
+    }
+
+    /// Signs a whole MAVLink 2 frame of the dialect; every call has a newer timestamp. What is signed already, or is no such frame, is
+    /// left as it is.
+    #[must_use]
+    pub fn sign(&mut self, mut frame: Vec<u8>, stamp: u64) -> Vec<u8> {
+        let whole = frame.first() == Some(&STX) && frame.len() >= HEADER + 2 && frame.len() == HEADER + usize::from(frame[1]) + 2;
+        if !whole || frame[FLAGS] & SIGNED != 0 {
+            return frame;
+        }
+        self.newest = (self.newest + 1).max(stamp);
+        frame[FLAGS] |= SIGNED;
+        let id = u32::from_le_bytes([frame[MESSAGE_ID], frame[MESSAGE_ID + 1], frame[MESSAGE_ID + 2], 0]);
+        let end = frame.len() - 2;
+        let crc = mavlink::calculate_crc(&frame[1..end], MavMessage::extra_crc(id));
+        frame[end..].copy_from_slice(&crc.to_le_bytes());
+        let mut tail = [self.link_id, 0, 0, 0, 0, 0, 0];
+        tail[1..].copy_from_slice(&self.newest.to_le_bytes()[..6]);
+        let signature = self.key.signature(&frame, &tail);
+        frame.extend_from_slice(&tail);
+        frame.extend_from_slice(&signature);
+        frame
+    }
+
+    /// Judges a frame and remembers its timestamp if it is good.
+    pub fn verify(&mut self, frame: &Received, stamp: u64) -> Verdict {
+        let bytes = &frame.bytes;
+        if bytes.first() != Some(&STX) || bytes.get(FLAGS).is_none_or(|flags| flags & SIGNED == 0) || bytes.len() < SIGNATURE {
+            return Verdict::Unsigned;
+        }
+        self.newest = self.newest.max(stamp);
+        let (signed, signature) = bytes.split_at(bytes.len() - 6);
+        let (body, tail) = signed.split_at(signed.len() - 7);
+        if self.key.signature(body, tail) != signature {
+            return Verdict::Forged;
+        }
+        let stamp = tail[1..].iter().rev().fold(0, |stamp, byte| (stamp << 8) | u64::from(*byte));
+        let stream = (frame.system_id, frame.component_id, tail[0]);
+        let new = match self.heard.get(&stream) {
+            Some(last) => stamp > *last,
+            None => stamp + SLACK >= self.newest && self.heard.len() < STREAMS_MAX,
+        };
+        if !new {
+            return Verdict::Replayed;
+        }
+        self.heard.insert(stream, stamp);
+        self.newest = self.newest.max(stamp);
+        Verdict::Good
+    }
+}
+
+/// Whether a link that demands signatures lets a frame pass.
+#[must_use]
+pub fn passes(frame: &Received, verdict: Verdict) -> bool {
+    verdict == Verdict::Good || (verdict == Verdict::Unsigned && frame.message_id == RADIO_STATUS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mav::codec::{Decoder, Encoder};
+    use crate::mav::dialect::HEARTBEAT_DATA;
+
+    const NOW: u64 = 30_000_000_000_000;
+
+    fn frame(system: u8) -> Vec<u8> {
+        Encoder::new(system, 1).encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA { custom_mode: 7, ..HEARTBEAT_DATA::default() }))
+    }
+
+    fn read(bytes: &[u8]) -> Received {
+        let mut frames = Decoder::new().datagram(bytes);
+        assert_eq!(frames.len(), 1);
+        frames.remove(0)
+    }
+
+    fn pair() -> (Signing, Signing) {
+        let key = Key::of_passphrase("bridge");
+        (Signing::new(key.clone(), 3, NOW), Signing::new(key, 0, NOW))
+    }
+
+    #[test]
+    fn exact_a_signed_frame_is_good_once() {
+        let (mut ours, mut theirs) = pair();
+        let first = read(&ours.sign(frame(1), NOW));
+        let second = read(&ours.sign(frame(1), NOW));
+        assert_eq!(first.message, read(&frame(1)).message);
+        assert_eq!(theirs.verify(&first, NOW), Verdict::Good);
+        assert_eq!(theirs.verify(&first, NOW), Verdict::Replayed);
+        assert_eq!(theirs.verify(&second, NOW), Verdict::Good, "the clock stood still, the timestamp did not");
+        assert_eq!(theirs.verify(&first, NOW), Verdict::Replayed);
+    }
+
+    #[test]
+    fn exact_another_key_an_altered_byte_and_no_signature_do_not_pass() {
+        let (mut ours, mut theirs) = pair();
+        let good = ours.sign(frame(1), NOW);
+        let mut stranger = Signing::new(Key::of_passphrase("brigde"), 3, NOW);
+        assert_eq!(theirs.verify(&read(&stranger.sign(frame(1), NOW)), NOW), Verdict::Forged);
+        for k in good.len() - SIGNATURE..good.len() {
+            let mut altered = good.clone();
+            altered[k] ^= 1;
+            assert_eq!(theirs.verify(&read(&altered), NOW), Verdict::Forged, "byte {k}");
+        }
+        let bare = read(&frame(1));
+        assert_eq!(theirs.verify(&bare, NOW), Verdict::Unsigned);
+        assert!(!passes(&bare, Verdict::Unsigned));
+        assert_eq!(theirs.verify(&read(&good), NOW), Verdict::Good, "what failed before has not used up the timestamp");
+    }
+
+    #[test]
+    fn exact_a_new_stream_may_lag_a_minute_and_no_more() {
+        let (mut ours, _) = pair();
+        let old = read(&ours.sign(frame(1), NOW));
+        let verdict = |late: u64| Signing::new(Key::of_passphrase("bridge"), 0, NOW + 1 + late).verify(&old, NOW);
+        assert_eq!((verdict(SLACK), verdict(SLACK + 1)), (Verdict::Good, Verdict::Replayed));
+    }
+
+    #[test]
+    fn exact_streams_are_told_apart_and_their_number_is_bounded() {
+        let (mut ours, mut theirs) = pair();
+        let early = ours.sign(frame(1), NOW);
+        let late = ours.sign(frame(2), NOW + 500);
+        assert_eq!(theirs.verify(&read(&late), NOW), Verdict::Good);
+        assert_eq!(theirs.verify(&read(&early), NOW), Verdict::Good, "another system has its own order");
+        for link in 0..=255 {
+            for system in 10..14 {
+                let mut one = Signing::new(Key::of_passphrase("bridge"), link, NOW);
+                theirs.verify(&read(&one.sign(frame(system), NOW)), NOW);
+            }
+        }
+        assert_eq!(theirs.heard.len(), STREAMS_MAX);
+    }
+
+    #[test]
+    fn exact_the_timestamp_counts_tens_of_microseconds_from_2015() {
+        assert_eq!(stamp(EPOCH_UNIX_US), 0);
+        assert_eq!(stamp(EPOCH_UNIX_US + 1_000_000), 100_000);
+        assert_eq!(stamp(0), 0);
+    }
+
+    #[test]
+    fn val_pymavlink_makes_the_same_signature() {
+        // pymavlink 2.4: HEARTBEAT(6, 8, 0, 0, 4) from 255/190, sequence 0, key sha256("bridge"), link 5, timestamp 30000000000000.
+        let theirs: Vec<u8> = PYMAVLINK.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
+        let mut ours = Signing::new(Key::of_passphrase("bridge"), 5, NOW - 1);
+        let mut plain = theirs[..theirs.len() - SIGNATURE].to_vec();
+        plain[FLAGS] = 0;
+        assert_eq!(ours.sign(plain, NOW), theirs);
+        let mut guard = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
+        assert_eq!(guard.verify(&read(&theirs), NOW), Verdict::Good);
+    }
+
+    const PYMAVLINK: &str = "fd 09 01 00 00 ff be 00 00 00 00 00 00 00 06 08 00 04 03 da b0 05 00 e0 57 eb 48 1b 75 5a 6a ba 8c f2";
+}
