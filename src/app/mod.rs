@@ -20,6 +20,7 @@ mod progress;
 mod session_folder;
 mod sim;
 mod stop;
+mod store;
 mod table;
 mod train;
 

@@ -8,11 +8,14 @@ use super::pace::{PATIENCE, Pace, Patience, Speed};
 use super::ports::{Change, Face, Links, PortArgs};
 use super::progress::Progress;
 use super::stop::Stop;
+use super::store::Store;
 use crate::base::time::SimTime;
 use crate::site::Site;
+use crate::sitl::endpoint::files::job::FileError;
 use crate::sitl::endpoint::{LinkId, LinkKind};
 use crate::sitl::sim::{Sim, SimConfig, SimEvent};
 use std::net::SocketAddr;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -47,6 +50,9 @@ pub struct Args {
     lockstep: Vec<SocketAddr>,
     #[command(flatten)]
     ports: PortArgs,
+    /// Folder that is served over MAVLink FTP; the flights' logs (ULog) are written to its folder log [default: none is served or written]
+    #[arg(long, value_name = "DIR")]
+    files: Option<PathBuf>,
     /// End after this much simulation time, s
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     end_after: Option<SimTime>,
@@ -79,6 +85,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
     let seed = args.job.seed.or(scenario.seed).unwrap_or_else(args::fresh_seed);
+    let store = args.files.as_deref().map(Store::open).transpose()?;
     let mut links = Links::open(&args.ports, &args.lockstep)?;
     let mut progress = Progress::start("building the site");
     let site = Arc::new(Site::build(&scenario, seed));
@@ -92,7 +99,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let pace = Pace::new(args.speed, watch.elapsed());
     let mut core = Sim::new(config, site);
     core.set_pace(args.speed.client_pace());
-    let mut shell = Shell { core, links, pace, watch, patience: Patience::default() };
+    let mut shell = Shell { core, links, pace, watch, patience: Patience::default(), store };
+    if shell.store.is_some() {
+        shell.core.serve_files();
+        shell.core.record();
+    }
     let end = args.end_after.unwrap_or(SimTime::NEVER);
     while !stop.asked() && shell.core.now() < end {
         shell.turn(end)?;
@@ -113,6 +124,7 @@ struct Shell {
     pace: Pace,
     watch: Stopwatch,
     patience: Patience,
+    store: Option<Store>,
 }
 
 impl Shell {
@@ -127,6 +139,7 @@ impl Shell {
             let target = self.pace.target(wall, self.core.now()).min(end);
             self.core.handle_timeout(target);
         }
+        self.keep_files();
         while let Some(datagram) = self.core.poll_transmit() {
             self.links.send(datagram.link.0, datagram.bytes);
         }
@@ -134,6 +147,19 @@ impl Shell {
             self.tell(&event);
         }
         self.rest()
+    }
+
+    /// Does what clients ask of files, and writes the log.
+    fn keep_files(&mut self) {
+        while let Some(job) = self.core.poll_file_job() {
+            let outcome = self.store.as_ref().map_or(Err(FileError::NotFound), |store| store.work(&job.action));
+            self.core.file_job_done(job.ticket, outcome);
+        }
+        while let Some(piece) = self.core.poll_log() {
+            if let Some(Err(error)) = self.store.as_mut().map(|store| store.log(&piece)) {
+                tracing::warn!("the flight's log is not written: {error}");
+            }
+        }
     }
 
     fn apply(&mut self, change: Change) {
@@ -176,7 +202,9 @@ impl Shell {
         }
     }
 
-    fn farewell(&self) {
+    fn farewell(&mut self) {
+        self.core.stop_recording();
+        self.keep_files();
         let slipped = self.pace.slipped();
         if slipped >= Duration::from_secs(1) {
             tracing::warn!("the machine could not keep up: {:.1} s of wall time were lost", slipped.as_secs_f64());

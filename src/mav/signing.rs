@@ -241,5 +241,6 @@ mod tests {
         assert_eq!(guard.verify(&read(&theirs), NOW), Verdict::Good);
     }
 
-    const PYMAVLINK: &str = "fd 09 01 00 00 ff be 00 00 00 00 00 00 00 06 08 00 04 03 da b0 05 00 e0 57 eb 48 1b 75 5a 6a ba 8c f2";
+    const PYMAVLINK: &str =
+        "fd 09 01 00 00 ff be 00 00 00 00 00 00 00 06 08 00 04 03 da b0 05 00 e0 57 eb 48 1b 75 5a 6a ba 8c f2";
 }

@@ -2,9 +2,11 @@
 
 use super::autopilot::{Autopilot, CONTROL_HZ, Landed};
 use super::backend::Backend;
+use super::endpoint::files::job::{Done, FileError, Job};
 use super::endpoint::params::Thresholds;
 use super::endpoint::view::{Scoring, View};
 use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit};
+use super::log::{self, Recorder};
 use super::physics::{self, Actuators, Air, Load, Model};
 use super::sensors::{BatteryReading, Readings, Sensors, Truth};
 use crate::base::frames::{Ned, Rotation, Vec3};
@@ -100,6 +102,7 @@ pub struct Sim {
     inbox: VecDeque<(LinkId, Vec<u8>)>,
     events: VecDeque<SimEvent>,
     digest: Sha256,
+    recorder: Recorder,
 }
 
 /// One instant of the vehicle, borrowing each of its parts on its own, so that endpoint and autopilot stay free to change.
@@ -172,6 +175,7 @@ impl Sim {
             inbox: VecDeque::new(),
             events: VecDeque::new(),
             digest: Sha256::new(),
+            recorder: Recorder::default(),
             site,
             config,
         }
@@ -270,6 +274,36 @@ impl Sim {
     /// The next event.
     pub fn poll_event(&mut self) -> Option<SimEvent> {
         self.events.pop_front()
+    }
+
+    /// Somebody does file jobs from now on ([`Sim::poll_file_job`]).
+    pub fn serve_files(&mut self) {
+        self.endpoint.files.stored();
+    }
+
+    /// Keeps a log of every flight from now on.
+    pub fn record(&mut self) {
+        self.recorder.turn_on();
+    }
+
+    /// Ends a log that is under way: the program ends.
+    pub fn stop_recording(&mut self) {
+        self.recorder.stop();
+    }
+
+    /// The next piece of the flight's log.
+    pub fn poll_log(&mut self) -> Option<log::Piece> {
+        self.recorder.poll()
+    }
+
+    /// The next thing to do with files for a client.
+    pub fn poll_file_job(&mut self) -> Option<Job> {
+        self.endpoint.files.poll_job()
+    }
+
+    /// It is done.
+    pub fn file_job_done(&mut self, ticket: u64, outcome: Result<Done, FileError>) {
+        self.endpoint.files.done(ticket, outcome, self.now);
     }
 
     /// SHA-256 over the state of every tick so far.
@@ -496,6 +530,8 @@ impl Sim {
         let Backend::Builtin(autopilot) = &mut self.backend;
         let (events, reached) = (autopilot.drain_events(), autopilot.drain_reached());
         let view = view!(self, autopilot.estimate(), autopilot.status());
+        let texts: Vec<(u8, &str)> = events.iter().map(|event| (event.severity.number(), event.text.as_str())).collect();
+        self.recorder.observe(&view, &texts, || self.endpoint.parameters().map(|(name, value)| (name, value.into())));
         self.endpoint.observe(&view, events, reached);
     }
 

@@ -30,6 +30,27 @@ def free_udp_port():
         return probe.getsockname()[1]
 
 
+def start_sim(folder, client_port, *more):
+    """A simulator alone, faster than the clock, that calls one client."""
+    log = open(pathlib.Path(folder) / "sim.txt", "w", encoding="utf-8")
+    arguments = [
+        "sim", "--scenario", "drill-hover", "--seed", "7", "--speed", str(SPEED), "--gcs", f"127.0.0.1:{client_port}",
+        "--sdk", "none", "--gcs-port", "0", "--payload-port", "none", "--tcp-port", "none", "--monitor-port", "none", *more,
+    ]
+    return subprocess.Popen([PROGRAM, *arguments], stdout=log, stderr=log, stdin=subprocess.DEVNULL)
+
+
+def end(process):
+    """Ends a process that was started here."""
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+        try:
+            process.wait(timeout=20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
 class Flight:
     """A simulator and a monitor on ports that nobody else uses, and the session that they write."""
 
@@ -65,13 +86,7 @@ class Flight:
     def close(self):
         """Ends what was started here, and nothing else."""
         for process in (self.monitor, self.sim):
-            if process.poll() is None:
-                process.send_signal(signal.SIGINT)
-                try:
-                    process.wait(timeout=20)
-                except subprocess.TimeoutExpired:
-                    process.kill()
-                    process.wait()
+            end(process)
         self.log.close()
 
 

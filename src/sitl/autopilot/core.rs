@@ -38,6 +38,18 @@ pub enum Severity {
     Info,
 }
 
+impl Severity {
+    /// The number of syslog and MAVLink.
+    #[must_use]
+    pub fn number(self) -> u8 {
+        match self {
+            Self::Critical => 2,
+            Self::Warning => 4,
+            Self::Info => 6,
+        }
+    }
+}
+
 /// Something that people should read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Event {

@@ -106,6 +106,8 @@ pub struct Endpoint {
     system_id: u8,
     links: BTreeMap<LinkId, Link>,
     router: Router<LinkId>,
+    /// The file server.
+    pub files: files::Server,
     params: Params,
     plans: Plans,
     manual: Manual,
@@ -147,6 +149,7 @@ impl Endpoint {
             system_id,
             links: BTreeMap::new(),
             router: Router::new(),
+            files: files::Server::default(),
             params: Params::new(system_id, cells, battery),
             plans: Plans::default(),
             manual: Manual::default(),
@@ -174,6 +177,12 @@ impl Endpoint {
         self.links.remove(&id);
         self.router.close(id);
         self.param_lists.remove(&id);
+        self.files.forget(id);
+    }
+
+    /// Names and present values of all parameters, in the order of their names.
+    pub fn parameters(&self) -> impl Iterator<Item = (&'static str, params::Value)> {
+        (0..self.params.count()).filter_map(|index| self.params.at(index))
     }
 
     /// Links that are kept in step.
@@ -254,6 +263,7 @@ impl Endpoint {
         self.truth(view);
         self.say_texts();
         self.send_params();
+        ftp::speak(self);
         if let Some((peer, message)) = self.plans.remind(view.now) {
             self.send_to(peer, &message);
         }

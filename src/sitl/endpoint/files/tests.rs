@@ -61,7 +61,9 @@ struct Bench {
 
 impl Bench {
     fn new() -> Self {
-        Self { server: Server::default(), files: Memory::default(), now: SimTime::from_ms(100_000), sequence: 0 }
+        let mut server = Server::default();
+        server.stored();
+        Self { server, files: Memory::default(), now: SimTime::from_ms(100_000), sequence: 0 }
     }
 
     fn packet(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> Packet {
@@ -98,6 +100,15 @@ fn said(answer: &Packet) -> Result<Vec<u8>, u8> {
 }
 
 #[test]
+fn exact_without_a_store_everything_is_refused_at_once() {
+    let mut bench = Bench::new();
+    bench.server = Server::default();
+    assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")), Err(Refusal::EndOfFile as u8));
+    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"/a")), Err(Refusal::FileNotFound as u8));
+    assert_eq!(said(&bench.ask(Opcode::CreateFile, 0, 0, b"/a")), Err(Refusal::FileProtected as u8));
+}
+
+#[test]
 fn exact_every_number_of_an_opcode_is_answered() {
     let mut bench = Bench::new();
     for number in 0..=255u8 {
@@ -125,7 +136,10 @@ fn exact_a_file_is_made_written_read_renamed_and_removed() {
     assert_eq!(said(&opened), Ok(11u32.to_le_bytes().to_vec()));
     assert_eq!(said(&bench.ask(Opcode::ReadFile, opened.session, 6, &[0; 20])), Ok(b"there".to_vec()));
     assert_eq!(said(&bench.ask(Opcode::ReadFile, opened.session, 11, &[0; 20])), Err(Refusal::EndOfFile as u8));
-    assert_eq!(said(&bench.ask(Opcode::CalcFileCrc32, 0, 0, b"words.txt")), Ok(checksum(0, b"hello there").to_le_bytes().to_vec()));
+    assert_eq!(
+        said(&bench.ask(Opcode::CalcFileCrc32, 0, 0, b"words.txt")),
+        Ok(checksum(0, b"hello there").to_le_bytes().to_vec())
+    );
     assert_eq!(said(&bench.ask(Opcode::RemoveFile, 0, 0, b"words.txt")), Ok(Vec::new()));
     assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"words.txt")), Err(Refusal::FileNotFound as u8));
 }
@@ -152,7 +166,7 @@ fn exact_nobody_uses_another_clients_session_or_more_than_its_share() {
         assert!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"a")).is_ok());
     }
     assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"a")), Err(Refusal::NoSessionsAvailable as u8));
-    bench.now = bench.now + SimTime::from_ms(60_001);
+    bench.now += SimTime::from_ms(60_001);
     assert!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"a")).is_ok(), "idle sessions end");
     assert!(said(&bench.ask(Opcode::ResetSessions, 0, 0, b"")).is_ok());
 }

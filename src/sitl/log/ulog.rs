@@ -1,0 +1,127 @@
+//! The ULog file format (<https://docs.px4.io/main/en/dev_log/ulog_file_format.html>), as bytes.
+
+/// File magic and version 1.
+const MAGIC: [u8; 8] = [b'U', b'L', b'o', b'g', 0x01, 0x12, 0x35, 0x01];
+
+/// Appends ULog messages to bytes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Writer {
+    out: Vec<u8>,
+}
+
+/// A value of an information or parameter message.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value<'a> {
+    /// Text.
+    Text(&'a str),
+    /// Whole number.
+    Int(i32),
+    /// Real number.
+    Real(f32),
+}
+
+impl Value<'_> {
+    fn kind(&self) -> String {
+        match self {
+            Self::Text(text) => format!("char[{}]", text.len()),
+            Self::Int(_) => "int32_t".into(),
+            Self::Real(_) => "float".into(),
+        }
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        match self {
+            Self::Text(text) => text.as_bytes().to_vec(),
+            Self::Int(value) => value.to_le_bytes().to_vec(),
+            Self::Real(value) => value.to_le_bytes().to_vec(),
+        }
+    }
+}
+
+impl Writer {
+    /// The header: logging began at so many microseconds; then the flags that no reader needs.
+    pub fn begin(&mut self, at_us: u64) {
+        self.out.extend_from_slice(&MAGIC);
+        self.out.extend_from_slice(&at_us.to_le_bytes());
+        self.message(b'B', &[&[0; 40]]);
+    }
+
+    /// What a topic's rows hold: `type name;` for every field, `uint64_t timestamp` (microseconds) first.
+    pub fn format(&mut self, topic: &str, fields: &str) {
+        self.message(b'F', &[topic.as_bytes(), b":", fields.as_bytes()]);
+    }
+
+    /// A fact about the whole log.
+    pub fn information(&mut self, name: &str, value: Value) {
+        self.keyed(b'I', name, value);
+    }
+
+    /// A parameter's value at the start; before the first row.
+    pub fn parameter(&mut self, name: &str, value: Value) {
+        self.keyed(b'P', name, value);
+    }
+
+    /// Rows of this topic carry this number from here on. What defines must come before what subscribes.
+    pub fn subscribe(&mut self, number: u16, topic: &str) {
+        self.message(b'A', &[&[0], &number.to_le_bytes(), topic.as_bytes()]);
+    }
+
+    /// One row, fields without gaps.
+    pub fn row(&mut self, number: u16, row: &[u8]) {
+        self.message(b'D', &[&number.to_le_bytes(), row]);
+    }
+
+    /// A text with its severity (0 emergency to 7 debug).
+    pub fn text(&mut self, severity: u8, at_us: u64, text: &str) {
+        self.message(b'L', &[&[b'0' + severity.min(7)], &at_us.to_le_bytes(), text.as_bytes()]);
+    }
+
+    /// Bytes so far.
+    #[must_use]
+    pub fn gathered(&self) -> usize {
+        self.out.len()
+    }
+
+    /// The bytes so far; they go to the end of the file.
+    pub fn take(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.out)
+    }
+
+    fn keyed(&mut self, kind: u8, name: &str, value: Value) {
+        let key = format!("{} {name}", value.kind());
+        // Names are our own and short; a longer one would break the length byte.
+        let length = key.len().min(255);
+        self.message(kind, &[&[length as u8], &key.as_bytes()[..length], &value.bytes()]);
+    }
+
+    fn message(&mut self, kind: u8, parts: &[&[u8]]) {
+        let length: usize = parts.iter().map(|part| part.len()).sum();
+        // 16 bits of length: what does not fit would end the log for every reader.
+        let Ok(length) = u16::try_from(length) else { return };
+        self.out.extend_from_slice(&length.to_le_bytes());
+        self.out.push(kind);
+        parts.iter().for_each(|part| self.out.extend_from_slice(part));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_messages_are_laid_out_as_the_format_says() {
+        let mut log = Writer::default();
+        log.begin(5);
+        assert_eq!(log.take(), [&MAGIC[..], &[5, 0, 0, 0, 0, 0, 0, 0, 40, 0, b'B'], &[0; 40]].concat());
+        log.format("t", "uint64_t timestamp;");
+        assert_eq!(log.take(), [&[21, 0, b'F'], b"t:uint64_t timestamp;".as_slice()].concat());
+        log.parameter("A", Value::Int(-1));
+        assert_eq!(log.take(), [&[14, 0, b'P', 9], b"int32_t A".as_slice(), &[255; 4]].concat());
+        log.subscribe(258, "t");
+        assert_eq!(log.take(), [4, 0, b'A', 0, 2, 1, b't']);
+        log.row(258, &[9, 8]);
+        assert_eq!(log.take(), [4, 0, b'D', 2, 1, 9, 8]);
+        log.text(4, 1, "x");
+        assert_eq!(log.take(), [10, 0, b'L', b'4', 1, 0, 0, 0, 0, 0, 0, 0, b'x']);
+    }
+}

@@ -1,0 +1,101 @@
+"""MAVSDK's FTP against the vehicle's folder, and the flight's log read by PX4's own library."""
+
+import math
+import signal
+import time
+
+import pytest
+from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.action import Action
+from mavsdk.plugins.ftp import Ftp, FtpResult
+from mavsdk.plugins.telemetry import Telemetry
+from pyulog import ULog
+
+import spandrel
+from spandrel import wait_for
+
+# The take-off height that the vehicle flies to by itself, m; what the log says of it must lie this near to what telemetry said, m.
+HEIGHT_TOLERANCE_M = 0.3
+# The log's unit quaternions, stored as 32-bit floats.
+QUATERNION_TOLERANCE = 1e-5
+
+
+@pytest.fixture
+def vehicle(tmp_path):
+    """A simulator with a folder of its own, and its port."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, "--files", str(tmp_path / "files"))
+    yield process, port, tmp_path / "files"
+    spandrel.end(process)
+
+
+def connect(port):
+    """MAVSDK, and the vehicle that it found."""
+    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
+    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
+    system = mavsdk.first_autopilot(60.0)
+    assert system is not None, "no vehicle discovered"
+    return mavsdk, system
+
+
+def wait(start, *args):
+    """Runs a call that reports progress, until it reports its end."""
+    results = []
+    start(*args, lambda result, _progress, _data: results.append(FtpResult(result)))
+    return wait_for("end of the transfer", lambda: next((r for r in results if r != FtpResult.NEXT), None))
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavsdk_keeps_files_on_the_vehicle(vehicle, tmp_path):
+    """Up, listed, compared, renamed, down by both ways, removed."""
+    _process, port, folder = vehicle
+    mavsdk, system = connect(port)
+    ftp = Ftp(system)
+    local = tmp_path / "survey.bin"
+    local.write_bytes(bytes(k * k % 251 for k in range(50_000)))
+    ftp.create_directory("/jobs")
+    assert wait(ftp.upload_async, str(local), "/jobs") == FtpResult.SUCCESS
+    assert (folder / "jobs" / "survey.bin").read_bytes() == local.read_bytes()
+    assert ftp.are_files_identical(str(local), "/jobs/survey.bin")
+    ftp.rename("/jobs/survey.bin", "/jobs/flown.bin")
+    listed = ftp.list_directory("/jobs").entries
+    assert [entry.name for entry in listed] == ["flown.bin"]
+    for burst in (False, True):
+        down = tmp_path / f"down-{burst}"
+        down.mkdir()
+        assert wait(ftp.download_async, "/jobs/flown.bin", str(down), burst) == FtpResult.SUCCESS
+        assert (down / "flown.bin").read_bytes() == local.read_bytes()
+    ftp.remove_file("/jobs/flown.bin")
+    ftp.remove_directory("/jobs")
+    assert not (folder / "jobs").exists()
+    mavsdk.destroy()
+
+
+@pytest.mark.timeout(600)
+def test_val_pyulog_reads_the_flights_log(vehicle):
+    """Take-off and landing; height, modes and attitude of the log agree with what was flown."""
+    process, port, folder = vehicle
+    mavsdk, system = connect(port)
+    action, telemetry = Action(system), Telemetry(system)
+    wait_for("health_all_ok", telemetry.health_all_ok)
+    action.arm()
+    action.takeoff()
+    wait_for("take-off done", lambda: telemetry.position().relative_altitude_m > 1.5)
+    time.sleep(2.0)
+    height = telemetry.position().relative_altitude_m
+    action.land()
+    wait_for("disarmed", lambda: not telemetry.armed())
+    mavsdk.destroy()
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=60) == 0
+    logs = sorted(folder.glob("log/*/*.ulg"))
+    assert len(logs) == 1, logs
+    log = ULog(str(logs[0]))
+    topics = {dataset.name: dataset.data for dataset in log.data_list}
+    position, status, attitude = topics["vehicle_local_position"], topics["vehicle_status"], topics["vehicle_attitude"]
+    assert abs(-(position["z"] - position["z"][0]).min() - height) < HEIGHT_TOLERANCE_M
+    assert {17, 18} <= set(status["nav_state"]) and set(status["arming_state"]) == {1, 2}
+    norms = [math.sqrt(sum(attitude[f"q[{k}]"][row] ** 2 for k in range(4))) for row in range(len(attitude["timestamp"]))]
+    assert max(abs(norm - 1) for norm in norms) < QUATERNION_TOLERANCE
+    assert log.initial_parameters["MAV_SYS_ID"] == 1
+    assert not log.dropouts and not log.file_corruption
