@@ -19,7 +19,7 @@ use spandrel::sitl::sim::Sim;
 use station::Station;
 
 /// Datagrams of the whole run (issue: 20,000).
-const DATAGRAMS: usize = 24_000;
+const DATAGRAMS: usize = 40_000;
 /// Datagrams before the vehicle starts afresh from one of its situations, so that most of them meet a vehicle in flight.
 const VOLLEY: usize = 400;
 

@@ -25,6 +25,8 @@ const REALS: [f32; 14] = [
 const LONGS: [i32; 9] = [i32::MIN, i32::MAX, -1, 0, 1, 900_000_001, -900_000_001, 1_800_000_001, 467_052_000];
 const SHORTS: [u16; 14] = [0, 1, 2, 3, 4, 5, 2000, 2001, 32_767, 32_768, 65_534, 65_535, 255, 256];
 const BYTES: [u8; 10] = [0, 1, 2, 3, 7, 8, 127, 128, 254, 255];
+/// PX4's number of the mission mode.
+const MISSION_MODE: u32 = 4 << 16 | 4 << 24;
 /// Not UTF-8.
 const TEXT: [u8; 4] = [0xC3, 0x28, 0xFF, 0xFE];
 
@@ -108,20 +110,27 @@ fn sender(stream: &mut RandomStream) -> (u8, u8) {
     }
 }
 
-/// The frames of an upload, one changed, left out, doubled or exchanged with its neighbour.
+/// The frames of an upload, one changed, left out, doubled or exchanged with its neighbour; then the mission is flown.
 pub fn upload(stream: &mut RandomStream) -> Vec<Vec<u8>> {
-    let items = 1 + stream.below(5) as u16;
+    let placeless = stream.below(3) == 0;
+    let items = if placeless { 2 } else { 1 + stream.below(5) as u16 };
+    let item = if placeless { seeds::placeless } else { seeds::item };
     let mut messages = vec![seeds::count(items)];
-    messages.extend((0..items).map(|seq| MavMessage::MISSION_ITEM_INT(seeds::item(seq))));
+    messages.extend((0..items).map(|seq| MavMessage::MISSION_ITEM_INT(item(seq))));
     let mut payloads: Vec<(u32, Vec<u8>)> = messages.iter().map(|m| (m.message_id(), payload(m))).collect();
     let at = stream.below(payloads.len());
     match stream.below(6) {
-        0 => field(&mut payloads[at].1, stream),
-        1 => drop(payloads.remove(at)),
-        2 => payloads.insert(at, payloads[at].clone()),
-        3 => payloads.swap(at, 0),
+        0 | 1 => field(&mut payloads[at].1, stream),
+        2 => drop(payloads.remove(at)),
+        3 => payloads.insert(at, payloads[at].clone()),
+        4 => payloads.swap(at, 0),
         _ => {}
     }
+    payloads.extend(seeds::good(11).iter().take(1).map(|mode| {
+        let mut bytes = payload(mode);
+        bytes[..4].copy_from_slice(&MISSION_MODE.to_le_bytes());
+        (11, bytes)
+    }));
     payloads.iter().map(|(id, payload)| frame(*id, payload, (255, 190), stream)).collect()
 }
 

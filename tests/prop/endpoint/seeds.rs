@@ -176,12 +176,19 @@ pub fn item(seq: u16) -> MISSION_ITEM_INT_DATA {
     }
 }
 
+/// A take-off from wherever the vehicle is, and a landing there.
+pub fn placeless(seq: u16) -> MISSION_ITEM_INT_DATA {
+    let command = if seq == 0 { MavCmd::MAV_CMD_NAV_TAKEOFF } else { MavCmd::MAV_CMD_NAV_LAND };
+    MISSION_ITEM_INT_DATA { command, x: 0, y: 0, ..item(seq) }
+}
+
 pub fn count(count: u16) -> MavMessage {
     MavMessage::MISSION_COUNT(MISSION_COUNT_DATA { count, ..Default::default() })
 }
 
 fn plans() -> Vec<MavMessage> {
     let mut out: Vec<MavMessage> = (0..5).map(|seq| MavMessage::MISSION_ITEM_INT(item(seq))).collect();
+    out.extend((0..2).map(|seq| MavMessage::MISSION_ITEM_INT(placeless(seq))));
     out.extend([1, 2, 5].map(count));
     out.push(MavMessage::MISSION_ITEM(MISSION_ITEM_DATA {
         x: 46.7052,
@@ -243,16 +250,22 @@ fn commands() -> Vec<MavMessage> {
 
 /// A command with any number and parameters that are often small and whole, as commands' are.
 pub fn command(number: u16, stream: &mut RandomStream) -> (u32, Vec<u8>) {
+    // Questions about messages: mostly about one that is spoken.
+    let spoken = &spandrel::sitl::endpoint::streams::STREAMS;
+    let asks = matches!(number, 510..=512) && stream.below(4) > 0;
     let whole = stream.below(3) > 0;
     let id = if whole { 76 } else { 75 };
     let mut payload = vec![0; if whole { 33 } else { 35 }];
     for k in 0..7 {
-        let value = match stream.below(6) {
+        let value = match stream.below(7) {
+            _ if asks && k == 0 && stream.below(4) > 0 => spoken[stream.below(spoken.len())].id as f32,
+            _ if asks && k == 0 => 435.0,
             0 => 0.0,
             1 => 1.0,
             2 => NAN,
             3 => stream.below(5) as f32,
             4 => stream.range(-100.0, 100.0) as f32,
+            5 => stream.range(-1e9, 1e9) as f32,
             _ => -1.0,
         };
         payload[4 * k..4 * k + 4].copy_from_slice(&value.to_le_bytes());
