@@ -268,6 +268,11 @@ fn exact_the_cable_sags_and_the_hangers_reach_it() {
     }
     let ends: Vec<_> = named(&members, "cable-left").map(|m| middle(&m.solid.vertices_m[..8])).collect();
     assert!(ends.iter().all(|e| (e[2] - s.cable_z_m(e[0])).abs() < ROUNDING_M));
+    // Each piece begins with the very corners with which the one before it ends: the cable has no notch at its bends.
+    let pieces: Vec<_> = named(&members, "cable-left").map(|m| &m.solid.vertices_m).collect();
+    for pair in pieces.windows(2) {
+        assert!(pair[0][..8].iter().zip(&pair[1][8..]).all(|(end, start)| (*end - *start).norm() < ROUNDING_M));
+    }
 }
 
 fn solids(members: &[Member]) -> Vec<Convex> {

@@ -122,18 +122,42 @@ impl Builder {
     /// A regular prism of `sides` around the line from `a` to `b`, whose corners lie at `radius_m`.
     pub fn rod(&mut self, part: &str, element: u32, a: Local, b: Local, radius_m: f64, sides: u32) {
         let axis = unit(sub(b, a));
+        self.cut_rod(part, element, [(a, axis), (b, axis)], radius_m, sides);
+    }
+
+    /// Rods from point to point in an upright plane along the bridge, mitred so that each ends where the next begins; the pieces are
+    /// numbered.
+    pub fn cable(&mut self, part: &str, element: u32, points: &[Local], radius_m: f64, sides: u32) {
+        let last = points.len() - 1;
+        let cut = |k: usize| {
+            let (before, after) = (points[k.saturating_sub(1)], points[(k + 1).min(last)]);
+            let (back, forth) = (sub(points[k], before), sub(after, points[k]));
+            let ahead = if k == 0 { unit(forth) } else { unit(back) };
+            let next = if k == last { ahead } else { unit(forth) };
+            (points[k], unit([ahead[0] + next[0], ahead[1] + next[1], ahead[2] + next[2]]))
+        };
+        for k in 0..last {
+            self.cut_rod(&format!("{part}/{k:03}"), element, [cut(k), cut(k + 1)], radius_m, sides);
+        }
+    }
+
+    /// A prism along the line between two points, cut off at each by the plane with the normal given.
+    fn cut_rod(&mut self, part: &str, element: u32, ends: [(Local, Local); 2], radius_m: f64, sides: u32) {
+        let axis = unit(sub(ends[1].0, ends[0].0));
         // Any direction that is not along the axis will do; the deck's left side keeps cables and hangers alike.
         let helper = if axis[1].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let u = unit(cross(helper, axis));
         let v = cross(axis, u);
-        let ring = |centre: Local| {
+        let ring = |(centre, normal): (Local, Local)| {
             (0..sides).map(move |k| {
                 let (s, c) = math::sin_cos(math::TAU * f64::from(k) / f64::from(sides));
-                [0, 1, 2].map(|i| centre[i] + radius_m * (c * u[i] + s * v[i]))
+                let out = [0, 1, 2].map(|i| radius_m * (c * u[i] + s * v[i]));
+                let slide = -dot(normal, out) / dot(normal, axis);
+                [0, 1, 2].map(|i| centre[i] + out[i] + slide * axis[i])
             })
         };
-        // Seen from `a` towards `b` the ring runs clockwise, which is counter-clockwise seen from outside its first face.
-        let corners: Vec<Local> = ring(b).chain(ring(a)).collect();
+        // Seen from the first end the ring runs clockwise, which is counter-clockwise seen from outside its first face.
+        let corners: Vec<Local> = ring(ends[1]).chain(ring(ends[0])).collect();
         self.push(part, element, &corners, prism_faces(sides as usize));
     }
 }
@@ -153,11 +177,15 @@ fn sub(a: Local, b: Local) -> Local {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+fn dot(a: Local, b: Local) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 fn cross(a: Local, b: Local) -> Local {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn unit(a: Local) -> Local {
-    let n = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]).sqrt();
+    let n = dot(a, a).sqrt();
     [a[0] / n, a[1] / n, a[2] / n]
 }

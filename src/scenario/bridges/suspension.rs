@@ -270,10 +270,8 @@ impl Suspension {
         xs.extend(self.hangers());
         xs.extend([half, grip]);
         for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
-            for (k, pair) in xs.windows(2).enumerate() {
-                let ends = [pair[0], pair[1]].map(|x| [x, y, self.cable_z_m(x)]);
-                b.rod(&format!("cable-{side}/{k:03}"), 147, ends[0], ends[1], self.cable_radius_m, 8);
-            }
+            let points: Vec<[f64; 3]> = xs.iter().map(|x| [*x, y, self.cable_z_m(*x)]).collect();
+            b.cable(&format!("cable-{side}"), 147, &points, self.cable_radius_m, 8);
             for (k, x) in self.hangers().into_iter().enumerate() {
                 let foot = [x, y, -self.slab_m];
                 b.rod(&format!("hanger-{side}/{k:03}"), 148, foot, [x, y, self.cable_z_m(x)], self.hanger_radius_m, 6);
