@@ -3,13 +3,14 @@
 //! task's threshold. Other places for every seed.
 
 use super::catalogue;
+use super::faces::{Face, face_at};
 use super::light::{Cast, tangents};
 use super::look;
 use super::{CameraPose, Surface};
 use crate::base::frames::{Enu, Vec3};
 use crate::base::math;
 use crate::base::random::RandomStream;
-use crate::scenario::bridges::{Member, Solid};
+use crate::scenario::bridges::Member;
 use crate::scenario::{Defects, PlacedDefect, Task};
 use crate::vehicle::{Camera, Lamp};
 
@@ -161,58 +162,6 @@ fn choose_kind(settings: &Defects, element: u32, draw: f64) -> Option<u32> {
     legal.get((draw * legal.len() as f64) as usize).copied()
 }
 
-/// A planar face of a member and a point on it.
-struct Face {
-    point_m: Vec3<Enu>,
-    normal: Vec3<Enu>,
-    corners_m: Vec<Vec3<Enu>>,
-}
-
-/// The face of a solid that a point lies on, with the point moved exactly onto its plane.
-fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<Face> {
-    /// Farther from every face than this the point is not on the solid, m.
-    const ON_FACE_M: f64 = 0.002;
-    let mut best: Option<(f64, Face)> = None;
-    for indices in &solid.faces {
-        let corners_m: Vec<Vec3<Enu>> = indices.iter().filter_map(|k| solid.vertices_m.get(*k as usize).copied()).collect();
-        let normal = newell(&corners_m);
-        let Some(corner) = corners_m.first() else { continue };
-        let off = (point_m - *corner).dot(normal);
-        let face = Face { point_m: point_m - normal * off, normal, corners_m };
-        let apart = off.abs().max(-face.inset_m(face.point_m));
-        if apart < best.as_ref().map_or(ON_FACE_M, |b| b.0) {
-            best = Some((apart, face));
-        }
-    }
-    best.map(|b| b.1)
-}
-
-/// Unit normal of a planar polygon by Newell's sum, robust against collinear corners.
-fn newell(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
-    let count = corners_m.len();
-    (0..count).fold(Vec3::zero(), |sum, k| sum + corners_m[k].cross(corners_m[(k + 1) % count])).unit()
-}
-
-impl Face {
-    /// Distance from a point in the plane to the nearest edge, m; negative outside.
-    fn inset_m(&self, point_m: Vec3<Enu>) -> f64 {
-        let count = self.corners_m.len();
-        (0..count)
-            .map(|k| {
-                let (a, b) = (self.corners_m[k], self.corners_m[(k + 1) % count]);
-                self.normal.cross(b - a).unit().dot(point_m - a)
-            })
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    /// Direction in the face of its longest edge.
-    fn long_axis(&self) -> Vec3<Enu> {
-        let count = self.corners_m.len();
-        let edges = (0..count).map(|k| self.corners_m[(k + 1) % count] - self.corners_m[k]);
-        edges.fold(Vec3::zero(), |best, e| if e.norm() > best.norm() { e } else { best }).unit()
-    }
-}
-
 /// Stains run downward on walls; corrosion and rebar follow the member; all else lies at a random angle.
 fn along(kind: u32, face: &Face, roll_rad: f64) -> Vec3<Enu> {
     let down = Vec3::new(0.0, 0.0, -1.0);
@@ -304,6 +253,7 @@ mod tests {
     use super::super::{ObjectId, RayHit};
     use super::*;
     use crate::scenario::TaskKind;
+    use crate::scenario::bridges::Solid;
 
     const SEEDS: u64 = 50;
 

@@ -5,16 +5,21 @@ pub mod boxes;
 pub mod catalogue;
 pub mod defects;
 pub mod dynamics;
+mod faces;
 pub mod light;
 pub mod look;
+pub mod movers;
 pub mod sun;
+mod tracks;
 pub mod traffic;
+pub mod turbulence;
 pub mod wind;
 
 pub mod convex;
 pub mod geometry;
 pub mod gltf;
 pub mod heights;
+mod nearest;
 pub mod terrain;
 
 use crate::base::frames::{Enu, Vec3};

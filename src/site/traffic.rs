@@ -3,6 +3,8 @@
 //! lane: objects come and go beyond the bridge's ends.
 
 use super::boxes::{OrientedBox, bounding_ball};
+use super::movers::{Kind, Placed, boxes};
+use super::tracks::{Track, arc_lengths, simplified};
 use super::{Contact, Nearest, ObjectId, Probe, RayHit, Surface};
 use crate::base::frames::{Enu, Vec3};
 use crate::base::math;
@@ -31,80 +33,6 @@ const WALKING_M_S: (f64, f64) = (1.34, 0.26);
 /// Spread of the speed of one lane about the mean car speed (estimate).
 const LANE_SPEED_SPREAD: f64 = 0.1;
 
-/// What an object on the deck is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// 4.5 x 1.8 x 1.5 m, body and cabin.
-    Car,
-    /// 10 x 2.5 x 3.5 m, cab and box.
-    Truck,
-    /// 1.75 m tall.
-    Pedestrian,
-}
-
-/// One solid of an object: where its centre is relative to the object's place on the road (along, up) and its half extents, m.
-struct Part {
-    along_m: f64,
-    up_m: f64,
-    half_m: [f64; 3],
-}
-
-const CAR: &[Part] =
-    &[Part { along_m: 0.0, up_m: 0.5, half_m: [2.25, 0.9, 0.5] }, Part { along_m: -0.3, up_m: 1.25, half_m: [1.2, 0.8, 0.25] }];
-const TRUCK: &[Part] =
-    &[Part { along_m: 3.9, up_m: 1.4, half_m: [1.1, 1.2, 1.4] }, Part { along_m: -1.2, up_m: 1.75, half_m: [3.8, 1.25, 1.75] }];
-const PERSON: &[Part] = &[Part { along_m: 0.0, up_m: 0.875, half_m: [0.15, 0.25, 0.875] }];
-
-impl Kind {
-    fn parts(self) -> &'static [Part] {
-        match self {
-            Self::Car => CAR,
-            Self::Truck => TRUCK,
-            Self::Pedestrian => PERSON,
-        }
-    }
-
-    /// Half its length, m.
-    #[must_use]
-    pub fn half_length_m(self) -> f64 {
-        match self {
-            Self::Car => 2.25,
-            Self::Truck => 5.0,
-            Self::Pedestrian => 0.25,
-        }
-    }
-
-    /// Radius of the ball around the object's place on the road that holds it, m.
-    fn reach_m(self) -> f64 {
-        match self {
-            Self::Car => 2.9,
-            Self::Truck => 6.3,
-            Self::Pedestrian => 1.8,
-        }
-    }
-
-    fn surface(self) -> Surface {
-        match self {
-            Self::Car | Self::Truck => Surface::Vehicle,
-            Self::Pedestrian => Surface::Person,
-        }
-    }
-}
-
-/// A lane with its arc length.
-#[derive(Debug, Clone, PartialEq)]
-struct Track {
-    points_m: Vec<Vec3<Enu>>,
-    arc_m: Vec<f64>,
-    length_m: f64,
-    loop_m: f64,
-    speed_m_s: f64,
-    first: usize,
-    count: usize,
-    reach_m: f64,
-    band_m: (f64, f64),
-}
-
 /// One object of the plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mover {
@@ -114,17 +42,6 @@ pub struct Mover {
     pub number: u32,
     track: usize,
     phase_m: f64,
-}
-
-/// Where an object is at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placed {
-    /// Its place on the road, m.
-    pub position_m: Vec3<Enu>,
-    /// Unit vector of travel.
-    pub forward: Vec3<Enu>,
-    /// Velocity, m/s.
-    pub velocity_m_s: Vec3<Enu>,
 }
 
 /// The plan of a session; it keeps no state.
@@ -320,34 +237,6 @@ impl TrafficPlan {
     }
 }
 
-impl Track {
-    /// Place at an arc length; beyond the ends it goes straight on.
-    fn at(&self, s_m: f64) -> Placed {
-        let last = self.points_m.len() - 2;
-        let k = self.arc_m[1..=last].partition_point(|arc| *arc <= s_m).min(last);
-        let forward = (self.points_m[k + 1] - self.points_m[k]).unit();
-        let position_m = self.points_m[k] + forward * (s_m - self.arc_m[k]);
-        Placed { position_m, forward, velocity_m_s: forward * self.speed_m_s }
-    }
-
-    fn distance_m(&self, point_m: Vec3<Enu>) -> f64 {
-        let squared = self.points_m.windows(2).map(|w| {
-            let (line, to) = (w[1] - w[0], point_m - w[0]);
-            let t = (to.dot(line) / line.norm_squared().max(1e-12)).clamp(0.0, 1.0);
-            (to - line * t).norm_squared()
-        });
-        squared.fold(f64::INFINITY, f64::min).sqrt()
-    }
-
-    /// False when the ray surely misses everything on this lane (its height band, widened by the reach, decides).
-    fn ray_passes(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> bool {
-        let (low, high) = self.band_m;
-        let end = origin_m.up() + direction.up() * max_m;
-        let (bottom, top) = (origin_m.up().min(end), origin_m.up().max(end));
-        top >= low - self.reach_m && bottom <= high + self.reach_m
-    }
-}
-
 /// Deals objects to lanes in turn.
 fn deal<'a>(lanes: &[&'a Lane], kinds: &[Kind]) -> Vec<(&'a Lane, Vec<Kind>)> {
     let mut dealt: Vec<(&Lane, Vec<Kind>)> = lanes.iter().map(|l| (*l, Vec::new())).collect();
@@ -355,20 +244,6 @@ fn deal<'a>(lanes: &[&'a Lane], kinds: &[Kind]) -> Vec<(&'a Lane, Vec<Kind>)> {
         dealt[k % lanes.len()].1.push(*kind);
     }
     dealt
-}
-
-fn boxes(kind: Kind, placed: Placed) -> impl Iterator<Item = OrientedBox> {
-    kind.parts().iter().map(move |part| upright(&placed, part))
-}
-
-fn upright(placed: &Placed, part: &Part) -> OrientedBox {
-    let left = Vec3::new(0.0, 0.0, 1.0).cross(placed.forward).unit();
-    let up = placed.forward.cross(left);
-    OrientedBox {
-        centre_m: placed.position_m + placed.forward * part.along_m + up * part.up_m,
-        axes: [placed.forward, left, up],
-        half_m: part.half_m,
-    }
 }
 
 fn crew(team: &GroundTeam) -> Vec<(ObjectId, Surface, OrientedBox)> {
@@ -380,37 +255,6 @@ fn crew(team: &GroundTeam) -> Vec<(ObjectId, Surface, OrientedBox)> {
         boxes(Kind::Pedestrian, towards(team.pad_heading_deg, team.inspector_m)).map(|b| (INSPECTOR, Surface::Person, b));
     let truck = boxes(Kind::Truck, towards(team.truck_heading_deg, team.truck_m)).map(|b| (CREW_TRUCK, Surface::Vehicle, b));
     inspector.chain(truck).collect()
-}
-
-/// The polyline without its collinear points: a straight deck is one segment, however finely it was drawn.
-fn simplified(points_m: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
-    /// Deviation that counts as straight, m.
-    const STRAIGHT_M: f64 = 1e-4;
-    let mut kept: Vec<Vec3<Enu>> = Vec::new();
-    for p in points_m {
-        if kept.last().is_some_and(|l| (*p - *l).norm() < 1e-9) {
-            continue;
-        }
-        if let [.., a, b] = kept[..] {
-            let line = (*p - a).unit();
-            let off = (b - a) - line * (b - a).dot(line);
-            if off.norm() < STRAIGHT_M {
-                kept.pop();
-            }
-        }
-        kept.push(*p);
-    }
-    kept
-}
-
-fn arc_lengths(points_m: &[Vec3<Enu>]) -> Vec<f64> {
-    let mut sum = 0.0;
-    let mut arc = vec![0.0];
-    for w in points_m.windows(2) {
-        sum += (w[1] - w[0]).norm();
-        arc.push(sum);
-    }
-    arc
 }
 
 #[cfg(test)]

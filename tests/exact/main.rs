@@ -5,6 +5,7 @@ mod bridges;
 mod contact;
 mod export;
 mod free_flight;
+mod ground;
 mod on_bridges;
 mod score;
 mod site;

@@ -17,7 +17,7 @@ fn two_bridges() -> Scenario {
     scenario(include_str!("../../scenarios/two-bridges.toml"))
 }
 
-type Triangle = [Vec3<Enu>; 3];
+pub type Triangle = [Vec3<Enu>; 3];
 
 fn triangles(geometry: &Geometry) -> Vec<Triangle> {
     let of = |solid: &spandrel::scenario::bridges::Solid| {
@@ -27,7 +27,7 @@ fn triangles(geometry: &Geometry) -> Vec<Triangle> {
 }
 
 /// Distance to a triangle: inside its prism the height over it, else the nearest of its sides.
-fn to_triangle(p: Vec3<Enu>, t: &Triangle) -> f64 {
+pub fn to_triangle(p: Vec3<Enu>, t: &Triangle) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).unit();
     let sides = [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
     if sides.iter().all(|(a, b)| normal.cross(*b - *a).dot(p - *a) >= 0.0) {
