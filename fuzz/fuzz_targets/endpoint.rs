@@ -7,6 +7,7 @@ use spandrel::base::time::SimTime;
 use spandrel::mav::codec::Encoder;
 use spandrel::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
 use spandrel::site::Site;
+use spandrel::sitl::endpoint::files::job::{Action, Done, Entry, FileError};
 use spandrel::sitl::endpoint::{HANDLED, LinkId, LinkKind};
 use spandrel::sitl::sim::{Sim, SimConfig};
 use std::sync::{Arc, LazyLock};
@@ -50,6 +51,7 @@ fn framed(choice: u8, payload: &[u8]) -> Vec<u8> {
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let mut sim = FLYING.clone();
+    sim.serve_files();
     let mut rest = bytes;
     while let [len, tail @ ..] = rest {
         let (chunk, after) = tail.split_at(usize::from(*len).min(tail.len()));
@@ -61,6 +63,18 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         let ms = chunk.first().map_or(0, |kind| i64::from(kind >> 4));
         let until = sim.now() + SimTime::from_ms(ms);
         sim.handle_timeout(until);
+        while let Some(job) = sim.poll_file_job() {
+            let outcome = match job.action {
+                Action::Read(_, _, most) => Ok(Done::Bytes(vec![7; most.min(40_000) as usize])),
+                Action::List(_) => {
+                    Ok(Done::Entries(vec![Entry::Directory("d".repeat(300)), Entry::File(String::new(), u64::MAX)]))
+                }
+                Action::Size(_) => Ok(Done::Size(u32::MAX)),
+                Action::Checksum(_) => Ok(Done::Checksum(u32::MAX)),
+                _ => Err(FileError::Other),
+            };
+            sim.file_job_done(job.ticket, outcome);
+        }
         while sim.poll_transmit().is_some() {}
         let truth = &sim.truth().rigid;
         assert!(truth.position_m.is_finite() && truth.velocity_m_s.is_finite() && truth.rates_rad_s.is_finite());

@@ -5,6 +5,7 @@ use spandrel::base::random::RandomStream;
 use spandrel::base::time::SimTime;
 use spandrel::mav::codec::{Decoder, Encoder, Received};
 use spandrel::mav::dialect::*;
+use spandrel::sitl::endpoint::files::job::{Action, Done, Entry, FileError};
 use spandrel::sitl::endpoint::{LinkId, LinkKind};
 use spandrel::sitl::sim::Sim;
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,7 +35,27 @@ pub struct Vehicle(pub Sim);
 impl Vehicle {
     pub fn new(mut sim: Sim) -> Self {
         sim.open_link(SIDECAR, LinkKind::Payload, false);
+        sim.serve_files();
         Self(sim)
+    }
+
+    /// A store where everything is there, larger or stranger than anybody expects.
+    fn do_jobs(&mut self) {
+        while let Some(job) = self.0.poll_file_job() {
+            let outcome = match (job.ticket % 5, job.action) {
+                (0, _) => Err(FileError::Other),
+                (_, Action::List(_)) => Ok(Done::Entries(vec![
+                    Entry::Directory("d".repeat(300)),
+                    Entry::File("\u{fffd}\t\0".into(), u64::MAX),
+                    Entry::File(String::new(), 0),
+                ])),
+                (_, Action::Read(_, _, most)) => Ok(Done::Bytes(vec![7; most.min(40_000) as usize])),
+                (_, Action::Size(_)) => Ok(Done::Size(u32::MAX)),
+                (_, Action::Checksum(_)) => Ok(Done::Checksum(u32::MAX)),
+                _ => Ok(Done::Nothing),
+            };
+            self.0.file_job_done(job.ticket, outcome);
+        }
     }
 }
 
@@ -46,6 +67,7 @@ impl Subject for Vehicle {
     fn look(&mut self) {
         let now = self.0.now();
         self.0.handle_timeout(now);
+        self.do_jobs();
     }
 
     fn tick(&mut self) {
@@ -78,6 +100,7 @@ pub struct Depth {
     pub commands_accepted: BTreeSet<u16>,
     pub plans_accepted: usize,
     pub parameters_told: usize,
+    pub file_data: usize,
     pub refusals: usize,
     pub modes: BTreeSet<u32>,
     pub answers: BTreeMap<u32, usize>,
@@ -164,6 +187,7 @@ impl Driver<'_> {
                 depth.plans_accepted += 1;
             }
             Some(MavMessage::MISSION_ACK(_)) => depth.refusals += 1,
+            Some(MavMessage::FILE_TRANSFER_PROTOCOL(f)) if f.payload[3] == 128 && f.payload[4] > 0 => depth.file_data += 1,
             Some(MavMessage::PARAM_VALUE(_)) => depth.parameters_told += 1,
             Some(MavMessage::CURRENT_MODE(mode)) => {
                 depth.modes.insert(mode.custom_mode);

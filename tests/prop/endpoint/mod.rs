@@ -103,6 +103,7 @@ fn prop_no_datagram_brings_the_vehicle_down() {
     assert!(depth.commands_accepted.len() > 35, "{:?}", depth.commands_accepted);
     assert!(depth.plans_accepted > 500, "{}", depth.plans_accepted);
     assert!(depth.parameters_told > 1_000 && depth.refusals > 5_000, "{} {}", depth.parameters_told, depth.refusals);
+    assert!(depth.file_data > 50, "{}", depth.file_data);
     assert!(depth.modes.len() >= 6, "{:x?}", depth.modes);
     for id in [0, 22, 44, 47, 51, 73, 77, 110, 111, 118, 120, 253, 345, 263, 435] {
         assert!(depth.answers.contains_key(&id), "message {id} was never answered with");

@@ -26,7 +26,7 @@ pub fn all(number: u32) -> Vec<MavMessage> {
 
 /// Hand-made ones; a message without any fails the test that counts them.
 pub fn good(number: u32) -> Vec<MavMessage> {
-    let made = [connection(), sticks(), set_points(), gimbal(), parameters(), plans(), partial_plans(), commands()];
+    let made = [connection(), files(), sticks(), set_points(), gimbal(), parameters(), plans(), partial_plans(), commands()];
     made.into_iter().flatten().filter(|m| m.message_id() == number).collect()
 }
 
@@ -36,18 +36,22 @@ fn connection() -> Vec<MavMessage> {
         MavMessage::TIMESYNC(TIMESYNC_DATA { ts1: 123_456, ..Default::default() }),
         MavMessage::PING(PING_DATA { seq: 7, ..Default::default() }),
         MavMessage::REQUEST_DATA_STREAM(REQUEST_DATA_STREAM_DATA { req_message_rate: 4, start_stop: 1, ..Default::default() }),
-        MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
-            payload: std::array::from_fn(|k| match k {
-                3 => 4,
-                4 => 5,
-                12..17 => b"@PARAM"[k - 12],
-                _ => 0,
-            }),
-            ..Default::default()
-        }),
         MavMessage::LOG_REQUEST_LIST(LOG_REQUEST_LIST_DATA { end: u16::MAX, ..Default::default() }),
         MavMessage::LOG_REQUEST_DATA(LOG_REQUEST_DATA_DATA { count: 90, ..Default::default() }),
     ]
+}
+
+/// A request of every kind that the file service knows, and one that it does not.
+fn files() -> Vec<MavMessage> {
+    let request = |opcode| {
+        let mut payload = [0; 251];
+        (payload[0], payload[3]) = (opcode, opcode);
+        let data: &[u8] = if opcode == 13 { b"/log/a\0/log/b" } else { b"/log/a" };
+        payload[4] = data.len() as u8;
+        payload[12..12 + data.len()].copy_from_slice(data);
+        MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA { payload, ..Default::default() })
+    };
+    (0..=16).map(request).collect()
 }
 
 fn sticks() -> Vec<MavMessage> {
