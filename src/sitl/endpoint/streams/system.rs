@@ -183,7 +183,8 @@ pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
         _ => MissionState::MISSION_STATE_NOT_STARTED,
     };
     Some(MavMessage::MISSION_CURRENT(MISSION_CURRENT_DATA {
-        seq: v.status.mission_current as u16,
+        // Once flown to its end, the last item stays the current one.
+        seq: (v.status.mission_current as u16).min(v.camera.mission_items.saturating_sub(1)),
         total: v.camera.mission_items,
         mission_state: state,
         // 1 in mission mode, 2 not.
