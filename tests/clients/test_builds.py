@@ -1,0 +1,95 @@
+"""The same flight, sent in lockstep over UDP, gives the same bits in the debug and in the release build."""
+
+import os
+import pathlib
+import subprocess
+
+import pytest
+from pymavlink.dialects.v20 import common as mavlink
+from pymavlink import mavutil
+
+import spandrel
+
+DEBUG = pathlib.Path(os.environ.get("SPANDREL_DEBUG", spandrel.ROOT / "target" / "debug" / "spandrel"))
+# How long which sticks (forward, right, up from 0 to 1000) are held, s of simulation time, from 3.5 s on: up, sideways into the
+# suspension bridge's girder, away from it; then the motors are stopped, and after a fall into the lake and three seconds it flies on.
+SCRIPT = [(7, (0, 0, 800)), (15, (0, -1000, 500)), (4, (0, 1000, 500)), (9, (0, 0, 500)), (4, (500, 0, 600))]
+ARM_AT_S, BEGIN_S, STOP_AT_S, END_S = 3.0, 3.5, 29.5, 42.5
+POSCTL, FORCE = 3, 21196
+
+
+def sticks_at(seconds):
+    """What the script holds at a time."""
+    begin = BEGIN_S
+    for length, sticks in SCRIPT:
+        if begin <= seconds < begin + length:
+            return sticks
+        begin += length
+    return (0, 0, 500)
+
+
+class Script:
+    """Answers every TIMESYNC, and sends before each answer what is due by then."""
+
+    def __init__(self, link):
+        self.link, self.armed, self.stopped, self.steps = link, False, False, 0
+        self.counts = {"hits": 0, "respawns": 0}
+
+    def command(self, number, *values):
+        self.link.mav.command_long_send(1, 1, number, 0, *values, *[0.0] * (7 - len(values)))
+
+    def act(self, seconds):
+        """What a pilot does at this time."""
+        forward, right, up = sticks_at(seconds)
+        self.link.mav.manual_control_send(1, forward, right, up, 0, 0)
+        if seconds >= ARM_AT_S and not self.armed:
+            self.armed = True
+            self.command(mavlink.MAV_CMD_DO_SET_MODE, 1.0, float(POSCTL))
+            self.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1.0)
+        if seconds >= STOP_AT_S and not self.stopped:
+            self.stopped = True
+            self.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0.0, float(FORCE))
+
+    def hear(self, message):
+        """Takes one message of the vehicle."""
+        if message.get_type() == "NAMED_VALUE_INT" and message.name in self.counts:
+            self.counts[message.name] = max(self.counts[message.name], message.value)
+        if message.get_type() != "TIMESYNC" or message.tc1 != 0:
+            return
+        self.steps += 1
+        if self.steps % 2 == 0:
+            self.act(message.ts1 / 1e9)
+        self.link.mav.timesync_send(message.ts1 + 1, message.ts1)
+
+
+def fly(program):
+    """The digest of one flight, and what happened in it."""
+    port = spandrel.free_udp_port()
+    link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="common", source_system=255, source_component=190)
+    arguments = [
+        "sim", "--scenario", "two-bridges", "--seed", "7", "--speed", "max", "--gcs", f"127.0.0.1:{port}", "--sdk", "none",
+        "--gcs-port", "0", "--payload-port", "none", "--tcp-port", "none", "--monitor-port", "none",
+        "--lockstep", f"127.0.0.1:{port}", "--end-after", str(END_S), "--digest", "--log", "warn",
+    ]
+    process = subprocess.Popen([str(program), *arguments], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
+    script = Script(link)
+    try:
+        while process.poll() is None:
+            message = link.recv_match(blocking=True, timeout=0.2)
+            if message is not None:
+                script.hear(message)
+        digest = process.stdout.read().strip()
+    finally:
+        spandrel.end(process)
+        link.close()
+    assert process.returncode == 0
+    return digest, script.counts
+
+
+@pytest.mark.timeout(600)
+def test_regress_debug_and_release_builds_fly_the_same_bits():
+    """Through gusts, a collision, a fall into the water and being put back."""
+    release, counts = fly(spandrel.PROGRAM)
+    assert len(release) == 64 and counts["hits"] > 0 and counts["respawns"] > 0, counts
+    assert DEBUG.exists(), f"{DEBUG}: build it first (cargo build)"
+    assert fly(DEBUG) == (release, counts)
