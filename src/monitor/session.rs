@@ -17,6 +17,13 @@ const REST_M_S: f64 = 0.2;
 /// At rest for this long is a landing (assessment.md, frames).
 const REST_FOR: SimTime = SimTime::from_ms(3_000);
 
+/// The words `armed` and `on the ground` come once a second and may be this old.
+const WORDS_OLD: SimTime = SimTime::from_ms(1_500);
+/// Farther between two moments than this, and farther than at [`FASTEST_M_S`], the drone has been put back, m (estimate).
+const JUMP_M: f64 = 1.5;
+/// Faster than any drone flies or falls here, m/s (estimate).
+const FASTEST_M_S: f64 = 50.0;
+
 /// Why a session ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -72,6 +79,8 @@ pub struct EndRule {
     seen_armed: bool,
     rest_since: Option<SimTime>,
     pending: Option<(SimTime, EndReason)>,
+    last: Option<(SimTime, Vec3<Enu>)>,
+    put_back: Option<SimTime>,
 }
 
 impl EndRule {
@@ -87,11 +96,30 @@ impl EndRule {
             seen_armed: false,
             rest_since: None,
             pending: None,
+            last: None,
+            put_back: None,
         }
+    }
+
+    /// Once the drone has been put back elsewhere, what was said of it before says nothing about there.
+    fn without_old_words(&mut self, moment: &Moment) -> Moment {
+        let jumped = self.last.is_some_and(|(time, position_m)| {
+            (moment.position_m - position_m).norm() > JUMP_M + FASTEST_M_S * (moment.time - time).s()
+        });
+        self.last = Some((moment.time, moment.position_m));
+        if jumped {
+            self.put_back = Some(moment.time);
+        }
+        if self.put_back.is_none_or(|since| moment.time - since >= WORDS_OLD) {
+            return *moment;
+        }
+        let down = matches!(moment.contact, Contact::Terrain);
+        Moment { armed: moment.armed.filter(|armed| *armed), on_ground: moment.on_ground && down, ..*moment }
     }
 
     /// The end, when this moment decides it; the time is that of the last frame.
     pub fn see(&mut self, moment: &Moment) -> Option<(SimTime, EndReason)> {
+        let moment = &self.without_old_words(moment);
         match moment.contact {
             Contact::Person => return Some((moment.time, EndReason::Person)),
             Contact::Vehicle => return Some((moment.time, EndReason::Vehicle)),
@@ -194,5 +222,49 @@ fn moment(frame: &Frame, rate: f64) -> Moment {
         battery_pct: frame.battery_pct,
         armed: frame.armed,
         on_ground: frame.on_ground,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rule() -> EndRule {
+        let read = |text| crate::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap();
+        let vehicle = crate::vehicle::read("phantom2.toml", include_str!("../../vehicle-params/phantom2.toml")).unwrap();
+        EndRule::new(&read(include_str!("../../scenarios/two-bridges.toml")), &vehicle)
+    }
+
+    /// The first end within eight seconds at a fixed place, seen 30 times a second from `from_ms` on.
+    fn end(rule: &mut EndRule, from_ms: i64, position_m: Vec3<Enu>, words: impl Fn(i64) -> (bool, bool)) -> Option<EndReason> {
+        (0..240).find_map(|k| {
+            let (armed, on_ground) = words(k);
+            let time = SimTime::from_ms(from_ms + k * 33);
+            let contact = Contact::None;
+            let still = Moment {
+                time,
+                flown_s: time.s(),
+                position_m,
+                speed_m_s: 0.0,
+                contact,
+                battery_pct: 90.0,
+                armed: Some(armed),
+                on_ground,
+            };
+            rule.see(&still).map(|(_, reason)| reason)
+        })
+    }
+
+    #[test]
+    fn exact_put_back_over_home_is_no_landing_however_old_the_words_are() {
+        let mut rule = rule();
+        let pad_m = rule.pad_m;
+        let over_home = pad_m + Vec3::new(1.0, 0.0, 5.0);
+        assert_eq!(end(&mut rule, 0, over_home, |_| (true, false)), None);
+        // In the lake it disarms; put back it is armed, but for a second the wire still says that it lies there disarmed.
+        assert_eq!(end(&mut rule, 8_000, pad_m + Vec3::new(80.0, 0.0, -5.0), |_| (false, true)), None);
+        assert_eq!(end(&mut rule, 16_000, over_home, |k| (k >= 30, k < 30)), None);
+        // What is said later counts: it stands on something near home and disarms.
+        assert_eq!(end(&mut rule, 24_000, over_home, |_| (false, true)), Some(EndReason::Landed));
     }
 }
