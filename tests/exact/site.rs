@@ -365,3 +365,36 @@ fn exact_shipped_tasks_one_two_and_four_keep_four_metres_from_every_member() {
     }
     assert_eq!(seen, 8);
 }
+
+#[test]
+fn prop_a_capsule_over_the_ground_touches_it_where_it_is_nearest() {
+    // m; half the spacing of the points tried, and what counts as level.
+    const COARSE_M: f64 = 0.5 * 6.0 / 400.0;
+    const LEVEL_M: f64 = 2e-7;
+    let geometry = Geometry::new(&two_bridges());
+    let ground = &geometry.terrain.ground;
+    let mut random = RandomStream::new(13, "ridges");
+    let (mut touching, mut across) = (0, 0);
+    for _ in 0..3000 {
+        // Over the crests of the roads beside the arch's ends, long and nearly level.
+        let (e, n) = (random.range(62.0, 90.0), random.range(-9.0, 9.0));
+        let half = Vec3::new(random.normal(), random.normal(), 0.1 * random.normal()).unit() * random.range(0.3, 3.0);
+        let middle = Vec3::new(e, n, ground.ground(e, n).0 + random.range(0.0, 0.6));
+        let (a_m, b_m, radius_m) = (middle - half, middle + half, random.range(0.005, 0.1));
+        let signed = |t: f64| ground.nearest(a_m.lerp(b_m, t), 5.0).map_or(5.0, |n| n.distance_m);
+        let tried = (0..=400).map(|k| signed(f64::from(k) / 400.0)).fold(f64::INFINITY, f64::min) - radius_m;
+        if tried < -radius_m {
+            continue;
+        }
+        let mut contacts: Vec<Contact> = Vec::new();
+        geometry.contacts(&Probe::Capsule { a_m, b_m, radius_m }, 0.2, &mut contacts);
+        let gaps = contacts.iter().filter(|c| c.surface == Surface::Terrain).map(|c| c.gap_m);
+        let deepest = gaps.fold(f64::INFINITY, f64::min);
+        if tried < 0.2 - COARSE_M {
+            touching += 1;
+            assert!(deepest > tried - COARSE_M && deepest < tried + LEVEL_M, "{deepest} m, tried {tried} m");
+            across += usize::from(tried < signed(0.0).min(signed(1.0)) - radius_m - 0.01);
+        }
+    }
+    assert!(touching > 200 && across > 50, "{touching}, {across} of them between the ends");
+}
