@@ -1,0 +1,111 @@
+"""MAVSDK uploads and flies a mission, sets and misses parameters, steers by external set-points and points the gimbal."""
+
+import math
+
+import pytest
+from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.action import Action
+from mavsdk.plugins.gimbal import ControlMode, Gimbal, GimbalMode, SendMode
+from mavsdk.plugins.mission_raw import MissionItem, MissionRaw
+from mavsdk.plugins.offboard import AttitudeRate, Offboard, PositionNedYaw, VelocityBodyYawspeed
+from mavsdk.plugins.param import Param
+from mavsdk.plugins.telemetry import FlightMode, Telemetry
+
+import spandrel
+from spandrel import wait_for
+
+NAN = float("nan")
+# Relative height over home and MISSION frames of MAVLink.
+OVER_HOME, ANY = 6, 2
+# 1e-7 degrees of latitude in a metre.
+E7_A_METRE = 1e7 * 360.0 / 40_000_000.0
+# The vehicle's own estimate is compared with what was asked of it, m and m/s.
+NEAR_M, NEAR_M_S = 0.7, 0.4
+
+
+@pytest.fixture
+def vehicle(tmp_path):
+    """MAVSDK's system for a simulated vehicle that would arm."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port)
+    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
+    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
+    system = mavsdk.first_autopilot(60.0)
+    assert system is not None, "no vehicle discovered"
+    telemetry = Telemetry(system)
+    wait_for("health_all_ok", telemetry.health_all_ok)
+    yield system, telemetry
+    spandrel.end(process)
+
+
+def place(telemetry):
+    """North, east, down, m."""
+    p = telemetry.position_velocity_ned().position
+    return p.north_m, p.east_m, p.down_m
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavsdk_flies_a_mission_to_its_end(vehicle):
+    """Take-off, a waypoint, a picture, a landing on the place of the start."""
+    system, telemetry = vehicle
+    mission, action = MissionRaw(system), Action(system)
+    here = wait_for("a position", lambda: (p := telemetry.position()) and p.latitude_deg != 0.0 and p)
+    lat, lon = round(here.latitude_deg * 1e7), round(here.longitude_deg * 1e7)
+    north = lat + round(12.0 * E7_A_METRE)
+    items = [
+        MissionItem(0, OVER_HOME, 22, 1, 1, 0, 0, 0, NAN, lat, lon, 5.0, 0),
+        MissionItem(1, OVER_HOME, 16, 0, 1, 0, 0, 0, NAN, north, lon, 6.0, 0),
+        MissionItem(2, ANY, 2000, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0),
+        MissionItem(3, OVER_HOME, 21, 0, 1, 0, 0, 0, NAN, lat, lon, 0, 0),
+    ]
+    mission.upload_mission(items)
+    assert [(i.command, i.x, i.z) for i in mission.download_mission()] == [(i.command, i.x, i.z) for i in items]
+    start = place(telemetry)
+    action.arm()
+    mission.start_mission()
+    wait_for("the waypoint", lambda: place(telemetry)[0] - start[0] > 9.0)
+    wait_for("the landing", lambda: not telemetry.armed())
+    assert math.hypot(place(telemetry)[0] - start[0], place(telemetry)[1] - start[1]) < NEAR_M
+    with pytest.raises(Exception, match="INVALID_ARGUMENT"):
+        mission.upload_mission([MissionItem(0, OVER_HOME, 16, 1, 1, 0, 0, 0, NAN, 910_000_000, lon, 5.0, 0)])
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavsdk_steers_by_set_points_and_points_the_gimbal(vehicle):
+    """A position, a velocity of the body, a rate; the gimbal up and down; parameters, good and bad."""
+    system, telemetry = vehicle
+    action, offboard, gimbal, param = Action(system), Offboard(system), Gimbal(system), Param(system)
+    param.set_param_float("MIS_TAKEOFF_ALT", 4.0)
+    assert param.get_param_float("MIS_TAKEOFF_ALT") == 4.0
+    for name, value, why in (("NOPE", 1.0, "DOES_NOT_EXIST"), ("MIS_TAKEOFF_ALT", 1e9, "VALUE_OUT_OF_RANGE")):
+        with pytest.raises(Exception, match=why):
+            param.set_param_float(name, value)
+    action.arm()
+    action.takeoff()
+    wait_for("a height of 3.5 m", lambda: telemetry.position().relative_altitude_m > 3.5)
+    n, e, d = place(telemetry)
+    with pytest.raises(Exception, match="NO_SETPOINT_SET"):
+        offboard.start()
+    target = (n + 5.0, e + 2.0, d - 2.0)
+    offboard.set_position_ned(PositionNedYaw(*target, 90.0))
+    offboard.start()
+    wait_for("the position", lambda: math.dist(place(telemetry), target) < NEAR_M)
+    wait_for("offboard mode", lambda: telemetry.flight_mode() == FlightMode.OFFBOARD)
+    wait_for("the heading", lambda: abs(telemetry.attitude_euler().yaw_deg - 90.0) < 5.0)
+    # Looking east, forward is east.
+    offboard.set_velocity_body(VelocityBodyYawspeed(2.0, 0.0, 0.0, 0.0))
+    wait_for("2 m/s east", lambda: abs(telemetry.velocity_ned().east_m_s - 2.0) < NEAR_M_S)
+    assert abs(telemetry.velocity_ned().north_m_s) < NEAR_M_S
+    offboard.set_velocity_body(VelocityBodyYawspeed(0.0, 0.0, 0.0, 0.0))
+    wait_for("a stop", lambda: abs(telemetry.velocity_ned().east_m_s) < NEAR_M_S)
+    offboard.set_attitude_rate(AttitudeRate(0.0, 0.0, 40.0, 0.5))
+    wait_for("a spin", lambda: abs(math.degrees(telemetry.attitude_angular_velocity_body().yaw_rad_s) - 40.0) < 10.0)
+    offboard.set_velocity_body(VelocityBodyYawspeed(0.0, 0.0, 0.0, 0.0))
+    offboard.stop()
+    known = wait_for("a gimbal", lambda: gimbal.gimbal_list().gimbals)[0].gimbal_id
+    gimbal.take_control(known, ControlMode.PRIMARY)
+    for pitch, mode in ((-90.0, SendMode.ONCE), (90.0, SendMode.ONCE), (30.0, SendMode.STREAM)):
+        gimbal.set_angles(known, 0.0, pitch, 0.0, GimbalMode.YAW_FOLLOW, mode)
+        wait_for(f"pitch {pitch}", lambda: abs(gimbal.get_attitude(known).euler_angle_forward.pitch_deg - pitch) < 1.0)
+    action.land()
+    wait_for("landing mode", lambda: telemetry.flight_mode() == FlightMode.LAND)
