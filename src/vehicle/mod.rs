@@ -1,6 +1,7 @@
 //! The aircraft: one TOML file per aircraft in `vehicle-params/`, read into validated types. Every key carries its unit;
 //! every number its source or the word estimate (vehicle-params/README.md, checked against this code by a test).
 
+mod authority;
 mod read;
 
 pub use read::{FORMAT, read, read_asked};

@@ -2,7 +2,7 @@
 
 use super::{Battery, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, Sensors, Vehicle};
 use crate::base::frames::Vec3;
-use crate::base::math::GRAVITY_M_S2;
+use crate::base::math::{self, GRAVITY_M_S2};
 use crate::base::toml::{Asked, Problems, Reader, Section};
 use std::collections::BTreeMap;
 
@@ -53,6 +53,12 @@ fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
         let most = format!("at most {:.3}: the rotors lift {lift_kg:.3} kg", lift_kg / LEAST_LIFT);
         r.complain(root, "mass_kg", &mass_kg.to_string(), &most, "too heavy to fly");
     }
+    if r.problems.is_empty()
+        && let Some(allowed) = super::authority::lacking(&rotors, &rotor, mass_kg)
+    {
+        let places = rotors.iter().map(|rotor| format!("{:?}", rotor.position_m.array())).collect::<Vec<_>>().join(", ");
+        r.complain(root, "rotors.position_m", &places, allowed, "the rotors cannot hold and turn it");
+    }
     Vehicle {
         id: stem(file),
         name,
@@ -74,8 +80,8 @@ fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
     let mut s = r.section(root, "rotors");
     let places = r.points(&mut s, "position_m", (-5.0, 5.0));
     let spins = r.wholes(&mut s, "spin", (-1, 1));
-    if places.len() < 3 || places.len() > MOST_ROTORS || places.len() != spins.len() || spins.contains(&0) {
-        r.complain(&s, "spin", "", "3 to 8 rotors, one spin of -1 or 1 each", "rotors and spins do not match");
+    if places.len() < 4 || places.len() > MOST_ROTORS || places.len() != spins.len() || spins.contains(&0) {
+        r.complain(&s, "spin", "", "4 to 8 rotors, one spin of -1 or 1 each", "rotors and spins do not match");
     }
     let model = RotorModel {
         radius_m: r.number(&mut s, "radius_m", (0.01, 1.0), None),
@@ -150,6 +156,12 @@ fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
         rate_rad_s: r.number(&mut s, "rate_deg_s", (20.0, 1500.0), None).to_radians(),
         slow_down_time_s: r.number(&mut s, "slow_down_time_s", (0.2, 10.0), None),
     };
+    // Tilted as far as it may, it brakes with g tan(tilt); air drag and the time to tilt about cancel (flown for every shipped aircraft).
+    let least_s = limits.forward_m_s.max(limits.sideward_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
+    if limits.slow_down_time_s < least_s && r.problems.is_empty() {
+        let allowed = format!("at least {least_s:.2}: full speed over g tan(tilt_deg)");
+        r.complain(&s, "slow_down_time_s", &limits.slow_down_time_s.to_string(), &allowed, "no tilt stops it so soon");
+    }
     r.finish(&s);
     limits
 }

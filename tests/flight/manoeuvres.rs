@@ -170,3 +170,22 @@ fn flight_all_sticks_at_once_saturate_the_motors_and_stay_upright() {
         assert!(bench.state.rigid.velocity_m_s.norm() < 0.3, "{name}: {:?}", bench.state.rigid.velocity_m_s);
     }
 }
+
+#[test]
+fn flight_from_full_speed_it_stops_within_its_slow_down_time() {
+    // Share of the full speed that counts as stopped.
+    const STOPPED: f64 = 0.1;
+    for name in VEHICLES {
+        let aircraft = vehicle(name);
+        for sticks in [Sticks { forward: 1.0, ..Sticks::default() }, Sticks { right: -1.0, ..Sticks::default() }] {
+            let mut bench = Bench::by_hand(&aircraft, 2, 8.0);
+            bench.sticks = Some(sticks);
+            bench.run(12.0, |_| ());
+            let full = bench.state.rigid.velocity_m_s.horizontal_norm();
+            bench.sticks = Some(Sticks::default());
+            bench.run(aircraft.limits.slow_down_time_s, |_| ());
+            let left = bench.state.rigid.velocity_m_s.horizontal_norm();
+            assert!(left < STOPPED * full, "{name}: {left} of {full} m/s are left after the slow-down time");
+        }
+    }
+}
