@@ -33,6 +33,10 @@ use wire::{News, Wire};
 const PX4_POSITION_MODE: f32 = 3.0;
 /// Between two tries of a command that has not had its effect, s.
 const RETRY_S: f64 = 1.5;
+/// Within this of the pad's middle one comes down, m (estimate: the reach of the last correction).
+const OVER_PAD_M: f64 = 2.5;
+/// From farther aside one approaches at this height at least, m (estimate: over the truck).
+const APPROACH_M: f64 = 5.0;
 /// The mind gives up a flight that cannot begin after this, s of simulation time.
 const PATIENCE_S: f64 = 60.0;
 
@@ -190,14 +194,20 @@ impl Pilot {
 
     /// One look at the world: 50 times a second.
     fn see(&mut self, motion: Motion) {
-        if motion.time <= self.now || self.phase == Phase::Done {
+        let put_back = self.wire.heard.respawns != self.respawns;
+        if motion.time <= self.now || (self.phase == Phase::Done && !(put_back && self.landed())) {
             return;
         }
         let dt_s = (motion.time - self.now).s().min(0.1);
         self.now = motion.time;
         self.beat(motion.time);
-        if self.wire.heard.respawns != self.respawns {
+        if put_back {
             self.respawns = self.wire.heard.respawns;
+            if self.phase == Phase::Done {
+                // It stood beside its home and is in the air again.
+                self.report = None;
+                self.enter(Phase::Descend);
+            }
             self.eyes.forget();
             self.hand.release();
             self.flight.replan();
@@ -271,27 +281,42 @@ impl Pilot {
         [0.0, 0.0, rate / self.config.vehicle.limits.climb_m_s, 0.0]
     }
 
-    /// The whole way down is by hand: slower near the ground, then the stick stays down until the vehicle says that it stands.
+    /// The whole way down is by hand: first over the pad, slower near the ground, then the stick stays down until the vehicle says that
+    /// it stands. Whoever stands beside the home circle takes off again.
     fn descend(&mut self, belief: &Motion) -> hand::Axes {
-        let pad = self.config.scenario.ground_team.pad_m;
+        let team = &self.config.scenario.ground_team;
+        let off = team.pad_m - belief.position_m;
+        let level = crate::base::frames::Vec3::new(off.east(), off.north(), 0.0);
+        let (height_m, aside_m) = (-off.up(), level.norm());
         if self.wire.heard.on_ground && self.in_phase_s() > 2.0 {
-            if !self.wire.heard.armed {
-                self.finish("landed");
-            } else if self.may_try() {
-                self.wire.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [0.0; 7]);
+            let home = aside_m <= team.home_radius_m;
+            match (home, self.wire.heard.armed) {
+                (true, false) => self.finish("landed"),
+                (true, true) if self.may_try() => {
+                    self.wire.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [0.0; 7]);
+                }
+                (false, false) => self.arm(),
+                _ => {}
             }
-            return [0.0, 0.0, -1.0, 0.0];
+            return [0.0, 0.0, if home || !self.wire.heard.armed { -1.0 } else { 0.5 }, 0.0];
         }
-        let off = pad - belief.position_m;
-        let height_m = -off.up();
-        let rate = if height_m > 3.0 { 1.2 } else { 0.5 };
-        let level = crate::base::frames::Vec3::new(off.east(), off.north(), 0.0) * (0.6 * self.config.skill.gain);
-        let wish = level.limited(1.0) + crate::base::frames::Vec3::new(0.0, 0.0, -rate);
+        let rate = match (aside_m > OVER_PAD_M, height_m) {
+            (true, ..APPROACH_M) => -0.8,
+            (true, _) => 0.0,
+            (false, ..=3.0) => 0.5,
+            (false, _) => 1.2,
+        };
+        let speed_m_s = if aside_m > OVER_PAD_M { 2.0 } else { 1.0 };
+        let wish = (level * (0.6 * self.config.skill.gain)).limited(speed_m_s) + crate::base::frames::Vec3::new(0.0, 0.0, -rate);
         let mut axes = flight::sticks(wish, belief, None, &self.config);
-        if height_m < 0.5 {
+        if height_m < 0.5 && aside_m <= OVER_PAD_M {
             axes[2] = -1.0_f64.min(0.5 / self.config.vehicle.limits.descend_m_s).abs();
         }
         axes
+    }
+
+    fn landed(&self) -> bool {
+        self.report.as_ref().is_some_and(|report| report.reason == "landed")
     }
 
     fn finish(&mut self, reason: &str) {

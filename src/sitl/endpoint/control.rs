@@ -1,9 +1,9 @@
 //! Messages that steer: sticks, modes, external set-points, the gimbal.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
+use super::arrival::Arrival;
 use super::gimbal::{Aim, DEVICE, Gimbal};
 use super::offboard::{self, Reading};
-use super::receive::Arrival;
 use super::{Endpoint, px4};
 use crate::base::frames::Rotation;
 use crate::mav::dialect::{

@@ -2,9 +2,9 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::Endpoint;
+use super::arrival::Arrival;
 use super::mission::{Reply, ack};
 use super::params::{HASH, Refusal, Value};
-use super::receive::Arrival;
 use super::streams::{self, AUTOPILOT};
 use crate::mav::dialect::*;
 use mavlink::MessageData;

@@ -1,7 +1,7 @@
 //! Files over MAVLink: the message around the packets of the file server.
 
 use super::Endpoint;
-use super::receive::Arrival;
+use super::arrival::Arrival;
 use super::streams::AUTOPILOT;
 use crate::mav::dialect::{FILE_TRANSFER_PROTOCOL_DATA, MavMessage};
 use crate::mav::ftp::{Packet, Refusal};

@@ -1,6 +1,7 @@
 //! What comes in: routing first, then what is meant for us, by one table of messages.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
+use super::arrival::Arrival;
 use super::commands::{self, Command};
 use super::streams::{AUTOPILOT, CAMERA};
 use super::view::View;
@@ -12,18 +13,6 @@ use crate::sitl::autopilot::Autopilot;
 use mavlink::MessageData;
 
 const COMMAND_ACK: u32 = 77;
-
-/// A message that is meant for us, and what may be touched to answer it.
-pub(super) struct Arrival<'a, 'v> {
-    /// The link it came on.
-    pub link: LinkId,
-    /// Its sender.
-    pub from: (u8, u8),
-    /// The vehicle now.
-    pub view: &'a View<'v>,
-    /// Who flies.
-    pub autopilot: &'a mut Autopilot,
-}
 
 macro_rules! handlers {
     ($($name:ident $data:ident $handler:path),* $(,)?) => {
