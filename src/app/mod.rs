@@ -10,6 +10,7 @@ mod demo;
 mod errors;
 mod export;
 mod files;
+mod key;
 mod logging;
 mod monitor;
 mod net;

@@ -1,15 +1,17 @@
 //! `spandrel sim`: sockets and pace around the sans-IO vehicle.
 
 use super::args::{self, JobArgs};
-use super::clock::Stopwatch;
+use super::clock::{self, Stopwatch};
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
+use super::key;
 use super::pace::{PATIENCE, Pace, Patience, Speed};
 use super::ports::{Change, Face, Links, PortArgs};
 use super::progress::Progress;
 use super::stop::Stop;
 use super::store::Store;
 use crate::base::time::SimTime;
+use crate::mav::signing::stamp;
 use crate::site::Site;
 use crate::sitl::endpoint::files::job::FileError;
 use crate::sitl::endpoint::{LinkId, LinkKind};
@@ -53,6 +55,10 @@ pub struct Args {
     /// Folder that is served over MAVLink FTP; the flights' logs (ULog) are written to its folder log [default: none is served or written]
     #[arg(long, value_name = "DIR")]
     files: Option<PathBuf>,
+    /// File with the MAVLink signing key, readable by its owner alone: 64 hexadecimal digits, or a passphrase as MAVProxy takes it. What
+    /// is not signed with it does nothing [default: no signatures]
+    #[arg(long, value_name = "FILE")]
+    signing_key: Option<PathBuf>,
     /// End after this much simulation time, s
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     end_after: Option<SimTime>,
@@ -85,6 +91,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
     let seed = args.job.seed.or(scenario.seed).unwrap_or_else(args::fresh_seed);
+    let key = args.signing_key.as_deref().map(key::read).transpose()?;
+    if key.is_none() && !args.ports.listen.is_loopback() {
+        tracing::warn!("--listen {} without --signing-key: whoever reaches this machine can fly the vehicle", args.ports.listen);
+    }
     let store = args.files.as_deref().map(Store::open).transpose()?;
     let mut links = Links::open(&args.ports, &args.lockstep)?;
     let mut progress = Progress::start("building the site");
@@ -99,10 +109,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let pace = Pace::new(args.speed, watch.elapsed());
     let mut core = Sim::new(config, site);
     core.set_pace(args.speed.client_pace());
-    let mut shell = Shell { core, links, pace, watch, patience: Patience::default(), store };
+    let mut shell = Shell { core, links, pace, watch, patience: Patience::default(), store, signs: false };
     if shell.store.is_some() {
         shell.core.serve_files();
         shell.core.record();
+    }
+    if let Some(key) = key {
+        shell.signs = true;
+        shell.core.demand_signatures(key, stamp(clock::unix_us()));
     }
     let end = args.end_after.unwrap_or(SimTime::NEVER);
     while !stop.asked() && shell.core.now() < end {
@@ -125,6 +139,7 @@ struct Shell {
     watch: Stopwatch,
     patience: Patience,
     store: Option<Store>,
+    signs: bool,
 }
 
 impl Shell {
@@ -134,6 +149,9 @@ impl Shell {
             self.apply(change);
         }
         self.links.forget_silent();
+        if self.signs {
+            self.core.tell_stamp(stamp(clock::unix_us()));
+        }
         let wall = self.watch.elapsed();
         if !self.core.waiting() {
             let target = self.pace.target(wall, self.core.now()).min(end);
@@ -211,6 +229,9 @@ impl Shell {
         }
         if self.core.bad_bytes() > 0 {
             tracing::warn!("{} bytes from clients belonged to no MAVLink frame", self.core.bad_bytes());
+        }
+        if self.core.refused() > 0 {
+            tracing::warn!("{} frames without a good signature did nothing", self.core.refused());
         }
         if self.links.dropped() > 0 {
             tracing::warn!("{} datagrams found a queue full", self.links.dropped());

@@ -13,6 +13,7 @@ use super::physics::{self, Actuators, Air, Load, Model};
 use super::sensors::{BatteryReading, Readings, Sensors, Truth};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::{Schedule, SimTime};
+use crate::mav::signing::Key;
 use crate::scenario::Scenario;
 use crate::site::Site;
 use crate::site::wind::WindField;
@@ -267,6 +268,22 @@ impl Sim {
     /// The next event.
     pub fn poll_event(&mut self) -> Option<SimEvent> {
         self.events.pop_front()
+    }
+
+    /// Signs everything and lets nothing act that is not signed with this key; `stamp` is the signing timestamp of now.
+    pub fn demand_signatures(&mut self, key: Key, stamp: u64) {
+        self.endpoint.demand_signatures(key, stamp);
+    }
+
+    /// The signing timestamp of now.
+    pub fn tell_stamp(&mut self, stamp: u64) {
+        self.endpoint.tell_stamp(stamp);
+    }
+
+    /// Frames that did nothing because they bore no good signature.
+    #[must_use]
+    pub fn refused(&self) -> u64 {
+        self.endpoint.refused()
     }
 
     /// Somebody does file jobs from now on ([`Sim::poll_file_job`]).

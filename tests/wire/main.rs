@@ -8,5 +8,6 @@ mod offboard;
 mod payload;
 mod plans;
 mod program;
+mod signing;
 mod station;
 mod vehicle;

@@ -5,6 +5,7 @@ use super::streams::STREAMS;
 use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Encoder};
 use crate::mav::dialect::MavMessage;
+use crate::mav::signing::Signing;
 use std::collections::{BTreeMap, VecDeque};
 
 /// Frames are packed into datagrams of at most this size, bytes (below the usual path limit).
@@ -27,6 +28,9 @@ pub struct Link {
     every: Vec<Option<SimTime>>,
     soonest: SimTime,
     out: VecDeque<Vec<u8>>,
+    signing: Option<Signing>,
+    /// The signing timestamp of now.
+    pub stamp: u64,
 }
 
 impl Link {
@@ -45,6 +49,8 @@ impl Link {
             every,
             soonest: now,
             out: VecDeque::new(),
+            signing: None,
+            stamp: 0,
         }
     }
 
@@ -90,15 +96,29 @@ impl Link {
         true
     }
 
+    /// Signs what our components say from now on.
+    pub fn sign_with(&mut self, signing: Option<Signing>) {
+        self.signing = signing;
+    }
+
     /// Queues a message of one of our components.
     pub fn send(&mut self, component: u8, message: &MavMessage) {
         let frame = self.encoder(component).encode(message);
-        self.queue(frame);
+        self.queue_own(frame);
     }
 
     /// Queues a raw payload of one of our components.
     pub fn send_payload(&mut self, component: u8, id: u32, payload: &[u8]) {
         let frame = self.encoder(component).encode_payload(id, payload);
+        self.queue_own(frame);
+    }
+
+    fn queue_own(&mut self, frame: Vec<u8>) {
+        let stamp = self.stamp;
+        let frame = match &mut self.signing {
+            Some(signing) => signing.sign(frame, stamp),
+            None => frame,
+        };
         self.queue(frame);
     }
 

@@ -8,6 +8,7 @@ mod exchange;
 pub mod files;
 mod ftp;
 pub mod gimbal;
+pub mod guard;
 pub mod lamp;
 pub mod link;
 pub mod manual;
@@ -22,9 +23,11 @@ pub mod view;
 use crate::base::time::{Schedule, SimTime};
 use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use crate::mav::router::Router;
+use crate::mav::signing::Key;
 use crate::sitl::autopilot::{Autopilot, Event, Severity};
 use camera::{CameraState, Shot};
 use gimbal::Gimbal;
+use guard::Guard;
 use lamp::LampState;
 use link::Link;
 use manual::Manual;
@@ -107,6 +110,7 @@ pub struct Endpoint {
     system_id: u8,
     links: BTreeMap<LinkId, Link>,
     router: Router<LinkId>,
+    guard: Option<Guard>,
     /// The file server.
     pub files: files::Server,
     params: Params,
@@ -150,6 +154,7 @@ impl Endpoint {
             system_id,
             links: BTreeMap::new(),
             router: Router::new(),
+            guard: None,
             files: files::Server::default(),
             params: Params::new(system_id, cells, battery),
             plans: Plans::default(),
@@ -170,7 +175,32 @@ impl Endpoint {
 
     /// A peer is there from now on.
     pub fn open(&mut self, id: LinkId, kind: LinkKind, lockstep: bool, now: SimTime) {
-        self.links.insert(id, Link::new(kind, lockstep, self.system_id, now));
+        let mut link = Link::new(kind, lockstep, self.system_id, now);
+        link.sign_with(self.guard.as_ref().map(|guard| guard.signer(id.0 as u8)));
+        self.links.insert(id, link);
+    }
+
+    /// Signs everything and lets nothing act that is not signed with this key; `stamp` is the signing timestamp of now.
+    pub fn demand_signatures(&mut self, key: Key, stamp: u64) {
+        let guard = Guard::new(key, stamp);
+        for (id, link) in &mut self.links {
+            link.sign_with(Some(guard.signer(id.0 as u8)));
+        }
+        self.guard = Some(guard);
+    }
+
+    /// The signing timestamp of now.
+    pub fn tell_stamp(&mut self, stamp: u64) {
+        if let Some(guard) = &mut self.guard {
+            guard.tell(stamp);
+            self.links.values_mut().for_each(|link| link.stamp = stamp);
+        }
+    }
+
+    /// Frames that did nothing because they bore no good signature.
+    #[must_use]
+    pub fn refused(&self) -> u64 {
+        self.guard.as_ref().map_or(0, Guard::refused)
     }
 
     /// A peer is gone.

@@ -3,6 +3,7 @@
 
 use super::arrival::Arrival;
 use super::commands::{self, Command};
+use super::guard::Admitted;
 use super::streams::{AUTOPILOT, CAMERA};
 use super::view::View;
 use super::{Context, Endpoint, LinkId, control, exchange, ftp};
@@ -66,6 +67,7 @@ impl Endpoint {
     pub fn receive(&mut self, id: LinkId, bytes: &[u8], view: &View, autopilot: &mut Autopilot) -> Vec<i64> {
         let Some(link) = self.links.get_mut(&id) else { return Vec::new() };
         let before = link.decoder.bad_bytes();
+        let kind = link.kind;
         let frames = link.decoder.datagram(bytes);
         self.bad_bytes += link.decoder.bad_bytes() - before;
         let mut answers = Vec::new();
@@ -76,8 +78,13 @@ impl Endpoint {
                 answers.push(sync.ts1);
                 continue;
             }
-            self.route(id, &frame);
-            self.act(id, &frame, view, autopilot);
+            let admitted = self.guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(&frame, kind));
+            if admitted != Admitted::No {
+                self.route(id, &frame);
+            }
+            if admitted == Admitted::Acts {
+                self.act(id, &frame, view, autopilot);
+            }
         }
         answers
     }
