@@ -117,9 +117,9 @@ fn vehicle() -> Vehicle {
 /// A spot on a bridge's deck with nothing but the road around it, found from above.
 fn deck(site: &Site) -> Vec3<Enu> {
     let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("a road lane");
-    let points = &lane.points_m;
-    let middle = points[points.len() / 2];
-    let above = middle + Vec3::new(0.0, 0.0, 3.0);
+    // A lane begins and ends on the road that leads to the bridge.
+    let (first, last) = (lane.points_m[0], lane.points_m[lane.points_m.len() - 1]);
+    let above = (first + last) * 0.5 + Vec3::new(0.0, 0.0, 3.0);
     let hit = site.ray(above, Vec3::new(0.0, 0.0, -1.0), 6.0, SimTime::ZERO).expect("the deck under its lane");
     assert_eq!(hit.surface, Surface::Bridge);
     above - Vec3::new(0.0, 0.0, hit.distance_m)
