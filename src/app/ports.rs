@@ -192,6 +192,7 @@ pub struct Links {
     lockstep: Vec<SocketAddr>,
     changes: VecDeque<Change>,
     opened: u32,
+    bad_bytes: u64,
     watch: Stopwatch,
     /// The ports that were bound, as announced.
     pub bound: serde_json::Value,
@@ -222,6 +223,7 @@ impl Links {
             lockstep: lockstep.to_vec(),
             changes: VecDeque::new(),
             opened: 0,
+            bad_bytes: 0,
             watch: Stopwatch::start(),
             bound,
         };
@@ -291,6 +293,11 @@ impl Links {
         }
     }
 
+    /// Bytes of TCP clients that belonged to no frame; those of datagrams the vehicle counts.
+    pub fn bad_bytes(&self) -> u64 {
+        self.bad_bytes
+    }
+
     /// What found a queue full.
     pub fn dropped(&self) -> u64 {
         self.hub.dropped()
@@ -325,8 +332,10 @@ impl Links {
             Arrival::Bytes(stream, bytes) => {
                 let Some(link) = self.by_stream.get(&stream).copied() else { return };
                 let Some(Route::Stream { decoder, .. }) = self.routes.get_mut(&link) else { return };
+                let before = decoder.bad_bytes();
                 let frames = decoder.push(&bytes).into_iter();
                 self.changes.extend(frames.map(|frame| Change::Bytes { link, bytes: frame.bytes }));
+                self.bad_bytes += decoder.bad_bytes() - before;
             }
             Arrival::Closed(stream) => {
                 let Some(link) = self.by_stream.remove(&stream) else { return };

@@ -230,6 +230,10 @@ impl Shell {
         if self.core.bad_bytes() > 0 {
             tracing::warn!("{} bytes from clients belonged to no MAVLink frame", self.core.bad_bytes());
         }
+        let bad = self.core.bad_bytes() + self.links.bad_bytes();
+        if bad > 0 {
+            tracing::warn!("{bad} bytes belonged to no MAVLink frame and were skipped");
+        }
         if self.core.refused() > 0 {
             tracing::warn!("{} frames without a good signature did nothing", self.core.refused());
         }
