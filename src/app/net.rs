@@ -2,6 +2,7 @@
 //! bounded, and what does not fit is counted. A bad peer never ends a reader.
 
 use super::errors::AppError;
+use super::serial::{self, Device};
 use std::collections::BTreeMap;
 use std::io::{ErrorKind, Read, Write};
 use std::net::{IpAddr, Shutdown, SocketAddr, TcpListener, TcpStream, UdpSocket};
@@ -23,9 +24,27 @@ const DATAGRAM_MAX: usize = 65_536;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SocketId(usize);
 
-/// Which TCP connection.
+/// Which TCP connection or serial port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StreamId(u32);
+
+/// Where a stream of bytes comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Origin {
+    /// A client over TCP.
+    Tcp(SocketAddr),
+    /// Whoever is at the other end of a serial port.
+    Serial(Device),
+}
+
+impl std::fmt::Display for Origin {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Tcp(from) => write!(f, "TCP client {from}"),
+            Self::Serial(device) => write!(f, "serial port {device}"),
+        }
+    }
+}
 
 /// Something came in.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,32 +58,39 @@ pub enum Arrival {
         /// Its payload.
         bytes: Vec<u8>,
     },
-    /// A TCP client connected.
-    Connected(StreamId, SocketAddr),
-    /// Bytes of a TCP client.
+    /// A client connected, or a serial port was opened.
+    Connected(StreamId, Origin),
+    /// Bytes of one.
     Bytes(StreamId, Vec<u8>),
-    /// A TCP client is gone.
+    /// It is gone.
     Closed(StreamId),
 }
 
 /// What the threads put into the queue.
 enum Inner {
     Plain(Arrival),
-    Client(StreamId, SocketAddr, StreamWriter),
+    Client(StreamId, Origin, StreamWriter),
 }
 
-/// The sending side of a TCP connection.
+/// The sending side of a stream.
 #[derive(Debug)]
 struct StreamWriter {
     queue: SyncSender<Vec<u8>>,
-    socket: TcpStream,
+    socket: Option<TcpStream>,
 }
 
 impl Drop for StreamWriter {
     fn drop(&mut self) {
         // Ends the reader as well; an error means that the connection is gone already.
-        let _ = self.socket.shutdown(Shutdown::Both);
+        let _ = self.socket.as_ref().map(|socket| socket.shutdown(Shutdown::Both));
     }
+}
+
+/// Hands the sending side of a stream to the core and gives what it wants sent; `None` when the core is gone.
+fn announce(stream: StreamId, origin: Origin, socket: Option<TcpStream>, queue: &SyncSender<Inner>) -> Option<Receiver<Vec<u8>>> {
+    let (sender, frames) = sync_channel(STREAM_QUEUE);
+    queue.send(Inner::Client(stream, origin, StreamWriter { queue: sender, socket })).ok()?;
+    Some(frames)
 }
 
 /// All sockets of one process.
@@ -74,6 +100,7 @@ pub struct Hub {
     receiver: Receiver<Inner>,
     sockets: Vec<UdpSocket>,
     streams: BTreeMap<StreamId, StreamWriter>,
+    devices: u32,
     dropped: Arc<AtomicU64>,
     told: BTreeMap<SocketAddr, ErrorKind>,
 }
@@ -92,7 +119,7 @@ impl Hub {
     pub fn new() -> Self {
         let (sender, receiver) = sync_channel(QUEUE);
         let dropped = Arc::new(AtomicU64::new(0));
-        Self { sender, receiver, sockets: Vec::new(), streams: BTreeMap::new(), dropped, told: BTreeMap::new() }
+        Self { sender, receiver, sockets: Vec::new(), streams: BTreeMap::new(), devices: 0, dropped, told: BTreeMap::new() }
     }
 
     /// Binds a UDP port (0: any free one). `flag` is named in the message when the port is taken.
@@ -119,6 +146,30 @@ impl Hub {
         let queue = self.sender.clone();
         std::thread::spawn(move || accept_clients(&listener, &queue));
         Ok(bound)
+    }
+
+    /// Opens a serial port; when it vanishes it is opened again as soon as it is back.
+    ///
+    /// # Errors
+    /// When it cannot be opened.
+    pub fn serve_serial(&mut self, device: &Device) -> Result<(), AppError> {
+        let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
+        // Numbered from the other end, so that they never meet those of TCP clients.
+        let stream = StreamId(u32::MAX - self.devices);
+        self.devices += 1;
+        let (queue, device) = (self.sender.clone(), device.clone());
+        std::thread::spawn(move || {
+            let give = |bytes: &[u8]| queue.send(Inner::Plain(Arrival::Bytes(stream, bytes.to_vec()))).is_ok();
+            let begin = || announce(stream, Origin::Serial(device.clone()), None, &queue);
+            let end = || queue.send(Inner::Plain(Arrival::Closed(stream))).is_ok();
+            serial::keep(&device, port, begin, give, end);
+        });
+        Ok(())
+    }
+
+    /// Ends a stream.
+    pub fn drop_stream(&mut self, stream: StreamId) {
+        self.streams.remove(&stream);
     }
 
     /// The port that a socket is bound to.
@@ -216,9 +267,7 @@ fn accept_clients(listener: &TcpListener, queue: &SyncSender<Inner>) {
 fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &SyncSender<Inner>) -> std::io::Result<()> {
     socket.set_nodelay(true)?;
     let (mut to_read, mut to_write) = (socket.try_clone()?, socket.try_clone()?);
-    let (sender, frames) = sync_channel::<Vec<u8>>(STREAM_QUEUE);
-    let gone = || std::io::Error::from(ErrorKind::BrokenPipe);
-    queue.send(Inner::Client(stream, from, StreamWriter { queue: sender, socket })).map_err(|_| gone())?;
+    let Some(frames) = announce(stream, Origin::Tcp(from), Some(socket), queue) else { return Ok(()) };
     std::thread::spawn(move || {
         for frame in frames {
             if to_write.write_all(&frame).is_err() {
@@ -286,7 +335,7 @@ mod tests {
         let mut hub = Hub::new();
         let port = hub.serve(LOOPBACK, 0, "--tcp-port").unwrap();
         let mut client = TcpStream::connect((LOOPBACK, port)).unwrap();
-        let Some(Arrival::Connected(stream, _)) = hub.next(LONG) else { panic!("nobody connected") };
+        let Some(Arrival::Connected(stream, Origin::Tcp(_))) = hub.next(LONG) else { panic!("nobody connected") };
         client.write_all(b"in").unwrap();
         assert_eq!(hub.next(LONG), Some(Arrival::Bytes(stream, b"in".to_vec())));
         hub.send_stream(stream, b"out".to_vec());

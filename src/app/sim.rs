@@ -1,30 +1,23 @@
-//! `spandrel sim`: sockets and pace around the sans-IO vehicle.
+//! `spandrel sim`: vehicles at a site, each in a thread of its own.
 
 use super::args::{self, JobArgs};
-use super::clock::{self, Stopwatch};
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::key;
-use super::pace::{PATIENCE, Pace, Patience, Speed};
-use super::ports::{Change, Face, Links, PortArgs};
+use super::links::Links;
+use super::pace::Speed;
+use super::ports::PortArgs;
 use super::progress::Progress;
+use super::shell::{Shell, Signing};
 use super::stop::Stop;
 use super::store::Store;
 use crate::base::time::SimTime;
-use crate::mav::signing::stamp;
 use crate::site::Site;
-use crate::sitl::endpoint::files::job::FileError;
-use crate::sitl::endpoint::{LinkId, LinkKind};
-use crate::sitl::sim::{Sim, SimConfig, SimEvent};
+use crate::sitl::endpoint::LinkKind;
+use crate::sitl::sim::{Sim, SimConfig};
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
-
-/// Longest wait, so that requests to stop and silent peers are noticed.
-const LOOK: Duration = Duration::from_millis(100);
-/// Shortest sleep: ticks every millisecond would only keep the machine awake, and an arrival ends the sleep anyway.
-const REST: Duration = Duration::from_millis(2);
 
 /// Simulate the vehicle
 ///
@@ -35,6 +28,8 @@ const REST: Duration = Duration::from_millis(2);
 Examples:
   spandrel sim                                      two bridges, real time, fixed ports
   spandrel sim --instance 1 --speed 4               a second vehicle beside it, four times real time
+  spandrel sim --instances 3                        three vehicles in one process: systems 1 to 3, ports + 0, 1, 2
+  spandrel sim --serial /dev/ttyUSB0:57600          a telemetry radio as well, no faster than it can carry
   spandrel sim --ports ephemeral --announce         free ports, told as one JSON line
   spandrel sim --speed max --gcs 127.0.0.1:9000 --lockstep 127.0.0.1:9000
                                                     flat out, in step with a client that answers TIMESYNC
@@ -52,13 +47,21 @@ pub struct Args {
     lockstep: Vec<SocketAddr>,
     #[command(flatten)]
     ports: PortArgs,
-    /// Folder that is served over MAVLink FTP; the flights' logs (ULog) are written to its folder log [default: none is served or written]
+    /// Vehicles in this process, 1 to 50, side by side at the same site; they pass through each other. System ids and ports count up from
+    /// --instance and from every port that is given
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
+    instances: u8,
+    /// Folder that is served over MAVLink FTP; the flights' logs (ULog) are written to its folder log. With several vehicles each has a
+    /// folder in it, named by its system id [default: none is served or written]
     #[arg(long, value_name = "DIR")]
     files: Option<PathBuf>,
     /// File with the MAVLink signing key, readable by its owner alone: 64 hexadecimal digits, or a passphrase as MAVProxy takes it. What
     /// is not signed with it does nothing [default: no signatures]
     #[arg(long, value_name = "FILE")]
     signing_key: Option<PathBuf>,
+    /// Kind of link whose frames act without a signature all the same; may be repeated. Only links that nobody else can reach should
+    #[arg(long, value_name = "KIND", requires = "signing_key")]
+    unsigned: Vec<Trusted>,
     /// End after this much simulation time, s
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     end_after: Option<SimTime>,
@@ -82,172 +85,132 @@ fn seconds(text: &str) -> Result<SimTime, String> {
     }
 }
 
+/// A kind of link, as named on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Trusted {
+    /// Ground stations over UDP
+    Gcs,
+    /// The SDK that is called
+    Sdk,
+    /// The monitor and other sidecars
+    Payload,
+    /// Ground stations over TCP
+    Tcp,
+    /// Serial ports
+    Serial,
+}
+
+impl Trusted {
+    fn kind(self) -> LinkKind {
+        match self {
+            Self::Gcs => LinkKind::GroundStation,
+            Self::Sdk => LinkKind::Sdk,
+            Self::Payload => LinkKind::Payload,
+            Self::Tcp => LinkKind::Tcp,
+            Self::Serial => LinkKind::Serial,
+        }
+    }
+}
+
 /// Runs the subcommand.
 ///
 /// # Errors
 /// When files or ports are wrong, or a lockstep peer vanishes.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = Stop::install(args.leash)?;
-    let scenario = files::scenario(&args.job.scenario)?.scenario;
-    let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
+    let scenario = Arc::new(files::scenario(&args.job.scenario)?.scenario);
+    let vehicle = Arc::new(files::vehicle(&args.job.vehicle)?.vehicle);
     let seed = args.job.seed.or(scenario.seed).unwrap_or_else(args::fresh_seed);
-    let key = args.signing_key.as_deref().map(key::read).transpose()?;
-    if key.is_none() && !args.ports.listen.is_loopback() {
-        tracing::warn!("--listen {} without --signing-key: whoever reaches this machine can fly the vehicle", args.ports.listen);
-    }
-    let store = args.files.as_deref().map(Store::open).transpose()?;
-    let mut links = Links::open(&args.ports, &args.lockstep)?;
-    let mut progress = Progress::start("building the site");
+    let signing = signing(args)?;
+    let mut doors = (0..args.instances).map(|more| Door::open(args, more)).collect::<Result<Vec<_>, _>>()?;
+    let progress = Progress::start("building the site");
     let site = Arc::new(Site::build(&scenario, seed));
-    links.bound["seed"] = seed.into();
-    if args.announce {
-        println!("{}", links.bound);
+    for door in &mut doors {
+        door.links.bound["seed"] = seed.into();
+        if args.announce {
+            println!("{}", door.links.bound);
+        }
+        tracing::info!("{} with {}, seed {seed}, ports {}", scenario.name, vehicle.name, door.links.bound);
     }
-    tracing::info!("{} with {}, seed {seed}, ports {}", scenario.name, vehicle.name, links.bound);
-    let config = SimConfig { scenario: Arc::new(scenario), vehicle: Arc::new(vehicle), seed, instance: args.ports.instance };
-    let watch = Stopwatch::start();
-    let pace = Pace::new(args.speed, watch.elapsed());
-    let mut core = Sim::new(config, site);
-    core.set_pace(args.speed.client_pace());
-    let mut shell = Shell { core, links, pace, watch, patience: Patience::default(), store, signs: false };
-    if shell.store.is_some() {
-        shell.core.serve_files();
-        shell.core.record();
-    }
-    if let Some(key) = key {
-        shell.signs = true;
-        shell.core.demand_signatures(key, stamp(clock::unix_us()));
-    }
-    let end = args.end_after.unwrap_or(SimTime::NEVER);
-    while !stop.asked() && shell.core.now() < end {
-        shell.turn(end)?;
-        progress.tell(|| format!("simulation time {}", shell.core.now()));
-    }
-    progress.end();
-    shell.farewell();
+    let shells: Vec<Shell> = doors
+        .into_iter()
+        .map(|Door { links, store, instance }| {
+            let config = SimConfig { scenario: scenario.clone(), vehicle: vehicle.clone(), seed, instance };
+            Shell::new(Sim::new(config, site.clone()), links, args.speed, store, signing.clone())
+        })
+        .collect();
+    let digests = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
     if args.digest {
-        let digest = shell.core.digest();
-        println!("{}", digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
+        for digest in digests {
+            println!("{}", digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
+        }
     }
     Ok(())
 }
 
-struct Shell {
-    core: Sim,
+fn signing(args: &Args) -> Result<Option<Signing>, AppError> {
+    let listen = args.ports.listen;
+    let key = args.signing_key.as_deref().map(key::read).transpose()?;
+    if key.is_none() && !listen.is_loopback() {
+        tracing::warn!("--listen {listen} without --signing-key: whoever reaches this machine can fly the vehicle");
+    }
+    let unsigned: Vec<LinkKind> = args.unsigned.iter().map(|trusted| trusted.kind()).collect();
+    if !unsigned.is_empty() && !listen.is_loopback() {
+        tracing::warn!("--listen {listen} with --unsigned: whoever reaches these ports can fly the vehicle");
+    }
+    Ok(key.map(|key| Signing { key, unsigned }))
+}
+
+/// What one vehicle has of the outside world.
+struct Door {
     links: Links,
-    pace: Pace,
-    watch: Stopwatch,
-    patience: Patience,
     store: Option<Store>,
-    signs: bool,
+    instance: u8,
 }
 
-impl Shell {
-    /// Takes in what has come, lets time pass, sends what is due, rests.
-    fn turn(&mut self, end: SimTime) -> Result<(), AppError> {
-        while let Some(change) = self.links.poll() {
-            self.apply(change);
-        }
-        self.links.forget_silent();
-        if self.signs {
-            self.core.tell_stamp(stamp(clock::unix_us()));
-        }
-        let wall = self.watch.elapsed();
-        if !self.core.waiting() {
-            let target = self.pace.target(wall, self.core.now()).min(end);
-            self.core.handle_timeout(target);
-        }
-        self.keep_files();
-        while let Some(datagram) = self.core.poll_transmit() {
-            self.links.send(datagram.link.0, datagram.bytes);
-        }
-        while let Some(event) = self.core.poll_event() {
-            self.tell(&event);
-        }
-        self.rest()
-    }
-
-    /// Does what clients ask of files, and writes the log.
-    fn keep_files(&mut self) {
-        while let Some(job) = self.core.poll_file_job() {
-            let outcome = self.store.as_ref().map_or(Err(FileError::NotFound), |store| store.work(&job.action));
-            self.core.file_job_done(job.ticket, outcome);
-        }
-        while let Some(piece) = self.core.poll_log() {
-            if let Some(Err(error)) = self.store.as_mut().map(|store| store.log(&piece)) {
-                tracing::warn!("the flight's log is not written: {error}");
-            }
-        }
-    }
-
-    fn apply(&mut self, change: Change) {
-        match change {
-            Change::Opened { link, face, lockstep } => self.core.open_link(LinkId(link), kind(face), lockstep),
-            Change::Bytes { link, bytes } => self.core.handle_datagram(LinkId(link), &bytes),
-            Change::Closed { link } => self.core.close_link(LinkId(link)),
-        }
-    }
-
-    /// Waits for the next tick, or for the peers that time waits for.
-    fn rest(&mut self) -> Result<(), AppError> {
-        let wall = self.watch.elapsed();
-        if self.core.waiting() {
-            if self.patience.is_over(self.core.now(), wall) {
-                return Err(AppError::failed(format!(
-                    "a peer in lockstep has not answered TIMESYNC for {} s at {} and seems to be gone",
-                    PATIENCE.as_secs(),
-                    self.core.now()
-                )));
-            }
-            self.links.wait(LOOK);
-            return Ok(());
-        }
-        let sleep = self.pace.sleep(wall, self.core.poll_timeout());
-        if !sleep.is_zero() {
-            self.links.wait(sleep.clamp(REST, LOOK));
-        }
-        Ok(())
-    }
-
-    fn tell(&self, event: &SimEvent) {
-        let now = self.core.now();
-        match event {
-            SimEvent::LiftOff => tracing::info!("{now}: lift-off"),
-            SimEvent::Crash { what, impact_m_s } => tracing::info!("{now}: touched {what} at {impact_m_s:.1} m/s"),
-            SimEvent::Respawn => tracing::info!("{now}: put back at the last safe hover"),
-            SimEvent::BatteryEmpty => tracing::info!("{now}: the battery is empty"),
-            SimEvent::Ended { reason } => tracing::info!("{now}: the flight is over: {reason}"),
-        }
-    }
-
-    fn farewell(&mut self) {
-        self.core.stop_recording();
-        self.keep_files();
-        let slipped = self.pace.slipped();
-        if slipped >= Duration::from_secs(1) {
-            tracing::warn!("the machine could not keep up: {:.1} s of wall time were lost", slipped.as_secs_f64());
-        }
-        if self.core.bad_bytes() > 0 {
-            tracing::warn!("{} bytes from clients belonged to no MAVLink frame", self.core.bad_bytes());
-        }
-        let bad = self.core.bad_bytes() + self.links.bad_bytes();
-        if bad > 0 {
-            tracing::warn!("{bad} bytes belonged to no MAVLink frame and were skipped");
-        }
-        if self.core.refused() > 0 {
-            tracing::warn!("{} frames without a good signature did nothing", self.core.refused());
-        }
-        if self.links.dropped() > 0 {
-            tracing::warn!("{} datagrams found a queue full", self.links.dropped());
-        }
+impl Door {
+    fn open(args: &Args, more: u8) -> Result<Self, AppError> {
+        let ports = args.ports.of(more);
+        let instance = ports.instance;
+        let folder = |root: &PathBuf| if args.instances == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
+        let store = args.files.as_ref().map(folder).map(|folder| Store::open(&folder)).transpose()?;
+        Ok(Self { links: Links::open(&ports, &args.lockstep)?, store, instance })
     }
 }
 
-fn kind(face: Face) -> LinkKind {
-    match face {
-        Face::GroundStation => LinkKind::GroundStation,
-        Face::Tcp => LinkKind::Tcp,
-        Face::Sdk => LinkKind::Sdk,
-        Face::Payload => LinkKind::Payload,
+/// Every vehicle in a thread of its own until the end; what goes wrong with one ends all. Gives their digests.
+fn fly(shells: Vec<Shell>, end: SimTime, stop: &Stop, progress: Progress) -> Result<Vec<[u8; 32]>, AppError> {
+    let mut progress = Some(progress);
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = shells
+            .into_iter()
+            .map(|shell| {
+                let progress = progress.take();
+                scope.spawn(move || fly_one(shell, end, stop, progress))
+            })
+            .collect();
+        let ended = threads.into_iter().map(|thread| {
+            thread
+                .join()
+                .unwrap_or_else(|_| Err(AppError::failed("a vehicle's thread broke off: this is a fault of the program")))
+        });
+        ended.collect::<Vec<_>>().into_iter().collect()
+    })
+}
+
+fn fly_one(mut shell: Shell, end: SimTime, stop: &Stop, mut progress: Option<Progress>) -> Result<[u8; 32], AppError> {
+    while !stop.asked() && shell.core.now() < end {
+        if let Err(error) = shell.turn(end) {
+            stop.ask();
+            return Err(error);
+        }
+        if let Some(progress) = &mut progress {
+            progress.tell(|| format!("simulation time {}", shell.core.now()));
+        }
     }
+    if let Some(progress) = progress {
+        progress.end();
+    }
+    shell.farewell();
+    Ok(shell.core.digest())
 }

@@ -40,7 +40,8 @@ impl Stop {
         self.0.load(Ordering::Relaxed)
     }
 
-    fn ask(&self) {
+    /// Asks everybody who looks to end.
+    pub fn ask(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 

@@ -1,6 +1,7 @@
 //! One simulation step, in a written order (design.md, "One simulation step"). Sans-IO: datagrams and times come in, datagrams go out.
 
 mod consequences;
+pub mod inbox;
 
 use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
@@ -18,6 +19,7 @@ use crate::scenario::Scenario;
 use crate::site::Site;
 use crate::site::wind::WindField;
 use crate::vehicle::Vehicle;
+use inbox::Inbox;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -93,7 +95,7 @@ pub struct Sim {
     battery_told: bool,
     pace: f64,
     waiting: BTreeMap<LinkId, i64>,
-    inbox: VecDeque<(LinkId, Vec<u8>)>,
+    inbox: Inbox,
     events: VecDeque<SimEvent>,
     digest: Sha256,
     recorder: Recorder,
@@ -166,7 +168,7 @@ impl Sim {
             battery_told: false,
             pace: 1.0,
             waiting: BTreeMap::new(),
-            inbox: VecDeque::new(),
+            inbox: Inbox::default(),
             events: VecDeque::new(),
             digest: Sha256::new(),
             recorder: Recorder::default(),
@@ -181,9 +183,15 @@ impl Sim {
         self.keep_pace();
     }
 
+    /// A link carries no more than so many bytes a second.
+    pub fn limit_link(&mut self, link: LinkId, bytes_s: f64) {
+        self.endpoint.limit(link, bytes_s, self.now);
+    }
+
     /// A peer is gone; nobody waits for it any more.
     pub fn close_link(&mut self, link: LinkId) {
         self.endpoint.close(link);
+        self.inbox.close(link);
         self.waiting.remove(&link);
         self.keep_pace();
     }
@@ -209,6 +217,12 @@ impl Sim {
         self.endpoint.bad_bytes()
     }
 
+    /// Datagrams that came faster than they may act, and frames that a link could not carry.
+    #[must_use]
+    pub fn dropped(&self) -> u64 {
+        self.inbox.dropped() + self.endpoint.dropped()
+    }
+
     /// Simulation time.
     #[must_use]
     pub fn now(&self) -> SimTime {
@@ -227,9 +241,10 @@ impl Sim {
         self.ended.as_deref()
     }
 
-    /// Takes in a datagram. It acts at the next tick; in step, after every answer is in, in the order of the links.
+    /// Takes in a datagram. It acts at the next tick, or a later one when its link sends more than [`inbox`] lets act in one; in step,
+    /// after every answer is in, in the order of the links.
     pub fn handle_datagram(&mut self, link: LinkId, bytes: &[u8]) {
-        self.inbox.push_back((link, bytes.to_vec()));
+        self.inbox.push(link, bytes);
         if !self.waiting.is_empty() {
             self.look_for_answers(link, bytes);
         }
@@ -270,9 +285,10 @@ impl Sim {
         self.events.pop_front()
     }
 
-    /// Signs everything and lets nothing act that is not signed with this key; `stamp` is the signing timestamp of now.
-    pub fn demand_signatures(&mut self, key: Key, stamp: u64) {
-        self.endpoint.demand_signatures(key, stamp);
+    /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
+    /// trusted; `stamp` is the signing timestamp of now.
+    pub fn demand_signatures(&mut self, key: Key, stamp: u64, trusted: &[LinkKind]) {
+        self.endpoint.demand_signatures(key, stamp, trusted);
     }
 
     /// The signing timestamp of now.
@@ -347,14 +363,9 @@ impl Sim {
         true
     }
 
-    /// What has arrived acts now: link by link, and within a link in the order of arrival.
+    /// What has arrived acts now, as far as this tick's share of each link goes.
     fn take_inbox(&mut self) {
-        if self.inbox.is_empty() {
-            return;
-        }
-        let mut inbox: Vec<(LinkId, Vec<u8>)> = std::mem::take(&mut self.inbox).into();
-        inbox.sort_by_key(|(link, _)| *link);
-        for (link, bytes) in inbox {
+        for (link, bytes) in self.inbox.take(self.now) {
             self.digest.update(&bytes);
             self.read(link, &bytes);
         }

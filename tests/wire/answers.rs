@@ -34,6 +34,10 @@ fn wire_every_command_number_gets_one_answer_and_strangers_get_none() {
     while station.sim.poll_transmit().is_some() {}
     let mut encoder = Encoder::new(255, 190);
     for number in 0..=u16::MAX {
+        // A tick each: no link may do more than a few things in one.
+        let next = station.sim.poll_timeout();
+        station.sim.handle_timeout(next);
+        while station.sim.poll_transmit().is_some() {}
         for id in [75, 76] {
             for (target, speaker) in [((1, 1), 1), ((1, 0), 1), ((1, 100), 100)] {
                 let got = acknowledgements(&mut station.sim, &mut encoder, id, number, target);

@@ -3,6 +3,7 @@
 mod answers;
 mod flights;
 mod manual;
+mod network;
 mod noise;
 mod offboard;
 mod payload;

@@ -17,7 +17,7 @@ fn key() -> Key {
 fn signed_vehicle() -> Sim {
     let mut sim = Station::new("drill-hover", 7).sim;
     sim.open_link(SIDECAR, LinkKind::Payload, false);
-    sim.demand_signatures(key(), NOW);
+    sim.demand_signatures(key(), NOW, &[]);
     sim.tell_stamp(NOW);
     sim
 }
@@ -93,5 +93,20 @@ fn wire_a_sidecar_without_the_key_is_heard_by_others_and_commands_nothing() {
     sim.handle_datagram(SIDECAR, &monitor.encode(&text));
     assert_eq!(heard(&mut sim), [(GCS, "text")]);
     sim.handle_datagram(SIDECAR, &lamp_on(&mut monitor));
+    assert_eq!(heard(&mut sim), []);
+}
+
+#[test]
+fn wire_an_unsigned_frame_acts_on_trusted_kinds_of_links_alone_and_a_forged_one_nowhere() {
+    let mut sim = Station::new("drill-hover", 7).sim;
+    sim.open_link(SIDECAR, LinkKind::Sdk, false);
+    sim.demand_signatures(key(), NOW, &[LinkKind::Sdk]);
+    let mut encoder = Encoder::new(255, 190);
+    sim.handle_datagram(SIDECAR, &lamp_on(&mut encoder));
+    assert_eq!(heard(&mut sim), [(SIDECAR, "ack")]);
+    sim.handle_datagram(GCS, &lamp_on(&mut encoder));
+    assert_eq!(heard(&mut sim), []);
+    let mut stranger = Signing::new(Key::of_passphrase("another bridge"), 9, NOW);
+    sim.handle_datagram(SIDECAR, &stranger.sign(lamp_on(&mut encoder), NOW));
     assert_eq!(heard(&mut sim), []);
 }

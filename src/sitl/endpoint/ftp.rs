@@ -1,8 +1,8 @@
 //! Files over MAVLink: the message around the packets of the file server.
 
-use super::Endpoint;
 use super::arrival::Arrival;
 use super::streams::AUTOPILOT;
+use super::{Endpoint, LinkId};
 use crate::mav::dialect::{FILE_TRANSFER_PROTOCOL_DATA, MavMessage};
 use crate::mav::ftp::{Packet, Refusal};
 
@@ -18,7 +18,9 @@ pub(super) fn refuse(e: &mut Endpoint, component: u8, request: &FILE_TRANSFER_PR
 
 /// What the server has to say goes out.
 pub(super) fn speak(e: &mut Endpoint) {
-    for ((link, to), packet) in e.files.poll() {
+    let links = &e.links;
+    let ready = |link: &LinkId| links.get(link).is_none_or(|link| !link.is_busy());
+    for ((link, to), packet) in e.files.poll(ready) {
         e.answer_as(AUTOPILOT, link, &message(to, &packet));
     }
 }

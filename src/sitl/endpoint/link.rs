@@ -1,6 +1,7 @@
 //! One link: who is behind it, what it is sent and how often, and what waits to go out.
 
 use super::LinkKind;
+use super::budget::Budget;
 use super::streams::STREAMS;
 use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Encoder};
@@ -10,8 +11,16 @@ use std::collections::{BTreeMap, VecDeque};
 
 /// Frames are packed into datagrams of at most this size, bytes (below the usual path limit).
 const DATAGRAM: usize = 1_200;
-/// Fastest stream that may be asked for, Hz.
-const FASTEST_HZ: f64 = 250.0;
+/// Datagrams of a link that carries fewer bytes a second, bytes: one frame soon rather than many later.
+const SMALL_DATAGRAM: usize = 280;
+/// Fastest stream that may be asked for, Hz: the control loop's rate.
+const FASTEST_HZ: f64 = 400.0;
+/// Waiting bytes of a link without a limit; the shell empties it at every turn.
+const MOST_WAITING: usize = 4_194_304;
+/// Frames of one link that are handed on to others in one tick.
+const HANDED_ON_A_TICK: usize = 16;
+/// Heartbeats are never slowed: clients tell by them that we are there.
+const HEARTBEAT: u32 = 0;
 
 /// One peer.
 #[derive(Debug, Clone)]
@@ -28,6 +37,10 @@ pub struct Link {
     every: Vec<Option<SimTime>>,
     soonest: SimTime,
     out: VecDeque<Vec<u8>>,
+    waiting: usize,
+    dropped: u64,
+    handed_on: (SimTime, usize),
+    budget: Option<Budget>,
     signing: Option<Signing>,
     /// The signing timestamp of now.
     pub stamp: u64,
@@ -49,25 +62,62 @@ impl Link {
             every,
             soonest: now,
             out: VecDeque::new(),
+            waiting: 0,
+            dropped: 0,
+            handed_on: (now, 0),
+            budget: None,
             signing: None,
             stamp: 0,
         }
     }
 
-    /// Rows of the stream table that are due, each once; their next time is set.
+    /// The link carries no more than so many bytes a second.
+    pub fn limit(&mut self, bytes_s: f64, now: SimTime) {
+        let frames_s = self.every.iter().flatten().map(|every| 1.0 / every.s()).sum();
+        self.budget = Some(Budget::new(bytes_s, frames_s, now));
+    }
+
+    /// It has a limit.
+    #[must_use]
+    pub fn is_limited(&self) -> bool {
+        self.budget.is_some()
+    }
+
+    /// As much waits as should: lists and files wait, streams and forwarded frames are left out.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.budget.as_ref().is_some_and(|budget| budget.busy(self.waiting))
+    }
+
+    /// Frames that found no room.
+    #[must_use]
+    pub fn dropped(&self) -> u64 {
+        self.dropped
+    }
+
+    /// Rows of the stream table that are due, each once; their next time is set, later on a link whose capacity they would exceed.
     pub fn due(&mut self, now: SimTime, out: &mut Vec<usize>) {
         out.clear();
+        if let Some(budget) = &mut self.budget {
+            budget.advance(now);
+        }
         if now < self.soonest {
             return;
         }
+        let stretch = self.budget.as_ref().map_or(1.0, Budget::stretch);
+        let busy = self.is_busy();
         let mut soonest = SimTime::NEVER;
         for (k, every) in self.every.iter().enumerate() {
             let Some(every) = every else { continue };
+            let steady = STREAMS[k].id == HEARTBEAT;
             if self.next[k] <= now {
-                out.push(k);
-                self.next[k] += *every;
+                if steady || !busy {
+                    out.push(k);
+                }
+                let every = if steady || stretch <= 1.0 { *every } else { SimTime::from_s(every.s() * stretch) };
+                self.next[k] += every;
                 if self.next[k] <= now {
-                    self.next[k] = now + *every;
+                    self.next[k] = now + every;
                 }
             }
             soonest = soonest.min(self.next[k]);
@@ -101,6 +151,35 @@ impl Link {
         self.signing = signing;
     }
 
+    /// Queues a message of a stream.
+    pub fn stream(&mut self, component: u8, message: &MavMessage) {
+        let before = self.waiting;
+        self.send(component, message);
+        if let Some(budget) = &mut self.budget {
+            budget.note_streamed(self.waiting - before);
+        }
+    }
+
+    /// Counts a frame of this link that is handed on to others; false when it has sent too many in this tick.
+    pub fn may_hand_on(&mut self, now: SimTime) -> bool {
+        if self.handed_on.0 != now {
+            self.handed_on = (now, 0);
+        }
+        self.handed_on.1 += 1;
+        let may = self.handed_on.1 <= HANDED_ON_A_TICK;
+        self.dropped += u64::from(!may);
+        may
+    }
+
+    /// Queues a frame that somebody else sent.
+    pub fn hand_on(&mut self, frame: Vec<u8>) {
+        if self.is_busy() {
+            self.dropped += 1;
+        } else {
+            self.queue(frame);
+        }
+    }
+
     /// Queues a message of one of our components.
     pub fn send(&mut self, component: u8, message: &MavMessage) {
         let frame = self.encoder(component).encode(message);
@@ -127,19 +206,29 @@ impl Link {
         self.encoders.entry(component).or_insert_with(|| Encoder::new(system, component))
     }
 
-    /// Queues a whole frame.
-    pub fn queue(&mut self, frame: Vec<u8>) {
-        const MOST_WAITING: usize = 4_000;
-        let full = self.out.len() >= MOST_WAITING;
+    fn queue(&mut self, frame: Vec<u8>) {
+        let (most, datagram) = match &self.budget {
+            Some(budget) => (budget.most_waiting(), SMALL_DATAGRAM),
+            None => (MOST_WAITING, DATAGRAM),
+        };
+        if self.waiting + frame.len() > most {
+            self.dropped += 1;
+            return;
+        }
+        self.waiting += frame.len();
         match self.out.back_mut() {
-            Some(last) if last.len() + frame.len() <= DATAGRAM => last.extend(frame),
-            _ if full => {}
+            Some(last) if last.len() + frame.len() <= datagram => last.extend(frame),
             _ => self.out.push_back(frame),
         }
     }
 
-    /// The next datagram.
+    /// The next datagram that the link can carry now.
     pub fn poll(&mut self) -> Option<Vec<u8>> {
+        let len = self.out.front()?.len();
+        if self.budget.as_mut().is_some_and(|budget| !budget.take(len)) {
+            return None;
+        }
+        self.waiting -= len;
         self.out.pop_front()
     }
 }

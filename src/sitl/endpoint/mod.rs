@@ -1,6 +1,7 @@
 //! The vehicle's MAVLink face: PX4-compatible. Datagrams of every link come in, what is due goes out; nothing here reads a clock.
 
 mod arrival;
+pub mod budget;
 pub mod camera;
 pub mod commands;
 mod control;
@@ -53,6 +54,8 @@ pub enum LinkKind {
     Payload,
     /// A ground station over TCP.
     Tcp,
+    /// A radio or a cable on a serial port.
+    Serial,
 }
 
 /// A datagram to be sent.
@@ -127,6 +130,7 @@ pub struct Endpoint {
     truth_rates: TruthRates,
     sent: Scoring,
     bad_bytes: u64,
+    gone_dropped: u64,
     row_buffer: Vec<usize>,
 }
 
@@ -169,6 +173,7 @@ impl Endpoint {
             truth_rates: TruthRates { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2) },
             sent: Scoring::default(),
             bad_bytes: 0,
+            gone_dropped: 0,
             row_buffer: Vec::new(),
         }
     }
@@ -180,9 +185,23 @@ impl Endpoint {
         self.links.insert(id, link);
     }
 
-    /// Signs everything and lets nothing act that is not signed with this key; `stamp` is the signing timestamp of now.
-    pub fn demand_signatures(&mut self, key: Key, stamp: u64) {
-        let guard = Guard::new(key, stamp);
+    /// A link carries no more than so many bytes a second: streams slow down, lists wait, the values for the scoring are left out.
+    pub fn limit(&mut self, id: LinkId, bytes_s: f64, now: SimTime) {
+        if let Some(link) = self.links.get_mut(&id) {
+            link.limit(bytes_s, now);
+        }
+    }
+
+    /// Frames that found no room on a link, or were more than a peer may send to the others.
+    #[must_use]
+    pub fn dropped(&self) -> u64 {
+        self.gone_dropped + self.links.values().map(Link::dropped).sum::<u64>()
+    }
+
+    /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
+    /// trusted; `stamp` is the signing timestamp of now.
+    pub fn demand_signatures(&mut self, key: Key, stamp: u64, trusted: &[LinkKind]) {
+        let guard = Guard::new(key, stamp, trusted);
         for (id, link) in &mut self.links {
             link.sign_with(Some(guard.signer(id.0 as u8)));
         }
@@ -205,7 +224,7 @@ impl Endpoint {
 
     /// A peer is gone.
     pub fn close(&mut self, id: LinkId) {
-        self.links.remove(&id);
+        self.gone_dropped += self.links.remove(&id).map_or(0, |link| link.dropped());
         self.router.close(id);
         self.param_lists.remove(&id);
         self.files.forget(id);
@@ -328,7 +347,7 @@ impl Endpoint {
             link.due(view.now, &mut rows);
             for row in &rows {
                 if let Some(message) = (STREAMS[*row].build)(view) {
-                    link.send(STREAMS[*row].component, &message);
+                    link.stream(STREAMS[*row].component, &message);
                 }
             }
         }
@@ -363,8 +382,8 @@ impl Endpoint {
             out.push(truth::named_float(view, "lux", s.lux));
         }
         self.sent = *s;
-        for message in &out {
-            self.broadcast(AUTOPILOT, message);
+        for link in self.links.values_mut().filter(|link| !link.is_limited()) {
+            out.iter().for_each(|message| link.send(AUTOPILOT, message));
         }
     }
 
@@ -408,6 +427,9 @@ impl Endpoint {
         for (id, list) in &mut self.param_lists {
             let Some(link) = self.links.get_mut(id) else { continue };
             for _ in 0..PARAMS_A_TICK {
+                if link.is_busy() {
+                    break;
+                }
                 let Some(index) = list.pop_front() else { break };
                 if let Some((name, value)) = self.params.at(index) {
                     link.send(AUTOPILOT, &exchange::param_value(name, value, index, count));

@@ -7,6 +7,7 @@ use super::guard::Admitted;
 use super::streams::{AUTOPILOT, CAMERA};
 use super::view::View;
 use super::{Context, Endpoint, LinkId, control, exchange, ftp};
+use crate::base::time::SimTime;
 use crate::mav::codec::Received;
 use crate::mav::dialect::*;
 use crate::mav::router;
@@ -80,7 +81,7 @@ impl Endpoint {
             }
             let admitted = self.guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(&frame, kind));
             if admitted != Admitted::No {
-                self.route(id, &frame);
+                self.route(id, &frame, view.now);
             }
             if admitted == Admitted::Acts {
                 self.act(id, &frame, view, autopilot);
@@ -89,16 +90,20 @@ impl Endpoint {
         answers
     }
 
-    fn route(&mut self, from: LinkId, frame: &Received) {
+    fn route(&mut self, from: LinkId, frame: &Received, now: SimTime) {
         // Nobody may speak in our own components' names.
         if frame.system_id == self.system_id && matches!(frame.component_id, AUTOPILOT | CAMERA) {
             return;
         }
         self.router.note(from, frame);
         let all: Vec<LinkId> = self.links.keys().copied().collect();
-        for onward in self.router.onward(from, frame, &all) {
+        let onward = self.router.onward(from, frame, &all);
+        if onward.is_empty() || !self.links.get_mut(&from).is_some_and(|link| link.may_hand_on(now)) {
+            return;
+        }
+        for onward in onward {
             if let Some(link) = self.links.get_mut(&onward) {
-                link.queue(frame.bytes.clone());
+                link.hand_on(frame.bytes.clone());
             }
         }
     }

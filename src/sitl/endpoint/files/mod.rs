@@ -76,10 +76,14 @@ impl Server {
         self.jobs.pop_front()
     }
 
-    /// Answers that may go out in this tick: all but bursts at once, bursts a few at a time.
-    pub fn poll(&mut self) -> Vec<(Client, Packet)> {
-        let few = self.bursts.len().min(PACKETS_A_TICK);
-        self.answers.drain(..).chain(self.bursts.drain(..few)).collect()
+    /// Answers that may go out in this tick: all but bursts at once, bursts a few at a time on links that are ready for them.
+    pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(Client, Packet)> {
+        let mut out: Vec<_> = self.answers.drain(..).collect();
+        for _ in 0..PACKETS_A_TICK {
+            let Some(place) = self.bursts.iter().position(|(client, _)| ready(&client.0)) else { break };
+            out.extend(self.bursts.remove(place));
+        }
+        out
     }
 
     /// A request came in.

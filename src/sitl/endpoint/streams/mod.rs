@@ -34,7 +34,7 @@ impl Stream {
     #[must_use]
     pub fn rate_hz(&self, kind: LinkKind) -> f64 {
         match kind {
-            LinkKind::GroundStation | LinkKind::Tcp => self.rates_hz[0],
+            LinkKind::GroundStation | LinkKind::Tcp | LinkKind::Serial => self.rates_hz[0],
             LinkKind::Sdk => self.rates_hz[1],
             LinkKind::Payload => self.rates_hz[2],
         }

@@ -1,0 +1,295 @@
+//! Who is behind the vehicle's ports: fixed targets that are called unasked, peers learned by their source address, clients over TCP
+//! and serial ports.
+
+use super::clock::Stopwatch;
+use super::errors::AppError;
+use super::net::{Arrival, Hub, Origin, SocketId, StreamId};
+use super::ports::{GCS_PORT, PAYLOAD_PORT, PortArgs, local};
+use crate::mav::codec::Decoder;
+use crate::sitl::endpoint::LinkKind;
+use std::collections::{BTreeMap, VecDeque};
+use std::net::SocketAddr;
+use std::time::Duration;
+
+/// A learned peer that is silent this long is forgotten.
+const FORGET: Duration = Duration::from_secs(15);
+/// Peers that are learned at most: a flood of source addresses must not grow without bound.
+const LEARNED_MAX: usize = 64;
+
+/// What happened to links.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Change {
+    /// A peer is there from now on.
+    Opened {
+        /// Its link.
+        link: u32,
+        /// Its kind.
+        kind: LinkKind,
+        /// It is asked to keep step.
+        lockstep: bool,
+        /// What it carries, bytes a second, if that is limited.
+        limit: Option<f64>,
+    },
+    /// Bytes: a datagram, or one whole frame of a stream.
+    Bytes {
+        /// From which link.
+        link: u32,
+        /// What.
+        bytes: Vec<u8>,
+    },
+    /// The peer is gone.
+    Closed {
+        /// Its link.
+        link: u32,
+    },
+}
+
+#[derive(Debug)]
+enum Route {
+    Fixed { socket: SocketId, peer: SocketAddr },
+    Learned { socket: SocketId, peer: SocketAddr, heard: Duration },
+    Stream { stream: StreamId, decoder: Decoder },
+}
+
+/// All links of the vehicle.
+#[derive(Debug)]
+pub struct Links {
+    hub: Hub,
+    kinds: BTreeMap<SocketId, LinkKind>,
+    routes: BTreeMap<u32, Route>,
+    by_peer: BTreeMap<(SocketId, SocketAddr), u32>,
+    by_stream: BTreeMap<StreamId, u32>,
+    lockstep: Vec<SocketAddr>,
+    limit: Option<f64>,
+    changes: VecDeque<Change>,
+    opened: u32,
+    bad_bytes: u64,
+    watch: Stopwatch,
+    /// The ports that were bound, as announced.
+    pub bound: serde_json::Value,
+}
+
+impl Links {
+    /// Opens every port and the links to those who are called unasked. Fixed links are numbered in one order in every run.
+    ///
+    /// # Errors
+    /// When a port cannot be opened, or a lockstep peer is not among those who are called.
+    pub fn open(args: &PortArgs, lockstep: &[SocketAddr]) -> Result<Self, AppError> {
+        let mut hub = Hub::new();
+        let bind = |hub: &mut Hub, port: Option<u16>, flag| port.map(|port| hub.bind(args.listen, port, flag)).transpose();
+        let stations = args.ground_stations();
+        let gcs = bind(&mut hub, args.port(args.gcs_port, GCS_PORT).or((!stations.is_empty()).then_some(0)), "--gcs-port")?;
+        let payload = bind(&mut hub, args.port(args.payload_port, PAYLOAD_PORT), "--payload-port")?;
+        let sdk = bind(&mut hub, args.sdk().map(|_| 0), "--sdk")?;
+        let tcp = args.tcp().map(|port| hub.serve(args.listen, port, "--tcp-port")).transpose()?;
+        for device in &args.serial {
+            hub.serve_serial(device)?;
+        }
+        let port = |socket: Option<SocketId>| socket.map(|socket| hub.port(socket));
+        let bound = serde_json::json!({ "system_id": args.instance + 1, "gcs_port": port(gcs), "payload_port": port(payload), "tcp_port": tcp });
+        let kinds = [(gcs, LinkKind::GroundStation), (payload, LinkKind::Payload), (sdk, LinkKind::Sdk)];
+        let mut links = Self {
+            hub,
+            kinds: kinds.into_iter().filter_map(|(socket, kind)| Some((socket?, kind))).collect(),
+            routes: BTreeMap::new(),
+            by_peer: BTreeMap::new(),
+            by_stream: BTreeMap::new(),
+            lockstep: lockstep.to_vec(),
+            limit: args.gcs_limit.map(f64::from),
+            changes: VecDeque::new(),
+            opened: 0,
+            bad_bytes: 0,
+            watch: Stopwatch::start(),
+            bound,
+        };
+        let monitor = Some(args.monitor_port()).filter(|port| *port != 0).map(local);
+        let fixed = stations.iter().map(|peer| (gcs, *peer));
+        let fixed = fixed.chain(monitor.map(|peer| (payload.or(gcs), peer))).chain(args.sdk().map(|peer| (sdk, peer)));
+        for (socket, peer) in fixed {
+            if let Some(socket) = socket {
+                links.add(socket, peer, true);
+            }
+        }
+        links.all_in_step_are_called()?;
+        Ok(links)
+    }
+
+    fn all_in_step_are_called(&self) -> Result<(), AppError> {
+        let called = |peer: &SocketAddr| self.by_peer.keys().any(|(_, known)| known == peer);
+        match self.lockstep.iter().find(|peer| !called(peer)) {
+            Some(peer) => Err(AppError::wrong(format!(
+                "--lockstep {peer} names nobody who is called: name it with --gcs, --sdk or --monitor-port as well"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Waits at most so long for something to happen.
+    pub fn wait(&mut self, wait: Duration) {
+        if !self.changes.is_empty() {
+            return;
+        }
+        if let Some(arrival) = self.hub.next(wait) {
+            self.take(arrival);
+        }
+    }
+
+    /// The next change.
+    pub fn poll(&mut self) -> Option<Change> {
+        if self.changes.is_empty() {
+            self.wait(Duration::ZERO);
+        }
+        self.changes.pop_front()
+    }
+
+    /// Forgets learned peers that have gone silent.
+    pub fn forget_silent(&mut self) {
+        let wall = self.watch.elapsed();
+        let silent = |(link, route): (&u32, &Route)| match route {
+            Route::Learned { heard, .. } if wall.saturating_sub(*heard) > FORGET => Some(*link),
+            Route::Learned { .. } | Route::Fixed { .. } | Route::Stream { .. } => None,
+        };
+        let silent: Vec<u32> = self.routes.iter().filter_map(silent).collect();
+        for link in silent {
+            if let Some(Route::Learned { socket, peer, .. }) = self.routes.remove(&link) {
+                tracing::info!("{peer} has been silent for {} s and is forgotten", FORGET.as_secs());
+                self.by_peer.remove(&(socket, peer));
+                self.changes.push_back(Change::Closed { link });
+            }
+        }
+    }
+
+    /// Sends to one link.
+    pub fn send(&mut self, link: u32, bytes: Vec<u8>) {
+        match self.routes.get(&link) {
+            Some(Route::Fixed { socket, peer } | Route::Learned { socket, peer, .. }) => self.hub.send(*socket, *peer, &bytes),
+            Some(Route::Stream { stream, .. }) => self.hub.send_stream(*stream, bytes),
+            None => {}
+        }
+    }
+
+    /// Bytes of TCP clients that belonged to no frame; those of datagrams the vehicle counts.
+    pub fn bad_bytes(&self) -> u64 {
+        self.bad_bytes
+    }
+
+    /// What found a queue full.
+    pub fn dropped(&self) -> u64 {
+        self.hub.dropped()
+    }
+
+    fn number(&mut self) -> u32 {
+        self.opened += 1;
+        self.opened
+    }
+
+    fn add(&mut self, socket: SocketId, peer: SocketAddr, fixed: bool) -> u32 {
+        let link = self.number();
+        let heard = self.watch.elapsed();
+        let route = if fixed { Route::Fixed { socket, peer } } else { Route::Learned { socket, peer, heard } };
+        self.routes.insert(link, route);
+        self.by_peer.insert((socket, peer), link);
+        let kind = self.kinds.get(&socket).copied().unwrap_or(LinkKind::GroundStation);
+        let limit = self.limit.filter(|_| kind == LinkKind::GroundStation);
+        self.changes.push_back(Change::Opened { link, kind, lockstep: self.lockstep.contains(&peer), limit });
+        link
+    }
+
+    fn take(&mut self, arrival: Arrival) {
+        match arrival {
+            Arrival::Datagram { socket, from, bytes } => self.take_datagram(socket, from, bytes),
+            Arrival::Connected(stream, origin) => self.take_stream(stream, &origin),
+            Arrival::Bytes(stream, bytes) => {
+                let Some(link) = self.by_stream.get(&stream).copied() else { return };
+                let Some(Route::Stream { decoder, .. }) = self.routes.get_mut(&link) else { return };
+                let before = decoder.bad_bytes();
+                let frames = decoder.push(&bytes).into_iter();
+                self.changes.extend(frames.map(|frame| Change::Bytes { link, bytes: frame.bytes }));
+                self.bad_bytes += decoder.bad_bytes() - before;
+            }
+            Arrival::Closed(stream) => {
+                let Some(link) = self.by_stream.remove(&stream) else { return };
+                self.routes.remove(&link);
+                self.changes.push_back(Change::Closed { link });
+            }
+        }
+    }
+
+    fn take_stream(&mut self, stream: StreamId, origin: &Origin) {
+        if self.by_stream.len() >= LEARNED_MAX {
+            tracing::warn!("{origin} is not let in: {LEARNED_MAX} clients are connected");
+            self.hub.drop_stream(stream);
+            return;
+        }
+        let link = self.number();
+        tracing::info!("{origin} is connected");
+        let (kind, limit) = match origin {
+            Origin::Tcp(_) => (LinkKind::Tcp, self.limit),
+            Origin::Serial(device) => (LinkKind::Serial, Some(device.bytes_s())),
+        };
+        self.routes.insert(link, Route::Stream { stream, decoder: Decoder::new() });
+        self.by_stream.insert(stream, link);
+        self.changes.push_back(Change::Opened { link, kind, lockstep: false, limit });
+    }
+
+    fn take_datagram(&mut self, socket: SocketId, from: SocketAddr, bytes: Vec<u8>) {
+        let link = match self.by_peer.get(&(socket, from)) {
+            Some(link) => *link,
+            None if self.by_peer.len() >= LEARNED_MAX => {
+                tracing::debug!("{from} is not let in: {LEARNED_MAX} peers are connected");
+                return;
+            }
+            None => {
+                tracing::info!("{from} has dialled in");
+                self.add(socket, from, false)
+            }
+        };
+        let wall = self.watch.elapsed();
+        if let Some(Route::Learned { heard, .. }) = self.routes.get_mut(&link) {
+            *heard = wall;
+        }
+        self.changes.push_back(Change::Bytes { link, bytes });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ports::local;
+    use super::*;
+    use clap::Parser;
+    use std::net::UdpSocket;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        ports: PortArgs,
+    }
+
+    fn parse(words: &[&str]) -> PortArgs {
+        Line::parse_from(["test"].iter().chain(words)).ports
+    }
+
+    #[test]
+    fn wire_a_stranger_is_learned_by_its_address_and_answered() {
+        let mut links = Links::open(&parse(&["--ports", "ephemeral"]), &[]).unwrap();
+        let port = u16::try_from(links.bound["payload_port"].as_u64().unwrap()).unwrap();
+        let sidecar = UdpSocket::bind(local(0)).unwrap();
+        sidecar.send_to(b"hello", local(port)).unwrap();
+        links.wait(Duration::from_secs(60));
+        assert_eq!(links.poll(), Some(Change::Opened { link: 1, kind: LinkKind::Payload, lockstep: false, limit: None }));
+        assert_eq!(links.poll(), Some(Change::Bytes { link: 1, bytes: b"hello".to_vec() }));
+        links.send(1, b"welcome".to_vec());
+        let mut heard = [0u8; 16];
+        let (len, from) = sidecar.recv_from(&mut heard).unwrap();
+        assert_eq!((&heard[..len], from.port()), (b"welcome".as_slice(), port));
+    }
+
+    #[test]
+    fn exact_a_lockstep_peer_that_nobody_calls_is_refused() {
+        let Err(error) = Links::open(&parse(&["--ports", "ephemeral"]), &[local(9)]) else { panic!("accepted") };
+        assert!(error.to_string().contains("--lockstep 127.0.0.1:9"));
+        let args = parse(&["--ports", "ephemeral", "--gcs", "127.0.0.1:9"]);
+        let mut links = Links::open(&args, &[local(9)]).unwrap();
+        assert_eq!(links.poll(), Some(Change::Opened { link: 1, kind: LinkKind::GroundStation, lockstep: true, limit: None }));
+    }
+}

@@ -1,0 +1,162 @@
+//! One vehicle's shell: sockets, files and pace around the sans-IO core.
+
+use super::clock::{self, Stopwatch};
+use super::errors::AppError;
+use super::links::{Change, Links};
+use super::pace::{PATIENCE, Pace, Patience, Speed};
+use super::store::Store;
+use crate::base::time::SimTime;
+use crate::mav::signing::{Key, stamp};
+use crate::sitl::endpoint::files::job::FileError;
+use crate::sitl::endpoint::{LinkId, LinkKind};
+use crate::sitl::sim::{Sim, SimEvent};
+use std::time::Duration;
+
+/// Longest wait, so that requests to stop and silent peers are noticed.
+const LOOK: Duration = Duration::from_millis(100);
+/// Shortest sleep: ticks every millisecond would only keep the machine awake, and an arrival ends the sleep anyway.
+const REST: Duration = Duration::from_millis(2);
+
+/// Signatures that are demanded.
+#[derive(Debug, Clone)]
+pub struct Signing {
+    /// The key.
+    pub key: Key,
+    /// Kinds of links whose frames act without one.
+    pub unsigned: Vec<LinkKind>,
+}
+
+/// One vehicle between its sockets, its files and the clock.
+pub struct Shell {
+    /// The vehicle.
+    pub core: Sim,
+    links: Links,
+    pace: Pace,
+    watch: Stopwatch,
+    patience: Patience,
+    store: Option<Store>,
+    signs: bool,
+}
+
+impl Shell {
+    /// Time begins now.
+    pub fn new(mut core: Sim, links: Links, speed: Speed, store: Option<Store>, signing: Option<Signing>) -> Self {
+        let watch = Stopwatch::start();
+        core.set_pace(speed.client_pace());
+        if store.is_some() {
+            core.serve_files();
+            core.record();
+        }
+        let signs = signing.is_some();
+        if let Some(Signing { key, unsigned }) = signing {
+            core.demand_signatures(key, stamp(clock::unix_us()), &unsigned);
+        }
+        Self { core, links, pace: Pace::new(speed, watch.elapsed()), watch, patience: Patience::default(), store, signs }
+    }
+
+    /// Takes in what has come, lets time pass, sends what is due, rests.
+    ///
+    /// # Errors
+    /// When a peer in step is gone.
+    pub fn turn(&mut self, end: SimTime) -> Result<(), AppError> {
+        while let Some(change) = self.links.poll() {
+            self.apply(change);
+        }
+        self.links.forget_silent();
+        if self.signs {
+            self.core.tell_stamp(stamp(clock::unix_us()));
+        }
+        let wall = self.watch.elapsed();
+        if !self.core.waiting() {
+            let target = self.pace.target(wall, self.core.now()).min(end);
+            self.core.handle_timeout(target);
+        }
+        self.keep_files();
+        while let Some(datagram) = self.core.poll_transmit() {
+            self.links.send(datagram.link.0, datagram.bytes);
+        }
+        while let Some(event) = self.core.poll_event() {
+            self.tell(&event);
+        }
+        self.rest()
+    }
+
+    /// Does what clients ask of files, and writes the log.
+    fn keep_files(&mut self) {
+        while let Some(job) = self.core.poll_file_job() {
+            let outcome = self.store.as_ref().map_or(Err(FileError::NotFound), |store| store.work(&job.action));
+            self.core.file_job_done(job.ticket, outcome);
+        }
+        while let Some(piece) = self.core.poll_log() {
+            if let Some(Err(error)) = self.store.as_mut().map(|store| store.log(&piece)) {
+                tracing::warn!("the flight's log is not written: {error}");
+            }
+        }
+    }
+
+    fn apply(&mut self, change: Change) {
+        match change {
+            Change::Opened { link, kind, lockstep, limit } => {
+                self.core.open_link(LinkId(link), kind, lockstep);
+                if let Some(bytes_s) = limit {
+                    self.core.limit_link(LinkId(link), bytes_s);
+                }
+            }
+            Change::Bytes { link, bytes } => self.core.handle_datagram(LinkId(link), &bytes),
+            Change::Closed { link } => self.core.close_link(LinkId(link)),
+        }
+    }
+
+    /// Waits for the next tick, or for the peers that time waits for.
+    fn rest(&mut self) -> Result<(), AppError> {
+        let wall = self.watch.elapsed();
+        if self.core.waiting() {
+            if self.patience.is_over(self.core.now(), wall) {
+                return Err(AppError::failed(format!(
+                    "a peer in lockstep has not answered TIMESYNC for {} s at {} and seems to be gone",
+                    PATIENCE.as_secs(),
+                    self.core.now()
+                )));
+            }
+            self.links.wait(LOOK);
+            return Ok(());
+        }
+        let sleep = self.pace.sleep(wall, self.core.poll_timeout());
+        if !sleep.is_zero() {
+            self.links.wait(sleep.clamp(REST, LOOK));
+        }
+        Ok(())
+    }
+
+    fn tell(&self, event: &SimEvent) {
+        let now = self.core.now();
+        match event {
+            SimEvent::LiftOff => tracing::info!("{now}: lift-off"),
+            SimEvent::Crash { what, impact_m_s } => tracing::info!("{now}: touched {what} at {impact_m_s:.1} m/s"),
+            SimEvent::Respawn => tracing::info!("{now}: put back at the last safe hover"),
+            SimEvent::BatteryEmpty => tracing::info!("{now}: the battery is empty"),
+            SimEvent::Ended { reason } => tracing::info!("{now}: the flight is over: {reason}"),
+        }
+    }
+
+    /// Finishes the log and tells what was lost.
+    pub fn farewell(&mut self) {
+        self.core.stop_recording();
+        self.keep_files();
+        let slipped = self.pace.slipped();
+        if slipped >= Duration::from_secs(1) {
+            tracing::warn!("the machine could not keep up: {:.1} s of wall time were lost", slipped.as_secs_f64());
+        }
+        let bad = self.core.bad_bytes() + self.links.bad_bytes();
+        if bad > 0 {
+            tracing::warn!("{bad} bytes belonged to no MAVLink frame and were skipped");
+        }
+        if self.core.refused() > 0 {
+            tracing::warn!("{} frames without a good signature did nothing", self.core.refused());
+        }
+        let dropped = self.core.dropped() + self.links.dropped();
+        if dropped > 0 {
+            tracing::warn!("{dropped} datagrams came faster than they may, or were more than a link carries, and were dropped");
+        }
+    }
+}

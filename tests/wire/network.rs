@@ -1,0 +1,193 @@
+//! Many peers, a flood, a slow radio, an old client: what one link does costs the others nothing.
+
+use super::station::{GCS, Station};
+use spandrel::base::time::SimTime;
+use spandrel::mav::codec::{Decoder, Encoder, Received};
+use spandrel::mav::dialect::*;
+use spandrel::sitl::endpoint::{LinkId, LinkKind};
+use spandrel::sitl::sim::Sim;
+use spandrel::sitl::sim::inbox::{BYTES_A_TICK, DATAGRAMS_A_TICK};
+use std::collections::BTreeMap;
+
+const FLOOD: LinkId = LinkId(2);
+const RADIO: LinkId = LinkId(3);
+/// Messages a second of the peer that floods (issue: 50,000).
+const FLOOD_HZ: u32 = 50_000;
+/// A radio at 57,600 baud, bytes a second.
+const RADIO_BYTES_S: f64 = 5_760.0;
+/// Bytes that may leave at once after a silence, and the last datagram that is not cut in two.
+const RADIO_BURST: usize = 600;
+
+fn drain(sim: &mut Sim) -> BTreeMap<LinkId, Vec<Received>> {
+    let mut heard: BTreeMap<LinkId, Vec<Received>> = BTreeMap::new();
+    while let Some(transmit) = sim.poll_transmit() {
+        heard.entry(transmit.link).or_default().extend(Decoder::new().datagram(&transmit.bytes));
+    }
+    heard
+}
+
+fn run_ms(sim: &mut Sim, ms: i64) -> BTreeMap<LinkId, Vec<Received>> {
+    let until = sim.now() + SimTime::from_ms(ms);
+    sim.handle_timeout(until);
+    drain(sim)
+}
+
+fn question(seq: i64) -> MavMessage {
+    MavMessage::TIMESYNC(TIMESYNC_DATA { ts1: seq, ..Default::default() })
+}
+
+fn text() -> MavMessage {
+    MavMessage::STATUSTEXT(STATUSTEXT_DATA { text: "flood".into(), ..Default::default() })
+}
+
+fn command(command: MavCmd, param1: f32) -> MavMessage {
+    MavMessage::COMMAND_LONG(COMMAND_LONG_DATA { command, param1, target_system: 1, target_component: 1, ..Default::default() })
+}
+
+fn own(frames: &[Received]) -> Vec<(u32, u8)> {
+    frames.iter().filter(|f| f.system_id == 1).map(|f| (f.message_id, f.component_id)).collect()
+}
+
+#[test]
+fn wire_a_flood_is_bounded_in_each_tick_and_others_keep_their_streams() {
+    let mut calm = Station::new("drill-hover", 7).sim;
+    calm.open_link(FLOOD, LinkKind::GroundStation, false);
+    let mut flooded = calm.clone();
+    let mut encoder = Encoder::new(77, 190);
+    let (mut sent, mut acted, mut handed_on, mut missing) = (0u64, 0, 0, 0usize);
+    for seq in 0..2_000 {
+        for k in 0..FLOOD_HZ / 1_000 {
+            // Broadcasts that go on to everybody, and questions that are answered.
+            let message = if k % 2 == 0 { text() } else { question(seq) };
+            flooded.handle_datagram(FLOOD, &encoder.encode(&message));
+            sent += 1;
+        }
+        let (quiet, mut loud) = (run_ms(&mut calm, 1), run_ms(&mut flooded, 1));
+        let passed = loud.entry(GCS).or_default().iter().filter(|f| f.system_id == 77 && f.message_id == 253).count();
+        let answers = loud.entry(FLOOD).or_default().iter().filter(|f| f.message_id == 111 && f.system_id == 1).count();
+        // The first call lets datagrams act at both its ends.
+        let most = if seq == 0 { 2 * DATAGRAMS_A_TICK } else { DATAGRAMS_A_TICK };
+        assert!(passed + answers <= most, "{passed} handed on and {answers} answered in one tick");
+        acted += answers;
+        handed_on += passed;
+        let expected = quiet.get(&GCS).map(|frames| own(frames)).unwrap_or_default();
+        missing += usize::from(own(&loud[&GCS]) != expected);
+    }
+    assert_eq!(missing, 0, "ticks in which the other peer did not get what it gets without the flood");
+    assert!(acted > 1_000 && handed_on > 1_000, "{acted} {handed_on}");
+    // What is neither done nor dropped waits, and that is little.
+    let waiting = sent - flooded.dropped() - (acted + handed_on) as u64;
+    assert!((1..=1_024).contains(&waiting), "{waiting}");
+}
+
+#[test]
+fn wire_fifty_peers_at_once_get_everything_that_one_gets() {
+    let mut sim = Station::new("drill-hover", 7).sim;
+    let peers: Vec<LinkId> = (10..60).map(LinkId).collect();
+    peers.iter().for_each(|peer| sim.open_link(*peer, LinkKind::GroundStation, false));
+    let mut encoders: Vec<Encoder> = (0..50).map(|k| Encoder::new(100 + k, 190)).collect();
+    let mut heard: BTreeMap<LinkId, Vec<Received>> = BTreeMap::new();
+    for second in 0..3 {
+        for (peer, encoder) in peers.iter().zip(&mut encoders) {
+            sim.handle_datagram(*peer, &encoder.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default())));
+            let list = PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 };
+            if second == 0 {
+                sim.handle_datagram(*peer, &encoder.encode(&MavMessage::PARAM_REQUEST_LIST(list)));
+            }
+        }
+        for (link, frames) in run_ms(&mut sim, 1_000) {
+            heard.entry(link).or_default().extend(frames);
+        }
+    }
+    let streams = |link: &LinkId| own(&heard[link]);
+    for peer in &peers {
+        assert_eq!(streams(peer), streams(&peers[0]), "{peer:?}");
+        let others = heard[peer].iter().filter(|f| f.message_id == 0 && f.system_id >= 100).count();
+        assert_eq!(others, 3 * 49, "{peer:?} hears the other ground stations");
+    }
+    assert_eq!(sim.dropped(), 0);
+}
+
+#[test]
+fn wire_a_radio_gets_what_it_carries_and_answers_come_soon() {
+    let mut sim = Station::new("drill-hover", 7).sim;
+    sim.open_link(RADIO, LinkKind::Serial, false);
+    sim.limit_link(RADIO, RADIO_BYTES_S);
+    let mut encoder = Encoder::new(250, 190);
+    let list = MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 });
+    sim.handle_datagram(RADIO, &encoder.encode(&list));
+    let (mut bytes, mut beats, mut parameters, mut worst_ms, mut attitudes) = (0, 0, 0, 0, 0);
+    let mut total = 0;
+    for second in 0..30 {
+        let ask = encoder.encode(&command(MavCmd::MAV_CMD_REQUEST_MESSAGE, 148.0));
+        sim.handle_datagram(RADIO, &ask);
+        let mut answered = None;
+        for ms in 0..1_000 {
+            for frame in run_ms(&mut sim, 1).remove(&RADIO).unwrap_or_default() {
+                bytes += frame.bytes.len();
+                beats += usize::from(frame.message_id == 0 && frame.component_id == 1);
+                parameters += usize::from(frame.message_id == 22);
+                attitudes += usize::from(frame.message_id == 30);
+                if let Some(MavMessage::PARAM_VALUE(value)) = &frame.message {
+                    total = usize::from(value.param_count);
+                }
+                if frame.message_id == 77 {
+                    answered = answered.or(Some(ms));
+                }
+            }
+        }
+        worst_ms = worst_ms.max(answered.unwrap_or(1_000));
+        let carried = (RADIO_BYTES_S as usize) * (second + 1) + RADIO_BURST;
+        assert!(bytes <= carried, "{bytes} of {carried} bytes after {second} s");
+    }
+    assert!((29..=31).contains(&beats), "{beats} heartbeats");
+    assert!(parameters >= total && total > 50, "{parameters} of {total} parameters");
+    assert!(worst_ms < 500, "an acknowledgement took {worst_ms} ms");
+    assert!(attitudes > 30, "{attitudes}: streams slow down, they do not stop");
+    assert!(bytes as f64 > 0.6 * 30.0 * RADIO_BYTES_S, "{bytes}: the radio is used");
+}
+
+/// A frame as MAVLink 1 lays it out.
+fn old_frame(sequence: u8, id: u8, payload: &[u8]) -> Vec<u8> {
+    use mavlink::Message;
+    let mut out = vec![0xFE, payload.len() as u8, sequence, 255, 190, id];
+    out.extend(payload);
+    let crc = mavlink::calculate_crc(&out[1..], MavMessage::extra_crc(u32::from(id)));
+    out.extend(crc.to_le_bytes());
+    out
+}
+
+#[test]
+fn wire_a_client_that_speaks_mavlink_1_is_obeyed() {
+    let mut station = Station::new("drill-hover", 7);
+    station.run_ms(2_500);
+    let mut lamp = [0u8; 33];
+    lamp[..4].copy_from_slice(&1f32.to_le_bytes());
+    lamp[28..30].copy_from_slice(&405u16.to_le_bytes());
+    (lamp[30], lamp[31]) = (1, 1);
+    station.sim.handle_datagram(GCS, &old_frame(0, 76, &lamp));
+    station.run_ms(600);
+    assert_eq!(station.last(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
+}
+
+#[test]
+fn wire_nobody_hands_on_what_sets_up_signatures() {
+    let mut sim = Station::new("drill-hover", 7).sim;
+    sim.open_link(FLOOD, LinkKind::GroundStation, false);
+    let mut encoder = Encoder::new(77, 190);
+    let secret = MavMessage::SETUP_SIGNING(SETUP_SIGNING_DATA { secret_key: [7; 32], ..Default::default() });
+    sim.handle_datagram(FLOOD, &encoder.encode(&secret));
+    sim.handle_datagram(FLOOD, &encoder.encode(&text()));
+    let heard = run_ms(&mut sim, 5);
+    let passed: Vec<u32> = heard[&GCS].iter().filter(|f| f.system_id == 77).map(|f| f.message_id).collect();
+    assert_eq!(passed, [253]);
+}
+
+#[test]
+fn wire_a_datagram_longer_than_any_clients_is_dropped_whole() {
+    let mut sim = Station::new("drill-hover", 7).sim;
+    let question = Encoder::new(255, 190).encode(&question(1));
+    sim.handle_datagram(GCS, &question.repeat(BYTES_A_TICK / question.len() + 1));
+    let answered = run_ms(&mut sim, 5)[&GCS].iter().filter(|f| f.message_id == 111 && f.system_id == 1).count();
+    assert_eq!((answered, sim.dropped()), (0, 1));
+}
