@@ -1,4 +1,4 @@
-//! `spandrel export`: frames, scenario and geometry for other programs.
+//! `spandrel export`: frames, scenario, flight plan and geometry for other programs.
 
 use super::args;
 use super::assess;
@@ -6,21 +6,25 @@ use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::progress::Progress;
 use super::session_folder::Stored;
+use crate::base::time::SimTime;
 use crate::monitor::export::{ScenarioExport, frames_csv, json_text};
+use crate::pilot::flight_plan;
+use crate::pilot::job::Map;
 use crate::site::Site;
 use crate::site::gltf;
 use std::path::Path;
 
-/// Write frames, scenario or geometry for other programs
+/// Write frames, scenario, flight plan or geometry for other programs
 ///
 /// Frames (one line per scored frame, CSV) need a session; the scored part of the scenario (JSON: paths, defects, limits) and the
 /// geometry that collides (binary glTF, every member named with its element number) work for a session or a scenario.
 #[derive(Debug, clap::Args)]
-#[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb"])))]
+#[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb", "plan"])))]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel export sessions/20260801T... --frames frames.csv
   spandrel export two-bridges --seed 7 --scenario -          paths and the defects that seed 7 places
+  spandrel export two-bridges --plan tasks.plan              open it in QGroundControl, upload, start
   spandrel export two-bridges --glb bridges.glb              open it in any 3D viewer
 
 {EXIT_CODES}"))]
@@ -34,6 +38,13 @@ pub struct Args {
     /// The scored part of the scenario as JSON; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scenario: Option<String>,
+    /// The tasks' reference paths as a plan of QGroundControl: take-off, transits clear of the bridges, every task with gimbal, lamp and
+    /// pictures, return; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    plan: Option<String>,
+    /// Aircraft that the plan keeps clear of things: a file, or the name of a shipped one; of a session its own
+    #[arg(long, value_name = "FILE|NAME", default_value = "phantom2", requires = "plan")]
+    vehicle: String,
     /// Geometry as binary glTF 2.0, metres, y up; '-' for standard output
     #[arg(long, value_name = "FILE")]
     glb: Option<String>,
@@ -56,12 +67,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         let graded = assess::grade(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle)?;
         files::write(target, frames_csv(&graded.frames).as_bytes())?;
     }
-    if args.scenario.is_none() && args.glb.is_none() {
+    if args.scenario.is_none() && args.glb.is_none() && args.plan.is_none() {
         return Ok(());
     }
-    let scenario = match stored {
-        Some(stored) => stored.scenario.scenario,
-        None => files::scenario(&args.from)?.scenario,
+    let (scenario, own) = match stored {
+        Some(stored) => (stored.scenario.scenario, Some(stored.vehicle.vehicle)),
+        None => (files::scenario(&args.from)?.scenario, None),
     };
     let seed = args.seed.or(scenario.seed);
     if args.scenario.is_some() && seed.is_none() && scenario.defects.count > 0 && scenario.defects.placed.is_none() {
@@ -76,6 +87,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     progress.end();
     if let Some(target) = &args.scenario {
         files::write(target, json_text(&ScenarioExport::new(&scenario, site.defects())).as_bytes())?;
+    }
+    if let Some(target) = &args.plan {
+        let vehicle = match own {
+            Some(vehicle) => vehicle,
+            None => files::vehicle(&args.vehicle)?.vehicle,
+        };
+        let map = Map { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO };
+        files::write(target, json_text(&flight_plan::plan(&map)).as_bytes())?;
     }
     if let Some(target) = &args.glb {
         files::write(target, &gltf::glb(&site))?;

@@ -11,7 +11,7 @@ use super::score::{Score, conformity, efficiency, safety};
 use super::session::{EndReason, Session, lift_off_height_m};
 use crate::base::geodesy::LocalPlane;
 use crate::scenario::Scenario;
-use crate::telemetry::{Contact, Flight, Frame, Timeline};
+use crate::telemetry::{Contact, Flight, Frame, Hand, Timeline};
 use crate::vehicle::Vehicle;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -76,8 +76,21 @@ pub struct Assessment {
     pub end: End,
     /// How much was seen.
     pub telemetry: Coverage,
+    /// Who flew when; it changes no score.
+    pub flown_by: Vec<Stretch>,
     /// The other profile.
     pub certification: Certification,
+}
+
+/// Frames in a row that one hand flew.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Stretch {
+    /// First frame.
+    pub from_frame: u32,
+    /// Last frame, included.
+    pub to_frame: u32,
+    /// Who; `None` before the first heartbeat.
+    pub by: Option<Hand>,
 }
 
 /// The paper's scores.
@@ -227,6 +240,7 @@ pub fn assess(flight: &Flight, job: &Job<'_>) -> Result<(Assessment, Vec<Frame>)
         snapshots: snapshot_counts(scenario, counts, pictures),
         end,
         telemetry: coverage(&session.frames),
+        flown_by: flown_by(flight, &session.frames),
         certification,
     };
     Ok((assessment, session.frames))
@@ -382,6 +396,18 @@ fn end(scenario: &Scenario, session: &Session) -> End {
         seconds: session.seconds(scenario.scoring.frame_rate_hz),
         battery_failed: matches!(session.reason, EndReason::Battery | EndReason::TimeLimit),
     }
+}
+
+fn flown_by(flight: &Flight, frames: &[Frame]) -> Vec<Stretch> {
+    let mut stretches: Vec<Stretch> = Vec::new();
+    for frame in frames {
+        let by = flight.flown_by.at(frame.time);
+        match stretches.last_mut() {
+            Some(last) if last.by == by => last.to_frame = frame.index,
+            Some(_) | None => stretches.push(Stretch { from_frame: frame.index, to_frame: frame.index, by }),
+        }
+    }
+    stretches
 }
 
 fn coverage(frames: &[Frame]) -> Coverage {

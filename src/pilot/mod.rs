@@ -12,6 +12,7 @@ pub mod track;
 pub mod wire;
 
 mod flight;
+pub mod flight_plan;
 
 pub use skill::{Factor, Skill};
 

@@ -53,6 +53,19 @@ impl Leg {
         Self { points_m: Vec::new(), speed_m_s: Vec::new(), look: Vec::new(), task: Vec::new() }
     }
 
+    /// The leg before a point, and the leg from there on.
+    #[must_use]
+    pub fn split_at(&self, k: usize) -> (Self, Self) {
+        let part = |from: usize, to: usize| Self {
+            points_m: self.points_m[from..to].to_vec(),
+            speed_m_s: self.speed_m_s[from..to].to_vec(),
+            look: self.look[from..to].to_vec(),
+            task: self.task[from..to].to_vec(),
+        };
+        let k = k.min(self.points_m.len());
+        (part(0, k), part(k, self.points_m.len()))
+    }
+
     /// Adds a point.
     pub fn push(&mut self, point_m: Vec3<Enu>, speed_m_s: f64, look: Option<Vec3<Enu>>, task: Option<usize>) {
         if self.points_m.last().is_some_and(|last| (*last - point_m).norm() < 1e-3) {

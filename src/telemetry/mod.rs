@@ -3,11 +3,13 @@
 //! file format in between. Read by monitor, pilot, view and report; knows nothing of the scoring.
 
 pub mod frame;
+pub mod hand;
 pub mod sample;
 pub mod signal;
 pub mod timeline;
 pub mod tlog;
 
 pub use frame::Frame;
+pub use hand::Hand;
 pub use sample::{Contact, Sample, Truth};
 pub use timeline::{Flight, Timeline};

@@ -1,6 +1,7 @@
 //! One MAVLink frame -> one [`Sample`], if it says anything that the timeline keeps. The header is looked at first, so that the
 //! many frames of no interest cost a few nanoseconds. Wire units (degE7, mm, cm/s, µs, permille) stop here.
 
+use super::hand::Hand;
 use crate::base::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use crate::base::geodesy::{Geo, LocalPlane};
 use crate::base::time::SimTime;
@@ -122,7 +123,12 @@ pub enum Said {
     /// Gimbal pitch over the horizon, rad, up positive.
     GimbalPitch(f64),
     /// Motors are armed.
-    Armed(bool),
+    Beat {
+        /// Motors may turn.
+        armed: bool,
+        /// Who flies.
+        by: Hand,
+    },
     /// The autopilot believes that it stands.
     OnGround(bool),
     /// A picture with this running number was taken.
@@ -283,7 +289,7 @@ fn decode(header: &Header, payload: &[u8], plane: &LocalPlane) -> Option<(Option
         HEARTBEAT_DATA::ID => {
             let beat: HEARTBEAT_DATA = body(payload)?;
             let armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
-            (header.sender.1 == 1).then_some((None, Said::Armed(armed)))
+            (header.sender.1 == 1).then_some((None, Said::Beat { armed, by: Hand::of(beat.autopilot as u8, beat.custom_mode) }))
         }
         EXTENDED_SYS_STATE_DATA::ID => {
             let state: EXTENDED_SYS_STATE_DATA = body(payload)?;

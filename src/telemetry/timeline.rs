@@ -4,6 +4,7 @@
 //! time of the truth sample before it in its sender's numbering, so that shuffled or doubled datagrams change nothing. A clock that
 //! goes back is a restarted simulator: a new epoch begins, and the old one stays.
 
+use super::hand::Hand;
 use super::sample::{self, Contact, Header, Said, Sample, Truth};
 use super::signal::Signal;
 use crate::base::geodesy::LocalPlane;
@@ -307,6 +308,8 @@ pub struct Flight {
     pub gimbal: Signal<f64>,
     /// Armed.
     pub armed: Signal<bool>,
+    /// Who flies, to the second of the heartbeat.
+    pub flown_by: Signal<Hand>,
     /// Autopilot says on the ground.
     pub on_ground: Signal<bool>,
     /// Pictures taken, once each.
@@ -334,7 +337,10 @@ impl Flight {
             Said::ScenarioCrc(v) => self.scenario_crcs.push(time, order, v),
             Said::Clearance(v) => self.clearance.push(time, order, v),
             Said::GimbalPitch(v) => self.gimbal.push(time, order, v),
-            Said::Armed(v) => self.armed.push(time, order, v),
+            Said::Beat { armed, by } => {
+                self.armed.push(time, order, armed);
+                self.flown_by.push(time, order, by);
+            }
             Said::OnGround(v) => self.on_ground.push(time, order, v),
             Said::Snapshot(v) => {
                 // A picture sent again keeps its number; the earliest report of it stands.
@@ -356,6 +362,7 @@ impl Flight {
         self.clearance.sort();
         self.gimbal.sort();
         self.armed.sort();
+        self.flown_by.sort();
         self.on_ground.sort();
         self.snapshots.sort();
         self.seeds.sort();

@@ -1,10 +1,13 @@
 """MAVSDK uploads and flies a mission, sets and misses parameters, steers by external set-points and points the gimbal."""
 
+import json
 import math
+import time
 
 import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action
+from mavsdk.plugins.geofence import Circle, FenceType, Geofence, GeofenceData, Point
 from mavsdk.plugins.gimbal import ControlMode, Gimbal, GimbalMode, SendMode
 from mavsdk.plugins.mission_raw import MissionItem, MissionRaw
 from mavsdk.plugins.offboard import AttitudeRate, Offboard, PositionNedYaw, VelocityBodyYawspeed
@@ -109,3 +112,47 @@ def test_wire_mavsdk_steers_by_set_points_and_points_the_gimbal(vehicle):
         wait_for(f"pitch {pitch}", lambda: abs(gimbal.get_attitude(known).euler_angle_forward.pitch_deg - pitch) < 1.0)
     action.land()
     wait_for("landing mode", lambda: telemetry.flight_mode() == FlightMode.LAND)
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavsdk_imports_the_exported_plan_flies_pauses_and_goes_on(vehicle):
+    """The plan of a drill as QGroundControl reads it; paused on its way, then flown to its end."""
+    system, telemetry = vehicle
+    mission, action = MissionRaw(system), Action(system)
+    text = spandrel.run("export", "drill-hover", "--seed", "7", "--plan", "-")
+    imported = mission.import_qgroundcontrol_mission_from_string(text)
+    written = json.loads(text)["mission"]["items"]
+    assert [i.command for i in imported.mission_items] == [i["command"] for i in written]
+    mission.upload_mission(imported.mission_items)
+    assert len(mission.download_mission()) == len(written)
+    action.arm()
+    mission.start_mission()
+    wait_for("the first waypoints", lambda: mission.mission_progress().current >= 3)
+    mission.pause_mission()
+    wait_for("a pause", lambda: telemetry.flight_mode() == FlightMode.HOLD)
+    held = mission.mission_progress().current
+    mission.start_mission()
+    wait_for("more of the plan", lambda: mission.mission_progress().current > held)
+    wait_for("the landing", lambda: not telemetry.armed())
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavsdk_sets_a_fence_that_holds_the_vehicle(vehicle):
+    """Uploaded, given back, and breached by set-points: it holds."""
+    system, telemetry = vehicle
+    fence, action, offboard = Geofence(system), Action(system), Offboard(system)
+    here = wait_for("a position", lambda: (p := telemetry.position()) and p.latitude_deg != 0.0 and p)
+    circle = Circle(Point(here.latitude_deg, here.longitude_deg), 12.0, FenceType.INCLUSION)
+    fence.upload_geofence(GeofenceData([], [circle]))
+    assert [round(c.radius, 3) for c in fence.download_geofence().circles] == [12.0]
+    action.arm()
+    action.takeoff()
+    wait_for("the hover", lambda: telemetry.flight_mode() == FlightMode.HOLD and place(telemetry)[2] < -1.5)
+    offboard.set_velocity_body(VelocityBodyYawspeed(2.0, 0.0, 0.0, 0.0))
+    offboard.start()
+    wait_for("offboard flight", lambda: telemetry.flight_mode() == FlightMode.OFFBOARD)
+    wait_for("the hold at the fence", lambda: telemetry.flight_mode() == FlightMode.HOLD)
+    time.sleep(0.5)
+    away = math.hypot(place(telemetry)[0], place(telemetry)[1])
+    assert 10.0 < away < 18.0, away
+    fence.clear_geofence()

@@ -20,7 +20,10 @@ fn exact_the_assessment_has_the_names_of_the_design() {
     let mut tape = clean_flight();
     tape.contact(0);
     let value = serde_json::to_value(&grade(&tape, &one_task()).assessment).unwrap();
-    assert_eq!(keys(&value), ["profile", "scores", "tasks", "crashes", "snapshots", "end", "telemetry", "certification"]);
+    assert_eq!(
+        keys(&value),
+        ["profile", "scores", "tasks", "crashes", "snapshots", "end", "telemetry", "flown_by", "certification"]
+    );
     assert_eq!(value["profile"], "paper");
     check_keys(&value["scores"], &["conformity", "efficiency", "safety", "accuracy", "overall"]);
     assert_eq!(keys(&value["scores"]["conformity"]), ["raw", "pct"]);
@@ -33,6 +36,30 @@ fn exact_the_assessment_has_the_names_of_the_design() {
     assert_eq!(keys(&value["end"]), ["reason", "frames", "seconds", "battery_failed"]);
     check_keys(&value["telemetry"], &["missing_frames"]);
     assert_eq!(value["end"]["reason"], "landed");
+}
+
+/// Each frame once, in order, under the hand that the heartbeat before it names.
+#[test]
+fn exact_the_assessment_says_who_flew_when() {
+    let mut tape = Tape::new();
+    tape.beat(true, 3 << 16);
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.beat(true, 4 << 24 | 4 << 16);
+    tape.hold(2.0);
+    tape.beat(true, 3 << 16);
+    tape.hold(1.0);
+    tape.land();
+    let value = serde_json::to_value(&grade(&tape, &one_task()).assessment).unwrap();
+    let stretches = value["flown_by"].as_array().unwrap();
+    let by: Vec<&str> = stretches.iter().map(|s| s["by"].as_str().unwrap()).collect();
+    assert_eq!(by, ["pilot", "mission", "pilot"]);
+    let frames = |s: &Value, key: &str| s[key].as_u64().unwrap();
+    assert_eq!(frames(&stretches[0], "from_frame"), 1);
+    assert!(stretches.windows(2).all(|pair| frames(&pair[0], "to_frame") + 1 == frames(&pair[1], "from_frame")));
+    assert_eq!(frames(&stretches[2], "to_frame"), value["end"]["frames"].as_u64().unwrap());
+    let two_seconds = (2.0 * one_task().scoring.frame_rate_hz) as u64;
+    let flown = frames(&stretches[1], "to_frame") + 1 - frames(&stretches[1], "from_frame");
+    assert!(flown.abs_diff(two_seconds) <= 1, "{flown}");
 }
 
 #[test]

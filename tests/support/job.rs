@@ -320,8 +320,13 @@ impl Tape {
     }
 
     pub fn armed(&mut self, armed: bool) {
+        self.beat(armed, 3 << 16);
+    }
+
+    pub fn beat(&mut self, armed: bool, custom_mode: u32) {
         let base_mode = if armed { MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED } else { MavModeFlag::empty() };
-        self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA { base_mode, ..HEARTBEAT_DATA::default() }));
+        let autopilot = MavAutopilot::MAV_AUTOPILOT_PX4;
+        self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA { base_mode, custom_mode, autopilot, ..HEARTBEAT_DATA::default() }));
     }
 
     pub fn lamp(&mut self, on: bool) {

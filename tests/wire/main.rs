@@ -1,7 +1,9 @@
 //! The program as a user meets it: processes, sockets, files, exit codes.
 
 mod answers;
+mod fence;
 mod flights;
+mod inspection;
 mod manual;
 mod network;
 mod noise;

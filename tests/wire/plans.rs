@@ -13,7 +13,7 @@ fn origin() -> (i32, i32) {
     ((origin.latitude_deg * 1e7).round() as i32, (origin.longitude_deg * 1e7).round() as i32)
 }
 
-fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_ITEM_INT_DATA {
+pub(super) fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_ITEM_INT_DATA {
     let (lat, lon) = origin();
     MISSION_ITEM_INT_DATA {
         param4: NAN,
@@ -31,7 +31,7 @@ fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_ITEM_INT_DAT
 }
 
 /// Where the pad is, m north of the origin.
-fn home_north(station: &Station) -> f64 {
+pub(super) fn home_north(station: &Station) -> f64 {
     f64::from(station.place()[0])
 }
 
@@ -47,11 +47,11 @@ fn result(m: &MavMessage) -> Option<MavMissionResult> {
     if let MavMessage::MISSION_ACK(a) = m { Some(a.mavtype) } else { None }
 }
 
-const PLAN: MavMissionType = MavMissionType::MAV_MISSION_TYPE_MISSION;
-const ACCEPTED: MavMissionResult = MavMissionResult::MAV_MISSION_ACCEPTED;
+pub(super) const PLAN: MavMissionType = MavMissionType::MAV_MISSION_TYPE_MISSION;
+pub(super) const ACCEPTED: MavMissionResult = MavMissionResult::MAV_MISSION_ACCEPTED;
 
 /// Uploads as asked; the last acknowledgement.
-fn upload(station: &mut Station, items: &[MISSION_ITEM_INT_DATA]) -> MavMissionResult {
+pub(super) fn upload(station: &mut Station, items: &[MISSION_ITEM_INT_DATA]) -> MavMissionResult {
     let kind = items.first().map_or(PLAN, |i| i.mission_type);
     let mut wanted = station.ask(&count(items.len() as u16, kind), asked);
     while let Some(seq) = wanted {
@@ -63,7 +63,7 @@ fn upload(station: &mut Station, items: &[MISSION_ITEM_INT_DATA]) -> MavMissionR
     station.last(result).expect("every upload ends with an acknowledgement")
 }
 
-fn ready(seed: u64) -> Station {
+pub(super) fn ready(seed: u64) -> Station {
     let mut station = Station::new("drill-hover", seed);
     station.run_ms(2_500);
     station

@@ -61,7 +61,12 @@ impl Monitor {
                 }
             }
             Said::Clearance(metres) => self.live.clearance_m = Some(metres),
-            Said::Armed(armed) => self.live.armed = Some(armed),
+            Said::Beat { armed, by } => {
+                self.live.armed = Some(armed);
+                if self.live.flown_by.replace(by) != Some(by) {
+                    self.event("flown_by", json!({ "by": by }));
+                }
+            }
             Said::OnGround(on_ground) => self.live.on_ground = on_ground,
             Said::Snapshot(index) => self.event("snapshot", json!({ "image": index })),
         }

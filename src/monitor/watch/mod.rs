@@ -18,7 +18,7 @@ use crate::monitor::session::{EndReason, EndRule};
 use crate::scenario::Scenario;
 use crate::site::Site;
 use crate::telemetry::timeline::LinkCounts;
-use crate::telemetry::{Contact, Timeline, Truth, tlog};
+use crate::telemetry::{Contact, Hand, Timeline, Truth, tlog};
 use crate::vehicle::Vehicle;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -90,6 +90,7 @@ struct Live {
     on_pad: bool,
     clearance_m: Option<f64>,
     armed: Option<bool>,
+    flown_by: Option<Hand>,
     on_ground: bool,
     lift_off: Option<SimTime>,
     on: Option<usize>,
@@ -318,6 +319,7 @@ impl Live {
             on_pad: false,
             clearance_m: None,
             armed: None,
+            flown_by: None,
             on_ground: false,
             lift_off: None,
             on: None,

@@ -107,7 +107,7 @@ impl Autopilot {
 
     pub(super) fn go_home(&mut self, dt_s: f64) -> Wanted {
         let here = self.estimate.position_m;
-        let home = self.status.home_m.unwrap_or(here);
+        let home = self.course.refuge_m.or(self.status.home_m).unwrap_or(here);
         match self.course.phase {
             ReturnPhase::Climb => {
                 if (self.course.target_m.down() - here.down()).abs() < HEIGHT_REACHED_M {
@@ -119,7 +119,8 @@ impl Autopilot {
                 let speed = self.estimate.velocity_m_s.horizontal_norm();
                 if (here - home).horizontal_norm() < 0.5 && speed < 0.5 {
                     self.course.phase = ReturnPhase::Land;
-                    self.say(Severity::Info, "Home reached, landing");
+                    let rally = self.status.home_m != Some(home);
+                    self.say(Severity::Info, if rally { "Rally point reached, landing" } else { "Home reached, landing" });
                 }
             }
             ReturnPhase::Land => {

@@ -21,6 +21,7 @@ impl Autopilot {
             Request::StartMission { first } => self.start_mission(first, now),
             Request::SetSpeed(speed) => self.set_speed(speed),
             Request::SetHome(home) => self.set_home(home),
+            Request::EnableFence(on) => self.enable_fence(on),
         }
     }
 
@@ -33,6 +34,7 @@ impl Autopilot {
             return Outcome::TemporarilyRejected(format!("Arming denied: {}", reasons.join(", ")));
         }
         self.status.armed = true;
+        self.mission.left_at = None;
         self.status.landed = Landed::OnGround;
         self.watch.standing_since = now;
         self.watch.flown = false;
@@ -80,6 +82,11 @@ impl Autopilot {
         let flying = self.status.armed && self.status.landed != Landed::OnGround;
         if mode == Mode::Mission && self.mission.is_empty() {
             return Some(Outcome::Denied("No mission to fly".into()));
+        }
+        if mode == Mode::Mission
+            && let Some(step) = self.step_outside_fence()
+        {
+            return Some(Outcome::Denied(format!("Mission item {step} lies outside the geofence")));
         }
         if mode == Mode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_patience_s(), now) {
             return Some(Outcome::TemporarilyRejected("Offboard needs external set-points first".into()));
@@ -137,6 +144,14 @@ impl Autopilot {
         }
         if !self.estimate.position_valid {
             return Outcome::TemporarilyRejected("No position estimate".into());
+        }
+        let here = self.estimate.position_m;
+        let (n, e) = north_east_m.unwrap_or((here.north(), here.east()));
+        if north_east_m.is_some() || up_m.is_some() {
+            let target = Vec3::new(n, e, up_m.map_or(here.down(), |up| -up));
+            if let Some(refusal) = self.fence_refusal(target) {
+                return refusal;
+            }
         }
         self.watch.intended = Mode::Hold;
         self.watch.overridden = false;

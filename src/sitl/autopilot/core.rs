@@ -2,6 +2,7 @@
 
 use super::attitude::{AttitudeLoop, within_limits};
 use super::estimator::Estimator;
+use super::fence::{Fence, FenceState};
 use super::gains::Gains;
 use super::landed::GroundContact;
 use super::link::Links;
@@ -96,6 +97,9 @@ pub struct Autopilot {
     pub(super) shaper: Shaper,
     pub(super) course: Course,
     pub(super) mission: Mission,
+    pub(super) fence: Fence,
+    /// Places to return to beside home, m.
+    pub(super) refuges_m: Vec<Vec3<Ned>>,
     pub(super) links: Links,
     pub(super) seen: Seen,
     pub(super) watch: Watch,
@@ -133,6 +137,8 @@ impl Autopilot {
             shaper: Shaper::default(),
             course: Course::default(),
             mission: Mission::default(),
+            fence: Fence::default(),
+            refuges_m: Vec::new(),
             links: Links::default(),
             seen: Seen::default(),
             watch: Watch::default(),
@@ -174,6 +180,11 @@ impl Autopilot {
             self.enter(Mode::Hold, self.last_step);
             self.watch.intended = Mode::Hold;
         }
+    }
+
+    /// Replaces the rally points: a return goes to the nearest of them and home. m about the origin.
+    pub fn set_refuges(&mut self, places_m: Vec<Vec3<Ned>>) {
+        self.refuges_m = places_m;
     }
 
     /// Names the mission's steps whose heights count from home; given right after the mission, with the home of that moment in them.
@@ -356,6 +367,8 @@ fn boot_status() -> Status {
         mission_current: 0,
         mission_reached: None,
         mission_finished: false,
+        mission_paused: false,
+        fence: FenceState::default(),
     }
 }
 

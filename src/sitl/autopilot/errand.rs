@@ -4,9 +4,11 @@ use super::automatic::HEIGHT_REACHED_M;
 use super::core::{Autopilot, Severity};
 use super::modes::{ReturnPhase, Wanted};
 use super::{Landed, MissionStep, Mode};
-use crate::base::frames::Vec3;
+use crate::base::frames::{Ned, Vec3};
 use crate::base::time::SimTime;
 
+/// A mission goes on once this near to where it was left, m (estimate: less than the narrowest task's threshold).
+const BACK_WITHIN_M: f64 = 0.8;
 /// A landing step descends once this near over its place, m.
 const OVER_PLACE_M: f64 = 0.7;
 
@@ -17,6 +19,9 @@ impl Autopilot {
             return self.go(None, dt_s);
         };
         self.status.mission_current = self.mission.current;
+        if let Some(place) = self.mission.left_at {
+            return self.go_back_to(place, dt_s);
+        }
         if !self.mission.begun {
             self.begin_step(&step);
         }
@@ -31,6 +36,16 @@ impl Autopilot {
         }
         let speed = self.mission.speed_m_s.or(Some(self.tuning.cruise_m_s));
         self.go(speed, dt_s)
+    }
+
+    /// To where the mission was left, then on.
+    fn go_back_to(&mut self, place_m: Vec3<Ned>, dt_s: f64) -> Wanted {
+        self.course.target_m = place_m;
+        if (place_m - self.estimate.position_m).norm() < BACK_WITHIN_M {
+            self.mission.left_at = None;
+            self.say(Severity::Info, "Mission goes on where it was left");
+        }
+        self.go(self.mission.speed_m_s.or(Some(self.tuning.cruise_m_s)), dt_s)
     }
 
     pub(super) fn begin_step(&mut self, step: &MissionStep) {

@@ -1,7 +1,7 @@
 //! The mission's list and where it stands; `modes.rs` flies the steps.
 
 use super::MissionStep;
-use crate::base::frames::Vec3;
+use crate::base::frames::{Ned, Vec3};
 use crate::base::time::SimTime;
 
 /// Steps without flight that may follow each other in one go; a list of jumps to itself ends there.
@@ -26,6 +26,8 @@ pub struct Mission {
     pub reached: Vec<usize>,
     /// The current step has been begun.
     pub begun: bool,
+    /// Where it was left on its way, m: it goes on from there.
+    pub left_at: Option<Vec3<Ned>>,
 }
 
 impl Mission {
@@ -51,12 +53,31 @@ impl Mission {
         self.steps.is_empty()
     }
 
+    /// On the way to a waypoint.
+    #[must_use]
+    pub fn is_on_the_way(&self) -> bool {
+        self.begun && matches!(self.step(), Some(MissionStep::Waypoint { .. }))
+    }
+
+    /// Places that the steps fly to, m.
+    pub fn places(&self) -> impl Iterator<Item = (usize, Vec3<Ned>)> {
+        (0..self.steps.len()).filter_map(|k| match self.step_at(k)? {
+            MissionStep::Waypoint { position_m, .. } => Some((k, position_m)),
+            MissionStep::Land { position_m } => Some((k, position_m?)),
+            _ => None,
+        })
+    }
+
     /// The step to fly now; `None` at the end.
     #[must_use]
     pub fn step(&self) -> Option<MissionStep> {
-        let hangs = self.over_home.get(self.current).copied().unwrap_or(false);
+        self.step_at(self.current)
+    }
+
+    fn step_at(&self, index: usize) -> Option<MissionStep> {
+        let hangs = self.over_home.get(index).copied().unwrap_or(false);
         let rise_m = if hangs { self.home_rise_m } else { 0.0 };
-        Some(match *self.steps.get(self.current)? {
+        Some(match *self.steps.get(index)? {
             MissionStep::Waypoint { position_m, accept_m, hold_s, yaw_rad } => {
                 MissionStep::Waypoint { position_m: position_m - Vec3::new(0.0, 0.0, rise_m), accept_m, hold_s, yaw_rad }
             }
@@ -72,6 +93,7 @@ impl Mission {
             self.current = index;
             self.wait_until = None;
             self.begun = false;
+            self.left_at = None;
         }
         known
     }

@@ -7,6 +7,7 @@ mod commands;
 pub mod core;
 mod errand;
 pub mod estimator;
+pub mod fence;
 pub mod gains;
 pub mod landed;
 pub mod link;
@@ -22,6 +23,7 @@ pub mod tuning;
 pub mod velocity;
 
 pub use self::core::{Autopilot, CONTROL_HZ, Event, Severity};
+pub use self::fence::FenceAction;
 pub use self::tuning::{LinkLoss, Tuning};
 
 use crate::base::frames::{Frd, Ned, Rotation, Vec3};
@@ -104,6 +106,8 @@ pub enum Request {
     SetSpeed(f64),
     /// Home position about the origin, m.
     SetHome(Vec3<Ned>),
+    /// The geofence on or off.
+    EnableFence(bool),
 }
 
 /// An offboard set-point; `None` axes are not controlled by it.
@@ -201,6 +205,10 @@ pub struct Status {
     pub mission_reached: Option<usize>,
     /// The mission has been flown to its end.
     pub mission_finished: bool,
+    /// The mission was left on its way and goes on where it was left.
+    pub mission_paused: bool,
+    /// The geofence.
+    pub fence: fence::FenceState,
 }
 
 /// One mission step as the autopilot flies it; the endpoint keeps the MAVLink items beside it.

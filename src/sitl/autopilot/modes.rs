@@ -72,6 +72,8 @@ pub struct Course {
     pub left_ground: SimTime,
     /// Phase of a return.
     pub phase: ReturnPhase,
+    /// Where a return goes, m.
+    pub refuge_m: Option<Vec3<Ned>>,
 }
 
 impl Mode {
@@ -91,9 +93,20 @@ impl Mode {
 impl Autopilot {
     /// Begins a mode (again).
     pub(super) fn enter(&mut self, mode: Mode, now: SimTime) {
+        self.leave_mission(mode);
         self.status.mode = mode;
         self.links.sticks_then = self.links.sticks;
         self.begin_course(now);
+    }
+
+    /// A mission that is left on its way goes on from here later.
+    fn leave_mission(&mut self, next: Mode) {
+        let flying = self.status.armed && self.status.landed == Landed::InAir && self.estimate.position_valid;
+        let under_way = self.status.mode == Mode::Mission && next != Mode::Mission && self.mission.is_on_the_way();
+        if flying && under_way && self.mission.left_at.is_none() {
+            self.mission.left_at = Some(self.estimate.position_m);
+        }
+        self.status.mission_paused = next != Mode::Mission && self.mission.left_at.is_some();
     }
 
     pub(super) fn begin_course(&mut self, now: SimTime) {
@@ -131,9 +144,20 @@ impl Autopilot {
         self.course.target_m = Vec3::new(here.north(), here.east(), (-up).min(here.down()));
     }
 
-    pub(super) fn begin_return(&mut self) {
+    /// Home or the nearest rally point.
+    fn nearest_refuge(&self) -> Vec3<Ned> {
         let here = self.estimate.position_m;
         let home = self.status.home_m.unwrap_or(here);
+        let nearer = |best: Vec3<Ned>, place: &Vec3<Ned>| {
+            if (*place - here).horizontal_norm() < (best - here).horizontal_norm() { *place } else { best }
+        };
+        self.refuges_m.iter().fold(home, nearer)
+    }
+
+    pub(super) fn begin_return(&mut self) {
+        let here = self.estimate.position_m;
+        let home = self.nearest_refuge();
+        self.course.refuge_m = Some(home);
         let away = (here - home).horizontal_norm();
         let up = -home.down() + self.tuning.return_height_m;
         let phase = if away < NEAR_HOME_M { ReturnPhase::Cruise } else { ReturnPhase::Climb };

@@ -88,6 +88,9 @@ impl Autopilot {
         self.status.arming_reasons.clear();
         self.watch_attitude(now);
         if self.status.armed && self.status.landed != Landed::OnGround {
+            self.keep_fence(now);
+        }
+        if self.status.armed && self.status.landed != Landed::OnGround {
             self.act_on_failures(now);
         }
     }
@@ -238,6 +241,9 @@ impl Autopilot {
         if self.links.sticks_fresh(self.tuning.manual_patience_s(), now) && self.links.deflection() > CENTRED {
             out.push("Sticks not centred".into());
         }
+        if e.position_valid && self.breach_at(e.position_m).is_some() {
+            out.push("Outside the geofence".into());
+        }
         if self.seen.range_up_m.is_some_and(|r| r < HEADROOM_M) {
             out.push("Something stands over the vehicle".into());
         }
@@ -249,7 +255,11 @@ impl Autopilot {
         let automatic = matches!(self.watch.intended, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Return | Mode::Mission);
         let flying = self.status.armed && matches!(self.status.landed, Landed::InAir | Landed::Landing);
         if self.tuning.stick_takeover && automatic && flying && !self.watch.overridden && self.links.moved(TAKE_OVER) {
-            self.say(Severity::Info, "Pilot took over by the sticks");
+            let mission = self.status.mode == Mode::Mission;
+            self.say(
+                Severity::Info,
+                if mission { "Mission paused: pilot took over by the sticks" } else { "Pilot took over by the sticks" },
+            );
             self.watch.intended = Mode::Position;
             self.enter(Mode::Position, now);
         }

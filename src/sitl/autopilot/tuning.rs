@@ -77,6 +77,12 @@ pub struct Tuning {
     pub disarm_after_landing_s: f64,
     /// `COM_DISARM_PRFLT`: disarms when not taken off within, s; not above zero: never.
     pub disarm_before_flight_s: f64,
+    /// `GF_ACTION`: what a breach of the geofence leads to.
+    pub fence_action: super::FenceAction,
+    /// `GF_MAX_HOR_DIST`: farthest from home, m; 0: no limit.
+    pub fence_distance_m: f64,
+    /// `GF_MAX_VER_DIST`: highest over home, m; 0: no limit.
+    pub fence_height_m: f64,
     /// `COM_RC_OVERRIDE`: moved sticks take over from automatic modes.
     pub stick_takeover: bool,
     /// `MPC_HOLD_DZ`: sticks within this share of their travel count as centred.
@@ -127,6 +133,9 @@ impl Default for Tuning {
             battery_critical_pct: 7.0,
             disarm_after_landing_s: 2.0,
             disarm_before_flight_s: 10.0,
+            fence_action: super::FenceAction::Hold,
+            fence_distance_m: 0.0,
+            fence_height_m: 0.0,
             stick_takeover: true,
             stick_deadband: 0.03,
         }

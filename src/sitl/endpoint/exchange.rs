@@ -215,14 +215,28 @@ pub(super) fn unknown_plan(e: &mut Endpoint, mission_type: u8, a: &Arrival) {
 fn carry_out(e: &mut Endpoint, reply: Reply, a: &mut Arrival) {
     match reply {
         Reply::Say(message) => e.answer(a.link, &message),
-        Reply::NewMission(message) => {
-            let home_up = a.view.status.home_m.map_or(0.0, |h| -h.down());
-            a.autopilot.set_mission(e.plans.steps(a.view.plane, home_up, a.autopilot.tuning.accept_radius_m));
-            a.autopilot.hang_mission_on_home(e.plans.over_home());
-            e.payload.camera.mission_items = e.plans.mission().len() as u16;
+        Reply::New(kind, message) => {
+            hand_over(e, kind, a);
             e.answer(a.link, &message);
         }
         Reply::Nothing => {}
+    }
+}
+
+/// The autopilot gets what has changed.
+fn hand_over(e: &mut Endpoint, kind: MavMissionType, a: &mut Arrival) {
+    let is = |one| kind == one || kind == MavMissionType::MAV_MISSION_TYPE_ALL;
+    let home_up = a.view.status.home_m.map_or(0.0, |h| -h.down());
+    if is(MavMissionType::MAV_MISSION_TYPE_MISSION) {
+        a.autopilot.set_mission(e.plans.steps(a.view.plane, home_up, a.autopilot.tuning.accept_radius_m));
+        a.autopilot.hang_mission_on_home(e.plans.over_home());
+        e.payload.camera.mission_items = e.plans.mission().len() as u16;
+    }
+    if is(MavMissionType::MAV_MISSION_TYPE_FENCE) {
+        a.autopilot.set_fence(e.plans.zones(a.view.plane));
+    }
+    if is(MavMissionType::MAV_MISSION_TYPE_RALLY) {
+        a.autopilot.set_refuges(e.plans.refuges(a.view.plane, home_up));
     }
 }
 

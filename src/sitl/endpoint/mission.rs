@@ -1,6 +1,7 @@
 //! Plans: upload and download of missions, fences and rally points, and what of a mission the autopilot can fly.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
+use super::areas;
 use super::commands::payload;
 use crate::base::frames::{Ned, Vec3};
 use crate::base::geodesy::LocalPlane;
@@ -11,6 +12,7 @@ use crate::mav::dialect::{
 };
 use crate::mav::units;
 use crate::sitl::autopilot::MissionStep;
+use crate::sitl::autopilot::fence::Zone;
 
 /// Items that a plan may have.
 const MOST_ITEMS: u16 = 2_000;
@@ -26,7 +28,7 @@ const ASK_AGAIN_S: f64 = 1.0;
 /// Who speaks: system and component.
 pub type Peer = (u8, u8);
 
-/// Plans and a running upload. Fences and rally points are kept and given back; the autopilot does not act on them.
+/// Plans and a running upload.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plans {
     kept: [Vec<MISSION_ITEM_INT_DATA>; 3],
@@ -58,8 +60,8 @@ struct Upload {
 pub enum Reply {
     /// Answer the sender.
     Say(MavMessage),
-    /// A new mission is complete: answer, and let the autopilot have it.
-    NewMission(MavMessage),
+    /// A plan is complete or gone: answer, and let the autopilot have it.
+    New(MavMissionType, MavMessage),
     /// Nothing.
     Nothing,
 }
@@ -89,6 +91,18 @@ impl Plans {
     /// Uploaders that are not kept in step take longer by this factor.
     pub fn set_pace(&mut self, pace: f64) {
         self.pace = pace;
+    }
+
+    /// The fence's areas.
+    #[must_use]
+    pub fn zones(&self, plane: &LocalPlane) -> Vec<Zone> {
+        areas::zones(&self.kept[1], plane)
+    }
+
+    /// The rally points, m about the origin.
+    #[must_use]
+    pub fn refuges(&self, plane: &LocalPlane, home_up_m: f64) -> Vec<Vec3<Ned>> {
+        areas::refuges(&self.kept[2], plane, home_up_m)
     }
 
     /// Items of the mission.
@@ -139,7 +153,7 @@ impl Plans {
             self.upload = None;
             self.kept[slot].clear();
             let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
-            return if slot == 0 { Reply::NewMission(done) } else { Reply::Say(done) };
+            return Reply::New(kind, done);
         }
         self.upload = Some(Upload { from, kind, items: Vec::new(), count, heard: now, asked: now });
         Reply::Say(ask(from, kind, 0))
@@ -174,11 +188,14 @@ impl Plans {
             return Reply::Say(ask(from, upload.kind, wanted + 1));
         }
         let Some(upload) = self.upload.take() else { return Reply::Nothing };
+        if let Err(result) = areas::whole(&upload.items) {
+            return Reply::Say(ack(from, upload.kind, result));
+        }
         let slot = slot(upload.kind).unwrap_or(0);
         self.kept[slot] = upload.items;
         self.done = Some((from, upload.kind));
         let done = ack(from, upload.kind, MavMissionResult::MAV_MISSION_ACCEPTED);
-        if slot == 0 { Reply::NewMission(done) } else { Reply::Say(done) }
+        Reply::New(upload.kind, done)
     }
 
     /// The last item of a finished upload once more: its sender has not heard the acknowledgement.
@@ -208,8 +225,7 @@ impl Plans {
             None => self.kept.iter_mut().for_each(Vec::clear),
         }
         let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
-        let mission = matches!(kind, MavMissionType::MAV_MISSION_TYPE_MISSION | MavMissionType::MAV_MISSION_TYPE_ALL);
-        if mission { Reply::NewMission(done) } else { Reply::Say(done) }
+        Reply::New(kind, done)
     }
 
     /// The uploader has given up or finished.
@@ -266,7 +282,7 @@ fn relative(frame: MavFrame) -> Option<bool> {
 }
 
 /// Where an item is, m; `None` without a usable place.
-fn place(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> Option<Vec3<Ned>> {
+pub(super) fn place(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> Option<Vec3<Ned>> {
     let relative = relative(item.frame)?;
     let altitude = f64::from(item.z);
     let origin = plane.origin();
@@ -284,7 +300,7 @@ fn placeless(item: &MISSION_ITEM_INT_DATA) -> bool {
 fn legal(item: &MISSION_ITEM_INT_DATA, count: u16, plane: &LocalPlane) -> Result<(), MavMissionResult> {
     use MavMissionResult as R;
     if item.mission_type != MavMissionType::MAV_MISSION_TYPE_MISSION {
-        return Ok(());
+        return areas::legal(item, plane);
     }
     let span = |value: f32, low: f32, high: f32, wrong: R| {
         if value.is_nan() || (low..=high).contains(&value) { Ok(()) } else { Err(wrong) }
@@ -309,14 +325,14 @@ fn legal(item: &MISSION_ITEM_INT_DATA, count: u16, plane: &LocalPlane) -> Result
             if inside { span(item.param2, -1.0, 1e6, R::MAV_MISSION_INVALID_PARAM2) } else { Err(R::MAV_MISSION_INVALID_PARAM1) }
         }
         MavCmd::MAV_CMD_DO_CHANGE_SPEED => span(item.param2, -2.0, 100.0, R::MAV_MISSION_INVALID_PARAM2),
-        MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH => Ok(()),
+        MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH | MavCmd::MAV_CMD_DO_LAND_START => Ok(()),
         command if payload::knows(command) => Ok(()),
         _ => Err(R::MAV_MISSION_UNSUPPORTED),
     }
 }
 
 /// A place in a known frame, at a height, not on another continent.
-fn flyable(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
+pub(super) fn flyable(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
     if relative(item.frame).is_none() {
         return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED_FRAME);
     }

@@ -1,5 +1,6 @@
 //! The vehicle's MAVLink face: PX4-compatible. Datagrams of every link come in, what is due goes out; nothing here reads a clock.
 
+mod areas;
 mod arrival;
 pub mod budget;
 pub mod camera;

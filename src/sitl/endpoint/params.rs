@@ -1,6 +1,6 @@
 //! Parameters: the names that ground stations look for, our own group, ranges, and the byte-wise encoding of PX4.
 
-use crate::sitl::autopilot::{LinkLoss, Tuning};
+use crate::sitl::autopilot::{FenceAction, LinkLoss, Tuning};
 use std::collections::BTreeMap;
 
 /// A value with its type.
@@ -223,6 +223,9 @@ impl Params {
         tuning.battery_critical_pct = 100.0 * self.number("BAT_CRIT_THR");
         tuning.disarm_after_landing_s = self.number("COM_DISARM_LAND");
         tuning.disarm_before_flight_s = self.number("COM_DISARM_PRFLT");
+        tuning.fence_action = FenceAction::from_number(self.number("GF_ACTION") as i32).unwrap_or(FenceAction::Hold);
+        tuning.fence_distance_m = self.number("GF_MAX_HOR_DIST");
+        tuning.fence_height_m = self.number("GF_MAX_VER_DIST");
         tuning.manual_loss = LinkLoss::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLoss::Hold);
         tuning.data_link_loss = LinkLoss::from_number(self.number("NAV_DLL_ACT") as i32).unwrap_or(LinkLoss::Ignore);
     }

@@ -3,7 +3,7 @@
 use super::seeds;
 use mavlink::{MavlinkVersion, Message};
 use spandrel::base::random::RandomStream;
-use spandrel::mav::dialect::MavMessage;
+use spandrel::mav::dialect::{MISSION_ITEM_INT_DATA, MavMessage, MavMissionType};
 use spandrel::sitl::endpoint::HANDLED;
 
 const REALS: [f32; 14] = [
@@ -112,10 +112,13 @@ fn sender(stream: &mut RandomStream) -> (u8, u8) {
 
 /// The frames of an upload, one changed, left out, doubled or exchanged with its neighbour; then the mission is flown.
 pub fn upload(stream: &mut RandomStream) -> Vec<Vec<u8>> {
-    let placeless = stream.below(3) == 0;
-    let items = if placeless { 2 } else { 1 + stream.below(5) as u16 };
-    let item = if placeless { seeds::placeless } else { seeds::item };
-    let mut messages = vec![seeds::count(items)];
+    let (items, item): (u16, fn(u16) -> MISSION_ITEM_INT_DATA) = match stream.below(4) {
+        0 => (2, seeds::placeless),
+        1 => (3 + stream.below(2) as u16, seeds::corner),
+        _ => (1 + stream.below(5) as u16, seeds::item),
+    };
+    let fence = item(0).mission_type == MavMissionType::MAV_MISSION_TYPE_FENCE;
+    let mut messages = vec![if fence { seeds::count_fence(items) } else { seeds::count(items) }];
     messages.extend((0..items).map(|seq| MavMessage::MISSION_ITEM_INT(item(seq))));
     let mut payloads: Vec<(u32, Vec<u8>)> = messages.iter().map(|m| (m.message_id(), payload(m))).collect();
     let at = stream.below(payloads.len());

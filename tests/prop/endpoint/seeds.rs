@@ -186,6 +186,25 @@ pub fn placeless(seq: u16) -> MISSION_ITEM_INT_DATA {
     MISSION_ITEM_INT_DATA { command, x: 0, y: 0, ..item(seq) }
 }
 
+/// A corner of a triangle about the origin.
+pub fn corner(seq: u16) -> MISSION_ITEM_INT_DATA {
+    MISSION_ITEM_INT_DATA {
+        command: MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION,
+        param1: 3.0,
+        x: HERE.0 + [-9_000, 9_000, 9_000][usize::from(seq) % 3],
+        y: HERE.1 + [0, -9_000, 9_000][usize::from(seq) % 3],
+        z: 0.0,
+        frame: MavFrame::MAV_FRAME_GLOBAL,
+        mission_type: MavMissionType::MAV_MISSION_TYPE_FENCE,
+        ..item(seq)
+    }
+}
+
+pub fn count_fence(count: u16) -> MavMessage {
+    let mission_type = MavMissionType::MAV_MISSION_TYPE_FENCE;
+    MavMessage::MISSION_COUNT(MISSION_COUNT_DATA { count, mission_type, ..Default::default() })
+}
+
 pub fn count(count: u16) -> MavMessage {
     MavMessage::MISSION_COUNT(MISSION_COUNT_DATA { count, ..Default::default() })
 }

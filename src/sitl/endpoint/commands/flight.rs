@@ -49,6 +49,11 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             Some(request) => request,
             None => return Some(DENIED),
         },
+        n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
+            0.0 => Request::EnableFence(false),
+            1.0 => Request::EnableFence(true),
+            _ => return Some(DENIED),
+        },
         n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 && c.p[0] > 0.5 => Request::Disarm { force: true },
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {

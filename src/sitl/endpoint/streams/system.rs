@@ -5,11 +5,13 @@ use super::super::px4;
 use super::super::view::View;
 use crate::mav::dialect::{
     AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, CURRENT_MODE_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA,
-    EstimatorStatusFlags, FLIGHT_INFORMATION_DATA, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavAutopilot, MavBatteryChargeState,
-    MavBatteryFault, MavBatteryFunction, MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag,
-    MavProtocolCapability, MavState, MavSysStatusSensor, MavSysStatusSensorExtended, MavType, MavVtolState, MissionState,
-    PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
+    EstimatorStatusFlags, FENCE_STATUS_DATA, FLIGHT_INFORMATION_DATA, FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA,
+    MavAutopilot, MavBatteryChargeState, MavBatteryFault, MavBatteryFunction, MavBatteryMode, MavBatteryType, MavLandedState,
+    MavMessage, MavModeFlag, MavProtocolCapability, MavState, MavSysStatusSensor, MavSysStatusSensorExtended, MavType,
+    MavVtolState, MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA,
+    WIND_COV_DATA,
 };
+use crate::sitl::autopilot::fence::Breach;
 use crate::sitl::autopilot::{Landed, Mode};
 
 /// What we call ourselves on the wire: a PX4-compatible interface, development version (mavlink.md R1).
@@ -180,6 +182,7 @@ pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
         _ if v.camera.mission_items == 0 => MissionState::MISSION_STATE_NO_MISSION,
         (_, true) => MissionState::MISSION_STATE_COMPLETE,
         (Mode::Mission, _) if v.status.armed => MissionState::MISSION_STATE_ACTIVE,
+        _ if v.status.mission_paused => MissionState::MISSION_STATE_PAUSED,
         _ => MissionState::MISSION_STATE_NOT_STARTED,
     };
     Some(MavMessage::MISSION_CURRENT(MISSION_CURRENT_DATA {
@@ -189,6 +192,22 @@ pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
         mission_state: state,
         // 1 in mission mode, 2 not.
         mission_mode: if flying { 1 } else { 2 },
+        ..Default::default()
+    }))
+}
+
+pub(super) fn fence(v: &View) -> Option<MavMessage> {
+    let fence = &v.status.fence;
+    let breach_type = match fence.breach {
+        None => FenceBreach::FENCE_BREACH_NONE,
+        Some(Breach::Height) => FenceBreach::FENCE_BREACH_MAXALT,
+        Some(Breach::Boundary) => FenceBreach::FENCE_BREACH_BOUNDARY,
+    };
+    Some(MavMessage::FENCE_STATUS(FENCE_STATUS_DATA {
+        breach_time: fence.at.ms() as u32,
+        breach_count: fence.count,
+        breach_status: u8::from(fence.breach.is_some()),
+        breach_type,
         ..Default::default()
     }))
 }

@@ -1,0 +1,80 @@
+//! Geofence and rally points of a plan, as the autopilot takes them.
+
+use super::mission::place;
+use crate::base::frames::{Ned, Vec3};
+use crate::base::geodesy::LocalPlane;
+use crate::mav::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavMissionResult};
+use crate::sitl::autopilot::fence::{Outline, Zone};
+
+/// A polygon's corners.
+const CORNERS: std::ops::RangeInclusive<f32> = 3.0..=70.0;
+/// Radii of circles, m.
+const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=100_000.0;
+
+/// Whether an item of a fence or of rally points can be part of one; names the parameter that is wrong.
+pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
+    let first = match item.command {
+        MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_EXCLUSION => {
+            CORNERS.contains(&item.param1) && item.param1.fract() == 0.0
+        }
+        MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION => RADII_M.contains(&item.param1),
+        MavCmd::MAV_CMD_NAV_RALLY_POINT => true,
+        _ => return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED),
+    };
+    if !first {
+        return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);
+    }
+    super::mission::flyable(item, plane)
+}
+
+/// Whether a whole fence holds together: every polygon has as many corners in a row as each of them says.
+pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> Result<(), MavMissionResult> {
+    let mut at = 0;
+    while let Some(item) = items.get(at) {
+        let corners = corners(item);
+        let run = items.iter().skip(at).take(corners);
+        let alike = run.filter(|other| other.command == item.command && other.param1 == item.param1).count();
+        if alike < corners {
+            return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);
+        }
+        at += corners;
+    }
+    Ok(())
+}
+
+/// Items that make up the area that begins with this one.
+fn corners(item: &MISSION_ITEM_INT_DATA) -> usize {
+    match item.command {
+        MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_EXCLUSION => {
+            (item.param1 as usize).max(1)
+        }
+        _ => 1,
+    }
+}
+
+/// The areas of a fence that is legal and whole.
+pub(super) fn zones(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane) -> Vec<Zone> {
+    let flat = |item: &MISSION_ITEM_INT_DATA| place(item, plane, 0.0).map_or((0.0, 0.0), |p| (p.north(), p.east()));
+    let mut out = Vec::new();
+    let mut at = 0;
+    while let Some(item) = items.get(at) {
+        let corners = corners(item);
+        let inclusion = matches!(
+            item.command,
+            MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION
+        );
+        let outline = if corners > 1 {
+            Outline::Polygon(items.iter().skip(at).take(corners).map(flat).collect())
+        } else {
+            Outline::Circle { centre_m: flat(item), radius_m: f64::from(item.param1) }
+        };
+        out.push(Zone { outline, inclusion });
+        at += corners;
+    }
+    out
+}
+
+/// The places of rally points, m about the origin.
+pub(super) fn refuges(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane, home_up_m: f64) -> Vec<Vec3<Ned>> {
+    items.iter().filter_map(|item| place(item, plane, home_up_m)).collect()
+}
