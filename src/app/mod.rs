@@ -16,6 +16,7 @@ mod logging;
 mod monitor;
 mod net;
 mod pace;
+mod params;
 mod pilot;
 mod ports;
 mod progress;

@@ -4,11 +4,12 @@ use super::clock::{self, Stopwatch};
 use super::errors::AppError;
 use super::links::{Change, Links};
 use super::pace::{PATIENCE, Pace, Patience, Speed};
+use super::params::ParamFile;
 use super::store::Store;
 use crate::base::time::SimTime;
 use crate::mav::signing::{Key, stamp};
 use crate::sitl::endpoint::files::job::FileError;
-use crate::sitl::endpoint::{LinkId, LinkKind};
+use crate::sitl::endpoint::{LinkId, LinkKind, Wish};
 use crate::sitl::sim::{Sim, SimEvent};
 use std::time::Duration;
 
@@ -16,6 +17,15 @@ use std::time::Duration;
 const LOOK: Duration = Duration::from_millis(100);
 /// Shortest sleep: ticks every millisecond would only keep the machine awake, and an arrival ends the sleep anyway.
 const REST: Duration = Duration::from_millis(2);
+
+/// What a vehicle keeps on disk.
+#[derive(Debug)]
+pub struct Kept {
+    /// Files for clients, and flight logs.
+    pub store: Option<Store>,
+    /// Parameters.
+    pub params: Option<ParamFile>,
+}
 
 /// Signatures that are demanded.
 #[derive(Debug, Clone)]
@@ -35,23 +45,36 @@ pub struct Shell {
     watch: Stopwatch,
     patience: Patience,
     store: Option<Store>,
+    params: Option<ParamFile>,
     signs: bool,
 }
 
 impl Shell {
     /// Time begins now.
-    pub fn new(mut core: Sim, links: Links, speed: Speed, store: Option<Store>, signing: Option<Signing>) -> Self {
+    ///
+    /// # Errors
+    /// When the parameter file is wrong.
+    pub fn new(mut core: Sim, links: Links, speed: Speed, kept: Kept, signing: Option<Signing>) -> Result<Self, AppError> {
+        let Kept { store, mut params } = kept;
         let watch = Stopwatch::start();
         core.set_pace(speed.client_pace());
         if store.is_some() {
             core.serve_files();
             core.record();
         }
+        if let Some(file) = &mut params {
+            core.keep_parameters();
+            if let Some(text) = file.text()? {
+                core.read_parameters(&text).map_err(|problems| file.wrong(&problems))?;
+            }
+            file.holds = core.parameter_changes();
+        }
         let signs = signing.is_some();
         if let Some(Signing { key, unsigned }) = signing {
             core.demand_signatures(key, stamp(clock::unix_us()), &unsigned);
         }
-        Self { core, links, pace: Pace::new(speed, watch.elapsed()), watch, patience: Patience::default(), store, signs }
+        let pace = Pace::new(speed, watch.elapsed());
+        Ok(Self { core, links, pace, watch, patience: Patience::default(), store, params, signs })
     }
 
     /// Takes in what has come, lets time pass, sends what is due, rests.
@@ -72,6 +95,7 @@ impl Shell {
             self.core.handle_timeout(target);
         }
         self.keep_files();
+        self.keep_parameters();
         while let Some(datagram) = self.core.poll_transmit() {
             self.links.send(datagram.link.0, datagram.bytes);
         }
@@ -91,6 +115,25 @@ impl Shell {
             if let Some(Err(error)) = self.store.as_mut().map(|store| store.log(&piece)) {
                 tracing::warn!("the flight's log is not written: {error}");
             }
+        }
+    }
+
+    /// Writes parameters that have changed, and reads the file again when a client asks for it.
+    fn keep_parameters(&mut self) {
+        let Some(file) = &mut self.params else { return };
+        let wish = self.core.poll_storage();
+        let told = match wish {
+            Some(Wish::Load) => file
+                .text()
+                .and_then(|text| self.core.read_parameters(&text.unwrap_or_default()).map_err(|problems| file.wrong(&problems))),
+            _ if wish == Some(Wish::Save) || self.core.parameter_changes() != file.holds => {
+                file.write(&self.core.parameter_text())
+            }
+            _ => return,
+        };
+        file.holds = self.core.parameter_changes();
+        if let Err(error) = told {
+            tracing::warn!("the parameters are not kept: {error}");
         }
     }
 

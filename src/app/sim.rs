@@ -6,9 +6,10 @@ use super::files;
 use super::key;
 use super::links::Links;
 use super::pace::Speed;
+use super::params::ParamFile;
 use super::ports::PortArgs;
 use super::progress::Progress;
-use super::shell::{Shell, Signing};
+use super::shell::{Kept, Shell, Signing};
 use super::stop::Stop;
 use super::store::Store;
 use crate::base::time::SimTime;
@@ -16,7 +17,7 @@ use crate::site::Site;
 use crate::sitl::endpoint::LinkKind;
 use crate::sitl::sim::{Sim, SimConfig};
 use std::net::SocketAddr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Simulate the vehicle
@@ -55,6 +56,10 @@ pub struct Args {
     /// folder in it, named by its system id [default: none is served or written]
     #[arg(long, value_name = "DIR")]
     files: Option<PathBuf>,
+    /// File that keeps the parameters beyond a run: read at the start when it is there, written after every change; the format is
+    /// QGroundControl's .params. With several vehicles each has one of its own, ending in its system id [default: none is kept]
+    #[arg(long, value_name = "FILE")]
+    params: Option<PathBuf>,
     /// File with the MAVLink signing key, readable by its owner alone: 64 hexadecimal digits, or a passphrase as MAVProxy takes it. What
     /// is not signed with it does nothing [default: no signatures]
     #[arg(long, value_name = "FILE")]
@@ -134,11 +139,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
     let shells: Vec<Shell> = doors
         .into_iter()
-        .map(|Door { links, store, instance }| {
+        .map(|Door { links, kept, instance }| {
             let config = SimConfig { scenario: scenario.clone(), vehicle: vehicle.clone(), seed, instance };
-            Shell::new(Sim::new(config, site.clone()), links, args.speed, store, signing.clone())
+            Shell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())
         })
-        .collect();
+        .collect::<Result<_, _>>()?;
     let digests = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
     if args.digest {
         for digest in digests {
@@ -164,7 +169,7 @@ fn signing(args: &Args) -> Result<Option<Signing>, AppError> {
 /// What one vehicle has of the outside world.
 struct Door {
     links: Links,
-    store: Option<Store>,
+    kept: Kept,
     instance: u8,
 }
 
@@ -174,8 +179,17 @@ impl Door {
         let instance = ports.instance;
         let folder = |root: &PathBuf| if args.instances == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
         let store = args.files.as_ref().map(folder).map(|folder| Store::open(&folder)).transpose()?;
-        Ok(Self { links: Links::open(&ports, &args.lockstep)?, store, instance })
+        let params =
+            args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { numbered(path, instance + 1) });
+        let kept = Kept { store, params: params.map(ParamFile::new) };
+        Ok(Self { links: Links::open(&ports, &args.lockstep)?, kept, instance })
     }
+}
+
+fn numbered(path: &Path, system_id: u8) -> PathBuf {
+    let mut name = path.as_os_str().to_os_string();
+    name.push(format!(".{system_id}"));
+    PathBuf::from(name)
 }
 
 /// Every vehicle in a thread of its own until the end; what goes wrong with one ends all. Gives their digests.

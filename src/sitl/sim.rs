@@ -7,8 +7,9 @@ use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
 use super::endpoint::files::job::{Done, FileError, Job};
 use super::endpoint::params::Thresholds;
+use super::endpoint::params::text::Problem;
 use super::endpoint::view::{Scoring, View};
-use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit};
+use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit, Wish};
 use super::log::{self, Recorder};
 use super::physics::{self, Actuators, Air, Load, Model};
 use super::sensors::{BatteryReading, Readings, Sensors, Truth};
@@ -300,6 +301,37 @@ impl Sim {
     #[must_use]
     pub fn refused(&self) -> u64 {
         self.endpoint.refused()
+    }
+
+    /// Changes of parameters so far.
+    #[must_use]
+    pub fn parameter_changes(&self) -> u64 {
+        self.endpoint.parameter_changes()
+    }
+
+    /// The parameters as a text file, in the format of QGroundControl.
+    #[must_use]
+    pub fn parameter_text(&self) -> String {
+        self.endpoint.parameter_text()
+    }
+
+    /// Sets what a parameter file says.
+    ///
+    /// # Errors
+    /// Every line that is wrong; then nothing is set.
+    pub fn read_parameters(&mut self, text: &str) -> Result<(), Vec<Problem>> {
+        let Backend::Builtin(autopilot) = &mut self.backend;
+        self.endpoint.read_parameters(text, autopilot)
+    }
+
+    /// Somebody keeps the parameters in a file from now on ([`Sim::poll_storage`]).
+    pub fn keep_parameters(&mut self) {
+        self.endpoint.keep_parameters();
+    }
+
+    /// What a client wants of the parameter file.
+    pub fn poll_storage(&mut self) -> Option<Wish> {
+        self.endpoint.poll_storage()
     }
 
     /// Somebody does file jobs from now on ([`Sim::poll_file_job`]).

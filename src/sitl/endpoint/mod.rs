@@ -19,6 +19,7 @@ mod offboard;
 pub mod params;
 pub mod px4;
 mod receive;
+mod storage;
 pub mod streams;
 pub mod view;
 
@@ -37,6 +38,8 @@ use mission::Plans;
 use params::{Params, Thresholds};
 pub use receive::HANDLED;
 use std::collections::{BTreeMap, VecDeque};
+use storage::Storage;
+pub use storage::Wish;
 use streams::{AUTOPILOT, CAMERA, STREAMS, truth};
 use view::{Scoring, View};
 
@@ -91,6 +94,10 @@ pub struct Context<'a, 'v> {
     pub link: &'a mut Link,
     /// Texts for everybody.
     pub texts: &'a mut Vec<(MavSeverity, String)>,
+    /// The parameters.
+    pub params: &'a mut Params,
+    /// Where they are kept.
+    pub storage: &'a mut Storage,
 }
 
 impl Context<'_, '_> {
@@ -118,6 +125,7 @@ pub struct Endpoint {
     /// The file server.
     pub files: files::Server,
     params: Params,
+    storage: Storage,
     plans: Plans,
     manual: Manual,
     /// Camera, gimbal, lamp.
@@ -155,13 +163,15 @@ impl Endpoint {
     #[must_use]
     pub fn new(system_id: u8, cells: u32, battery: Thresholds) -> Self {
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
+        let params = Params::new(system_id, cells, battery);
         Self {
             system_id,
             links: BTreeMap::new(),
             router: Router::new(),
             guard: None,
-            files: files::Server::default(),
-            params: Params::new(system_id, cells, battery),
+            files: metadata_server(),
+            storage: Storage::new(params.clone()),
+            params,
             plans: Plans::default(),
             manual: Manual::default(),
             payload: Payload { camera: CameraState::default(), gimbal: Gimbal::new(), lamp: LampState::OFF },
@@ -234,6 +244,47 @@ impl Endpoint {
     /// Names and present values of all parameters, in the order of their names.
     pub fn parameters(&self) -> impl Iterator<Item = (&'static str, params::Value)> {
         (0..self.params.count()).filter_map(|index| self.params.at(index))
+    }
+
+    /// Changes of parameters so far.
+    #[must_use]
+    pub fn parameter_changes(&self) -> u64 {
+        self.params.changes()
+    }
+
+    /// The parameters as a text file.
+    #[must_use]
+    pub fn parameter_text(&self) -> String {
+        params::text::write(&self.params, self.system_id)
+    }
+
+    /// Sets what a parameter file says, and tells everybody.
+    ///
+    /// # Errors
+    /// Every line that is wrong; then nothing is set.
+    pub fn read_parameters(&mut self, text: &str, autopilot: &mut Autopilot) -> Result<(), Vec<params::text::Problem>> {
+        params::text::read(&mut self.params, text)?;
+        self.parameters_changed(autopilot);
+        Ok(())
+    }
+
+    /// Somebody keeps the parameters from now on.
+    pub fn keep_parameters(&mut self) {
+        self.storage.kept = true;
+    }
+
+    /// What a client wants of whoever keeps the parameters.
+    pub fn poll_storage(&mut self) -> Option<Wish> {
+        self.storage.wish.take()
+    }
+
+    /// Many parameters may have changed: they act, and every link gets the whole list.
+    fn parameters_changed(&mut self, autopilot: &mut Autopilot) {
+        self.params.apply(&mut autopilot.tuning);
+        self.manual.let_go_s = autopilot.tuning.manual_patience_s();
+        for id in self.links.keys() {
+            self.param_lists.insert(*id, (0..self.params.count()).collect());
+        }
     }
 
     /// Links that are kept in step.
@@ -439,6 +490,15 @@ impl Endpoint {
         }
         self.param_lists.retain(|_, list| !list.is_empty());
     }
+}
+
+/// A file server with nothing but what describes the vehicle.
+fn metadata_server() -> files::Server {
+    let mut server = files::Server::default();
+    for file in [params::metadata::general(), params::metadata::parameter()] {
+        server.make_up(file.path, file.bytes.clone());
+    }
+    server
 }
 
 /// Pieces of at most 50 bytes, cut between characters.

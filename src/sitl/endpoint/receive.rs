@@ -132,9 +132,20 @@ impl Endpoint {
 
     fn command(&mut self, command: &Command, a: &mut Arrival) {
         let Some(link) = self.links.get_mut(&a.link) else { return };
-        let mut context =
-            Context { view: *a.view, autopilot: &mut *a.autopilot, payload: &mut self.payload, link, texts: &mut self.texts };
+        let mut context = Context {
+            view: *a.view,
+            autopilot: &mut *a.autopilot,
+            payload: &mut self.payload,
+            link,
+            texts: &mut self.texts,
+            params: &mut self.params,
+            storage: &mut self.storage,
+        };
+        let before = context.params.changes();
         let result = commands::handle(command, &mut context);
+        if self.params.changes() != before {
+            self.parameters_changed(a.autopilot);
+        }
         let component = if command.component == CAMERA { CAMERA } else { AUTOPILOT };
         let number = command.number.to_le_bytes();
         // Laid out by hand: the number may be one that the dialect does not know.

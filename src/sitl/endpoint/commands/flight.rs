@@ -1,6 +1,6 @@
 //! Arming, modes, take-off, go-to, landing.
 
-use super::super::px4;
+use super::super::{px4, storage};
 use super::{Command, result};
 use crate::mav::dialect::{MavCmd, MavResult};
 use crate::sitl::autopilot::{Mode, Request};
@@ -55,6 +55,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             _ => return Some(DENIED),
         },
         n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 && c.p[0] > 0.5 => Request::Disarm { force: true },
+        n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => return Some(storage::preflight(c, x)),
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {
             return Some(if x.view.status.armed { DENIED } else { MavResult::MAV_RESULT_UNSUPPORTED });

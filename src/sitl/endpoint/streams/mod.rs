@@ -88,6 +88,8 @@ pub const STREAMS: &[Stream] = &[
     row(376, [1.0, 1.0, 0.0], payload::relay),
     camera(262, [0.2, 0.2, 0.0], payload::capture_status),
     row(148, [0.0, 0.0, 0.0], system::version),
+    row(397, [0.0, 0.0, 0.0], system::metadata),
+    row(395, [0.0, 0.0, 0.0], system::information),
     row(300, [0.0, 0.0, 0.0], system::protocol),
     row(264, [0.0, 0.0, 0.0], system::flight),
     row(280, [0.0, 0.0, 0.0], payload::gimbal_manager),

@@ -1,15 +1,16 @@
 //! State of the vehicle as a whole.
 #![allow(deprecated, reason = "clients still ask for PROTOCOL_VERSION")]
 
+use super::super::params::metadata;
 use super::super::px4;
 use super::super::view::View;
 use crate::mav::dialect::{
-    AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, CURRENT_MODE_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA,
-    EstimatorStatusFlags, FENCE_STATUS_DATA, FLIGHT_INFORMATION_DATA, FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA,
-    MavAutopilot, MavBatteryChargeState, MavBatteryFault, MavBatteryFunction, MavBatteryMode, MavBatteryType, MavLandedState,
-    MavMessage, MavModeFlag, MavProtocolCapability, MavState, MavSysStatusSensor, MavSysStatusSensorExtended, MavType,
-    MavVtolState, MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA,
-    WIND_COV_DATA,
+    AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, COMPONENT_INFORMATION_DATA, COMPONENT_METADATA_DATA, CURRENT_MODE_DATA,
+    ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags, FENCE_STATUS_DATA, FLIGHT_INFORMATION_DATA,
+    FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavAutopilot, MavBatteryChargeState, MavBatteryFault, MavBatteryFunction,
+    MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag, MavProtocolCapability, MavState, MavSysStatusSensor,
+    MavSysStatusSensorExtended, MavType, MavVtolState, MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA,
+    SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
 };
 use crate::sitl::autopilot::fence::Breach;
 use crate::sitl::autopilot::{Landed, Mode};
@@ -232,6 +233,7 @@ pub(super) fn version(v: &View) -> Option<MavMessage> {
         | C::MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_GLOBAL_INT
         | C::MAV_PROTOCOL_CAPABILITY_FLIGHT_TERMINATION
         | C::MAV_PROTOCOL_CAPABILITY_MAVLINK2
+        | C::MAV_PROTOCOL_CAPABILITY_FTP
         | C::MAV_PROTOCOL_CAPABILITY_MISSION_FENCE
         | C::MAV_PROTOCOL_CAPABILITY_MISSION_RALLY;
     Some(MavMessage::AUTOPILOT_VERSION(AUTOPILOT_VERSION_DATA {
@@ -239,6 +241,24 @@ pub(super) fn version(v: &View) -> Option<MavMessage> {
         uid: 0x5350_414e_4452_454c + u64::from(v.scoring.seed.unsigned_abs()),
         flight_sw_version: SOFTWARE_VERSION,
         middleware_sw_version: SOFTWARE_VERSION,
+        ..Default::default()
+    }))
+}
+
+/// Where the descriptions of the parameters lie.
+pub(super) fn metadata(v: &View) -> Option<MavMessage> {
+    let general = metadata::general();
+    let uri = general.uri.as_str().into();
+    Some(MavMessage::COMPONENT_METADATA(COMPONENT_METADATA_DATA { time_boot_ms: v.boot_ms(), file_crc: general.crc, uri }))
+}
+
+/// The same for older clients.
+pub(super) fn information(v: &View) -> Option<MavMessage> {
+    let general = metadata::general();
+    Some(MavMessage::COMPONENT_INFORMATION(COMPONENT_INFORMATION_DATA {
+        time_boot_ms: v.boot_ms(),
+        general_metadata_file_crc: general.crc,
+        general_metadata_uri: general.uri.as_str().into(),
         ..Default::default()
     }))
 }

@@ -1,7 +1,13 @@
 //! Parameters: the names that ground stations look for, our own group, ranges, and the byte-wise encoding of PX4.
 
+pub mod metadata;
+mod table;
+pub mod text;
+
 use crate::sitl::autopilot::{FenceAction, LinkLoss, Tuning};
+use Value::{Int, Real};
 use std::collections::BTreeMap;
+use table::{ROWS, Row};
 
 /// A value with its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,85 +36,8 @@ impl Value {
     }
 }
 
-/// One parameter: name, default, allowed range.
-#[derive(Debug, Clone, Copy)]
-struct Row(&'static str, Value, f64, f64);
-
-use Value::{Int, Real};
-
-/// Names from QGroundControl's and MAVSDK's sources (mavlink.md 1.4), with PX4's defaults where they have a meaning here.
-const ROWS: &[Row] = &[
-    Row("BAT1_N_CELLS", Int(3), 1.0, 16.0),
-    Row("BAT1_SOURCE", Int(-1), -1.0, 2.0),
-    Row("BAT1_V_CHARGED", Real(4.2), 3.0, 5.0),
-    Row("BAT1_V_EMPTY", Real(3.5), 2.5, 4.5),
-    Row("BAT_CRIT_THR", Real(0.07), 0.0, 0.5),
-    Row("BAT_EMERGEN_THR", Real(0.05), 0.0, 0.5),
-    Row("BAT_LOW_THR", Real(0.15), 0.0, 0.9),
-    Row("CAL_ACC0_ID", Int(1_310_988), 0.0, 2e9),
-    Row("CAL_GYRO0_ID", Int(1_310_988), 0.0, 2e9),
-    Row("CAL_MAG0_ID", Int(197_388), 0.0, 2e9),
-    Row("CAL_MAG0_ROT", Int(0), -1.0, 40.0),
-    Row("COM_DISARM_LAND", Real(2.0), -1.0, 60.0),
-    Row("COM_DISARM_PRFLT", Real(10.0), -1.0, 600.0),
-    Row("COM_DL_LOSS_T", Int(10), 1.0, 300.0),
-    Row("COM_FLTMODE1", Int(-1), -1.0, 20.0),
-    Row("COM_FLTMODE2", Int(-1), -1.0, 20.0),
-    Row("COM_FLTMODE3", Int(-1), -1.0, 20.0),
-    Row("COM_FLTMODE4", Int(-1), -1.0, 20.0),
-    Row("COM_FLTMODE5", Int(-1), -1.0, 20.0),
-    Row("COM_FLTMODE6", Int(-1), -1.0, 20.0),
-    Row("COM_OF_LOSS_T", Real(1.0), 0.1, 60.0),
-    Row("COM_RC_IN_MODE", Int(1), 0.0, 5.0),
-    Row("COM_RC_LOSS_T", Real(0.5), 0.1, 35.0),
-    Row("CP_DIST", Real(-1.0), -1.0, 15.0),
-    Row("GF_ACTION", Int(2), 0.0, 5.0),
-    Row("GF_MAX_HOR_DIST", Real(0.0), 0.0, 1e4),
-    Row("GF_MAX_VER_DIST", Real(0.0), 0.0, 1e4),
-    Row("LND_FLIGHT_T_HI", Int(0), 0.0, 2e9),
-    Row("LND_FLIGHT_T_LO", Int(0), -2e9, 2e9),
-    Row("MAV_COMP_ID", Int(1), 1.0, 250.0),
-    Row("MAV_SYS_ID", Int(1), 1.0, 250.0),
-    Row("MAV_TYPE", Int(2), 0.0, 50.0),
-    Row("MIS_TAKEOFF_ALT", Real(2.5), 0.5, 80.0),
-    Row("MPC_LAND_SPEED", Real(0.7), 0.3, 3.0),
-    Row("MPC_MAN_TILT_MAX", Real(35.0), 5.0, 60.0),
-    Row("MPC_TKO_SPEED", Real(1.5), 0.5, 5.0),
-    Row("MPC_XY_CRUISE", Real(5.0), 0.5, 20.0),
-    Row("MPC_XY_VEL_MAX", Real(12.0), 0.5, 30.0),
-    Row("MPC_Z_VEL_MAX_DN", Real(1.5), 0.3, 10.0),
-    Row("MPC_Z_VEL_MAX_UP", Real(3.0), 0.3, 15.0),
-    Row("NAV_ACC_RAD", Real(2.0), 0.2, 200.0),
-    Row("NAV_DLL_ACT", Int(0), 0.0, 3.0),
-    Row("NAV_RCL_ACT", Int(1), 1.0, 3.0),
-    Row("RC_CHAN_CNT", Int(0), 0.0, 18.0),
-    Row("RC_MAP_FLTMODE", Int(0), 0.0, 18.0),
-    Row("RC_MAP_MODE_SW", Int(0), 0.0, 18.0),
-    Row("RC_MAP_PITCH", Int(0), 0.0, 18.0),
-    Row("RC_MAP_ROLL", Int(0), 0.0, 18.0),
-    Row("RC_MAP_THROTTLE", Int(0), 0.0, 18.0),
-    Row("RC_MAP_YAW", Int(0), 0.0, 18.0),
-    Row("RTL_DESCEND_ALT", Real(10.0), 2.0, 100.0),
-    Row("RTL_LAND_DELAY", Real(0.0), -1.0, 300.0),
-    Row("RTL_RETURN_ALT", Real(30.0), 2.0, 150.0),
-    Row("SENS_BOARD_ROT", Int(0), 0.0, 40.0),
-    Row("SENS_DPRES_OFF", Real(0.0), -1e3, 1e3),
-    Row("SPAN_FLAVOUR", Int(0), 0.0, 2.0),
-    Row("SYS_AUTOCONFIG", Int(0), 0.0, 2.0),
-    Row("SYS_AUTOSTART", Int(4001), 0.0, 1e6),
-    Row("SYS_HAS_MAG", Int(1), 0.0, 3.0),
-    Row("SYS_HAS_NUM_ASPD", Int(0), 0.0, 1.0),
-    Row("SYS_HITL", Int(0), 0.0, 2.0),
-];
-
 /// PX4's name for the checksum over all parameters.
 pub const HASH: &str = "_HASH_CHECK";
-/// Parameters that change by themselves and are left out of it.
-const VOLATILE: [&str; 2] = ["LND_FLIGHT_T_HI", "LND_FLIGHT_T_LO"];
-
-/// Parameters that describe the vehicle and cannot be set.
-const READ_ONLY: [&str; 4] = ["MAV_SYS_ID", "MAV_COMP_ID", "SPAN_FLAVOUR", "MAV_TYPE"];
-
 /// Why a parameter was not set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
@@ -135,18 +64,39 @@ pub struct Thresholds {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Params {
     values: BTreeMap<&'static str, Value>,
+    changes: u64,
 }
 
 impl Params {
     /// Defaults for a vehicle.
     #[must_use]
     pub fn new(system_id: u8, cells: u32, battery: Thresholds) -> Self {
-        let mut values: BTreeMap<&'static str, Value> = ROWS.iter().map(|r| (r.0, r.1)).collect();
+        let mut values: BTreeMap<&'static str, Value> = ROWS.iter().map(|row| (row.name, row.default)).collect();
         values.insert("MAV_SYS_ID", Int(i32::from(system_id)));
         values.insert("BAT1_N_CELLS", Int(cells.cast_signed()));
         values.insert("BAT_LOW_THR", Real((battery.low_pct / 100.0) as f32));
         values.insert("BAT_CRIT_THR", Real((battery.critical_pct / 100.0) as f32));
-        Self { values }
+        Self { values, changes: 0 }
+    }
+
+    /// Back to the defaults of the vehicle.
+    pub fn reset(&mut self, defaults: &Self) {
+        if self.values != defaults.values {
+            self.values.clone_from(&defaults.values);
+            self.changes += 1;
+        }
+    }
+
+    /// Changes so far.
+    #[must_use]
+    pub fn changes(&self) -> u64 {
+        self.changes
+    }
+
+    /// Allowed range of a parameter.
+    #[must_use]
+    pub fn range(&self, name: &str) -> Option<(f64, f64)> {
+        find(name).map(|row| (row.low, row.high))
     }
 
     /// How many.
@@ -160,7 +110,7 @@ impl Params {
     pub fn hash(&self) -> u32 {
         // The crate inverts the register at both ends: inverting around it leaves the plain polynomial.
         let mut crc = crc32fast::Hasher::new_with_initial(u32::MAX);
-        for (name, value) in self.values.iter().filter(|(name, _)| !VOLATILE.contains(name)) {
+        for (name, value) in self.values.iter().filter(|(name, _)| !is_volatile(name)) {
             crc.update(name.as_bytes());
             crc.update(&value.to_wire().to_bits().to_le_bytes());
         }
@@ -184,20 +134,22 @@ impl Params {
     /// # Errors
     /// [`Refusal`], and nothing is changed.
     pub fn set(&mut self, name: &str, wire: f32, real: bool) -> Result<(), Refusal> {
-        let row = ROWS.iter().find(|r| r.0 == name).ok_or(Refusal::Unknown)?;
-        let value = match row.1 {
+        let row = find(name).ok_or(Refusal::Unknown)?;
+        let value = match row.default {
             Int(_) if !real => Int(wire.to_bits().cast_signed()),
             Real(_) if real => Real(wire),
             Int(_) | Real(_) => return Err(Refusal::Type),
         };
-        if READ_ONLY.contains(&name) {
+        if row.read_only {
             return Err(Refusal::ReadOnly);
         }
         let number = value.number();
-        if number.is_nan() || number < row.2 || number > row.3 {
+        if number.is_nan() || number < row.low || number > row.high {
             return Err(Refusal::OutOfRange);
         }
-        self.values.insert(row.0, value);
+        if self.values.insert(row.name, value) != Some(value) {
+            self.changes += 1;
+        }
         Ok(())
     }
 
@@ -231,6 +183,14 @@ impl Params {
     }
 }
 
+fn find(name: &str) -> Option<&'static Row> {
+    ROWS.iter().find(|row| row.name == name)
+}
+
+fn is_volatile(name: &str) -> bool {
+    find(name).is_some_and(|row| row.volatile)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -253,7 +213,7 @@ mod tests {
     fn exact_the_checksum_is_the_plain_polynomial_and_changes_with_every_value() {
         let mut params = Params::new(1, 3, Thresholds { low_pct: 30.0, critical_pct: 10.0 });
         let mut register = 0u32;
-        for (name, value) in params.values.iter().filter(|(name, _)| !VOLATILE.contains(name)) {
+        for (name, value) in params.values.iter().filter(|(name, _)| !is_volatile(name)) {
             for byte in name.bytes().chain(value.to_wire().to_bits().to_le_bytes()) {
                 register ^= u32::from(byte);
                 for _ in 0..8 {

@@ -1,0 +1,194 @@
+//! The parameters: one row each, with what ground stations show of it.
+
+use super::Value::{self, Int, Real};
+
+/// One parameter.
+#[derive(Debug, Clone, Copy)]
+pub struct Row {
+    /// Name, at most 16 characters.
+    pub name: &'static str,
+    /// Default.
+    pub default: Value,
+    /// Smallest value that is taken.
+    pub low: f64,
+    /// Largest value that is taken.
+    pub high: f64,
+    /// Unit, as ground stations write it.
+    pub unit: &'static str,
+    /// Heading under which it is shown.
+    pub group: &'static str,
+    /// What it is.
+    pub short: &'static str,
+    /// Words for its values.
+    pub values: &'static [(i32, &'static str)],
+    /// It describes the vehicle and cannot be set.
+    pub read_only: bool,
+    /// It changes by itself.
+    pub volatile: bool,
+    /// It exists because clients look for it; nothing here depends on it.
+    pub token: bool,
+}
+
+const fn row(
+    name: &'static str,
+    default: Value,
+    range: (f64, f64),
+    unit: &'static str,
+    group: &'static str,
+    short: &'static str,
+) -> Row {
+    Row {
+        name,
+        default,
+        low: range.0,
+        high: range.1,
+        unit,
+        group,
+        short,
+        values: &[],
+        read_only: false,
+        volatile: false,
+        token: false,
+    }
+}
+
+impl Row {
+    const fn values(mut self, values: &'static [(i32, &'static str)]) -> Self {
+        self.values = values;
+        self
+    }
+
+    const fn read_only(mut self) -> Self {
+        self.read_only = true;
+        self
+    }
+
+    const fn volatile(mut self) -> Self {
+        self.volatile = true;
+        self
+    }
+
+    const fn token(mut self) -> Self {
+        self.token = true;
+        self
+    }
+}
+
+const BATTERY: &str = "Battery";
+const CALIBRATION: &str = "Sensor Calibration";
+const COMMANDER: &str = "Commander";
+const FENCE: &str = "Geofence";
+const FLIGHT: &str = "Multicopter Position Control";
+const MAVLINK: &str = "MAVLink";
+const MISSION: &str = "Mission";
+const RADIO: &str = "Radio Calibration";
+const RETURN: &str = "Return Mode";
+const SYSTEM: &str = "System";
+
+const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Hold"), (2, "Return"), (3, "Land")];
+const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
+
+/// Names from QGroundControl's and MAVSDK's sources (mavlink.md 1.4), with PX4's defaults where they have a meaning here. In the order of
+/// their names.
+pub const ROWS: &[Row] = &[
+    row("BAT1_N_CELLS", Int(3), (1.0, 16.0), "", BATTERY, "Number of cells in series"),
+    row("BAT1_SOURCE", Int(-1), (-1.0, 2.0), "", BATTERY, "Where the battery is measured")
+        .values(&[(-1, "Disabled"), (0, "Power Module")])
+        .token(),
+    row("BAT1_V_CHARGED", Real(4.2), (3.0, 5.0), "V", BATTERY, "Voltage of a full cell").token(),
+    row("BAT1_V_EMPTY", Real(3.5), (2.5, 4.5), "V", BATTERY, "Voltage of an empty cell").token(),
+    row("BAT_CRIT_THR", Real(0.07), (0.0, 0.5), "norm", BATTERY, "Charge that counts as critical"),
+    row("BAT_EMERGEN_THR", Real(0.05), (0.0, 0.5), "norm", BATTERY, "Charge that counts as an emergency").token(),
+    row("BAT_LOW_THR", Real(0.15), (0.0, 0.9), "norm", BATTERY, "Charge that counts as low"),
+    row("CAL_ACC0_ID", Int(1_310_988), (0.0, 2e9), "", CALIBRATION, "Number of the accelerometer that was calibrated").token(),
+    row("CAL_GYRO0_ID", Int(1_310_988), (0.0, 2e9), "", CALIBRATION, "Number of the gyroscope that was calibrated").token(),
+    row("CAL_MAG0_ID", Int(197_388), (0.0, 2e9), "", CALIBRATION, "Number of the magnetometer that was calibrated").token(),
+    row("CAL_MAG0_ROT", Int(0), (-1.0, 40.0), "", CALIBRATION, "How the magnetometer is turned against the board").token(),
+    row("COM_DISARM_LAND", Real(2.0), (-1.0, 60.0), "s", COMMANDER, "Time from touch-down to disarming; not above zero: never"),
+    row(
+        "COM_DISARM_PRFLT",
+        Real(10.0),
+        (-1.0, 600.0),
+        "s",
+        COMMANDER,
+        "Time without take-off until disarming; not above zero: never",
+    ),
+    row("COM_DL_LOSS_T", Int(10), (1.0, 300.0), "s", COMMANDER, "Silence after which the ground station counts as lost"),
+    row("COM_FLTMODE1", Int(-1), (-1.0, 20.0), "", COMMANDER, "Mode of the first switch position").token(),
+    row("COM_FLTMODE2", Int(-1), (-1.0, 20.0), "", COMMANDER, "Mode of the second switch position").token(),
+    row("COM_FLTMODE3", Int(-1), (-1.0, 20.0), "", COMMANDER, "Mode of the third switch position").token(),
+    row("COM_FLTMODE4", Int(-1), (-1.0, 20.0), "", COMMANDER, "Mode of the fourth switch position").token(),
+    row("COM_FLTMODE5", Int(-1), (-1.0, 20.0), "", COMMANDER, "Mode of the fifth switch position").token(),
+    row("COM_FLTMODE6", Int(-1), (-1.0, 20.0), "", COMMANDER, "Mode of the sixth switch position").token(),
+    row("COM_OF_LOSS_T", Real(1.0), (0.1, 60.0), "s", COMMANDER, "Silence after which external set-points count as lost"),
+    row("COM_RC_IN_MODE", Int(1), (0.0, 5.0), "", COMMANDER, "Where manual control comes from")
+        .values(&[(1, "Joystick only")])
+        .token(),
+    row("COM_RC_LOSS_T", Real(0.5), (0.1, 35.0), "s", COMMANDER, "Silence after which manual control counts as lost"),
+    row("CP_DIST", Real(-1.0), (-1.0, 15.0), "m", FLIGHT, "Distance kept by collision prevention; negative: off").token(),
+    row("GF_ACTION", Int(2), (0.0, 5.0), "", FENCE, "What a breach of the geofence leads to").values(&[
+        (0, "None"),
+        (1, "Warning"),
+        (2, "Hold mode"),
+        (3, "Return mode"),
+        (4, "Terminate"),
+        (5, "Land mode"),
+    ]),
+    row("GF_MAX_HOR_DIST", Real(0.0), (0.0, 1e4), "m", FENCE, "Farthest from home; 0: no limit"),
+    row("GF_MAX_VER_DIST", Real(0.0), (0.0, 1e4), "m", FENCE, "Highest over home; 0: no limit"),
+    row("LND_FLIGHT_T_HI", Int(0), (0.0, 2e9), "", SYSTEM, "Total flight time, upper half").volatile().token(),
+    row("LND_FLIGHT_T_LO", Int(0), (-2e9, 2e9), "", SYSTEM, "Total flight time, lower half").volatile().token(),
+    row("MAV_COMP_ID", Int(1), (1.0, 250.0), "", MAVLINK, "Component id").read_only(),
+    row("MAV_SYS_ID", Int(1), (1.0, 250.0), "", MAVLINK, "System id").read_only(),
+    row("MAV_TYPE", Int(2), (0.0, 50.0), "", MAVLINK, "Kind of vehicle").values(&[(2, "Quadrotor")]).read_only(),
+    row("MIS_TAKEOFF_ALT", Real(2.5), (0.5, 80.0), "m", MISSION, "Take-off height over home where none is given"),
+    row("MPC_LAND_SPEED", Real(0.7), (0.3, 3.0), "m/s", FLIGHT, "Descent in the last metres of a landing"),
+    row("MPC_MAN_TILT_MAX", Real(35.0), (5.0, 60.0), "deg", FLIGHT, "Largest tilt by the sticks").token(),
+    row("MPC_TKO_SPEED", Real(1.5), (0.5, 5.0), "m/s", FLIGHT, "Climb at take-off"),
+    row("MPC_XY_CRUISE", Real(5.0), (0.5, 20.0), "m/s", FLIGHT, "Horizontal speed in missions, returns and go-to"),
+    row("MPC_XY_VEL_MAX", Real(12.0), (0.5, 30.0), "m/s", FLIGHT, "Largest horizontal speed in automatic modes"),
+    row("MPC_Z_VEL_MAX_DN", Real(1.5), (0.3, 10.0), "m/s", FLIGHT, "Descent in automatic modes"),
+    row("MPC_Z_VEL_MAX_UP", Real(3.0), (0.3, 15.0), "m/s", FLIGHT, "Climb in automatic modes"),
+    row("NAV_ACC_RAD", Real(2.0), (0.2, 200.0), "m", MISSION, "A waypoint counts as reached within this"),
+    row("NAV_DLL_ACT", Int(0), (0.0, 3.0), "", COMMANDER, "What a lost ground station leads to").values(LOSS),
+    row("NAV_RCL_ACT", Int(1), (1.0, 3.0), "", COMMANDER, "What lost manual control leads to").values(LOSS),
+    row("RC_CHAN_CNT", Int(0), (0.0, 18.0), "", RADIO, "Channels of the radio").token(),
+    row("RC_MAP_FLTMODE", Int(0), (0.0, 18.0), "", RADIO, "Channel of the mode switch").token(),
+    row("RC_MAP_MODE_SW", Int(0), (0.0, 18.0), "", RADIO, "Channel of the older mode switch").token(),
+    row("RC_MAP_PITCH", Int(0), (0.0, 18.0), "", RADIO, "Channel of pitch").token(),
+    row("RC_MAP_ROLL", Int(0), (0.0, 18.0), "", RADIO, "Channel of roll").token(),
+    row("RC_MAP_THROTTLE", Int(0), (0.0, 18.0), "", RADIO, "Channel of throttle").token(),
+    row("RC_MAP_YAW", Int(0), (0.0, 18.0), "", RADIO, "Channel of yaw").token(),
+    row("RTL_DESCEND_ALT", Real(10.0), (2.0, 100.0), "m", RETURN, "Height at which a return waits before it lands").token(),
+    row("RTL_LAND_DELAY", Real(0.0), (-1.0, 300.0), "s", RETURN, "Wait before a return lands").token(),
+    row("RTL_RETURN_ALT", Real(30.0), (2.0, 150.0), "m", RETURN, "Height over home at which it returns"),
+    row("SENS_BOARD_ROT", Int(0), (0.0, 40.0), "", CALIBRATION, "How the board is turned in the vehicle").token(),
+    row("SENS_DPRES_OFF", Real(0.0), (-1e3, 1e3), "", CALIBRATION, "Offset of the airspeed sensor").token(),
+    row("SPAN_FLAVOUR", Int(0), (0.0, 2.0), "", SYSTEM, "Whose interface is spoken").values(&[(0, "PX4")]).read_only(),
+    row("SYS_AUTOCONFIG", Int(0), (0.0, 2.0), "", SYSTEM, "Reset of the configuration at start").token(),
+    row("SYS_AUTOSTART", Int(4001), (0.0, 1e6), "", SYSTEM, "Airframe").token(),
+    row("SYS_HAS_MAG", Int(1), (0.0, 3.0), "", SYSTEM, "Number of magnetometers").token(),
+    row("SYS_HAS_NUM_ASPD", Int(0), (0.0, 1.0), "", SYSTEM, "Number of airspeed sensors").token(),
+    row("SYS_HITL", Int(0), (0.0, 2.0), "", SYSTEM, "Hardware in the loop").values(OFF_ON).token(),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_table_is_in_the_order_of_its_names_which_fit_the_wire() {
+        for pair in ROWS.windows(2) {
+            assert!(pair[0].name < pair[1].name, "{} {}", pair[0].name, pair[1].name);
+        }
+        for row in ROWS {
+            let default = row.default.number();
+            assert!(row.name.len() <= 16 && row.low <= default && default <= row.high, "{}", row.name);
+            assert!(
+                row.values.iter().all(|(value, _)| (row.low..=row.high).contains(&f64::from(*value)) || row.values.len() > 2),
+                "{}",
+                row.name
+            );
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Parameters as a text file: the tab-separated format that QGroundControl writes and reads (`.params`).
+
+use super::{Params, Refusal, Value};
+
+/// MAV_PARAM_TYPE_INT32 and MAV_PARAM_TYPE_REAL32.
+const INT32: &str = "6";
+const REAL32: &str = "9";
+
+/// What is wrong with a line.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: {what}")]
+pub struct Problem {
+    /// From 1.
+    pub line: usize,
+    /// What, with the allowed range.
+    pub what: String,
+}
+
+/// All parameters, one a line: system, component, name, value, type.
+#[must_use]
+pub fn write(params: &Params, system_id: u8) -> String {
+    let mut out = String::from("# Parameters of a Spandrel vehicle\n# Vehicle-Id Component-Id Name Value Type\n");
+    for index in 0..params.count() {
+        let Some((name, value)) = params.at(index) else { continue };
+        let (value, kind) = match value {
+            Value::Int(whole) => (whole.to_string(), INT32),
+            Value::Real(real) => (real.to_string(), REAL32),
+        };
+        out.push_str(&format!("{system_id}\t1\t{name}\t{value}\t{kind}\n"));
+    }
+    out
+}
+
+/// Sets what a file says. A name that this vehicle does not have, or that describes it, is passed over: the file may come from another
+/// vehicle.
+///
+/// # Errors
+/// Every line that is wrong; then nothing is set.
+pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<Problem>> {
+    let mut fresh = params.clone();
+    let mut problems = Vec::new();
+    for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#')) {
+        if let Err(what) = read_line(&mut fresh, line) {
+            problems.push(Problem { line: index + 1, what });
+        }
+    }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    *params = fresh;
+    Ok(())
+}
+
+fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
+    let fields: Vec<&str> = line.split('\t').map(str::trim).collect();
+    let [_, _, name, value, kind] = fields[..] else {
+        return Err(format!("{} fields, tab-separated (allowed: vehicle, component, name, value, type)", fields.len()));
+    };
+    let no_number = |allowed| format!("{name} = '{value}' is no number (allowed: {allowed})");
+    let (wire, real) = match kind {
+        REAL32 => (value.parse().map_err(|_| no_number("a real number"))?, true),
+        INT32 => (Value::Int(value.parse().map_err(|_| no_number("a whole number"))?).to_wire(), false),
+        _ => return Err(format!("{name}: type '{kind}' (allowed: {INT32} for whole numbers, {REAL32} for real ones)")),
+    };
+    match params.set(name, wire, real) {
+        Ok(()) | Err(Refusal::Unknown | Refusal::ReadOnly) => Ok(()),
+        Err(Refusal::Type) => Err(format!("{name} is of the other type")),
+        Err(Refusal::OutOfRange) => {
+            let (low, high) = params.range(name).unwrap_or_default();
+            Err(format!("{name} = {value} is out of range (allowed: {low} to {high})"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Thresholds;
+    use super::*;
+
+    fn params() -> Params {
+        Params::new(3, 4, Thresholds { low_pct: 30.0, critical_pct: 10.0 })
+    }
+
+    #[test]
+    fn exact_what_is_written_reads_back_the_same() {
+        let mut changed = params();
+        changed.set("MIS_TAKEOFF_ALT", 7.3, true).unwrap();
+        changed.set("GF_ACTION", Value::Int(3).to_wire(), false).unwrap();
+        let mut read_back = params();
+        read(&mut read_back, &write(&changed, 3)).unwrap();
+        assert_eq!(read_back, changed);
+    }
+
+    #[test]
+    fn exact_every_wrong_line_is_named_and_nothing_is_set() {
+        let mut before = params();
+        let text = "# a comment\n1\t1\tMIS_TAKEOFF_ALT\t900\t9\n1\t1\tGF_ACTION\tmuch\t6\n1\t1\tOTHER_VEHICLE\t1\t6\n1\t1\n1\t1\tGF_ACTION\t1\t2\n1\t1\tNAV_ACC_RAD\t3\t9\n";
+        let problems = read(&mut before, text).unwrap_err();
+        let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        assert_eq!(told.len(), 4, "{told:?}");
+        for (line, what) in told.iter().zip([
+            "line 2: MIS_TAKEOFF_ALT = 900 is out of range (allowed: 0.5 to 80)",
+            "line 3: GF_ACTION = 'much'",
+            "line 5: 2 fields",
+            "line 6: GF_ACTION: type '2'",
+        ]) {
+            assert!(line.starts_with(what), "{line}");
+        }
+        assert_eq!(before, params());
+    }
+}
