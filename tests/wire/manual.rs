@@ -127,3 +127,117 @@ fn wire_a_lost_hand_stops_the_flight_and_a_returning_one_takes_it_up_again() {
     station.sim.close_link(GCS);
     station.run_ms(2_000);
 }
+
+const OTHER: LinkId = LinkId(5);
+
+fn texts(station: &Station) -> Vec<String> {
+    station.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
+}
+
+/// A second ground station with the same ids, on a link of its own, pulls to the right.
+fn rival(station: &mut Station, y: i16) {
+    let sticks = MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() };
+    let frame = spandrel::mav::codec::Encoder::new(255, 190).encode(&MavMessage::MANUAL_CONTROL(sticks));
+    station.sim.handle_datagram(OTHER, &frame);
+}
+
+fn set(station: &mut Station, name: &str, value: i32) {
+    station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
+        param_value: f32::from_bits(value.cast_unsigned()),
+        target_system: 1,
+        target_component: 1,
+        param_id: name.into(),
+        param_type: MavParamType::MAV_PARAM_TYPE_INT32,
+    }));
+    station.run_ms(2);
+}
+
+fn roll_echo(station: &Station) -> u16 {
+    station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan1_raw) } else { None }).unwrap()
+}
+
+#[test]
+fn wire_the_first_keeps_the_sticks_until_he_is_silent_and_the_other_is_told() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.sim.open_link(OTHER, LinkKind::GroundStation, false);
+    for _ in 0..100 {
+        station.sticks(0, 0, 500, 0);
+        rival(&mut station, 1000);
+        station.run_ms(20);
+    }
+    assert_eq!(roll_echo(&station), 1500);
+    let ignored = texts(&station).iter().filter(|text| text.contains("ignored")).count();
+    assert_eq!(ignored, 2, "once on each of the two links: {:?}", texts(&station));
+    for _ in 0..40 {
+        rival(&mut station, 1000);
+        station.run_ms(20);
+    }
+    assert_eq!(roll_echo(&station), 2000, "the first has fallen silent");
+    assert!(texts(&station).iter().any(|text| text.contains("now has them")), "{:?}", texts(&station));
+}
+
+#[test]
+fn wire_by_parameter_whoever_moves_the_sticks_last_has_them() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.sim.open_link(OTHER, LinkKind::GroundStation, false);
+    set(&mut station, "SPAN_STICKS", 1);
+    for y in [0, 1000] {
+        for _ in 0..5 {
+            station.sticks(0, 0, 500, 0);
+            rival(&mut station, y);
+            station.run_ms(20);
+        }
+        assert_eq!(roll_echo(&station), if y == 0 { 1500 } else { 2000 }, "centred sticks take nothing");
+    }
+}
+
+#[test]
+fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.run_ms(600);
+    channels(&mut station, 1300, 1500);
+    station.run_ms(20);
+    channels(&mut station, u16::MAX, 1600);
+    station.run_ms(20);
+    let echo = |s: &Station| s.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some((c.chan2_raw, c.chan3_raw)) } else { None });
+    station.run_ms(20);
+    assert_eq!(echo(&station), Some((1700, 1600)));
+    channels(&mut station, 2500, 65_534);
+    station.run_ms(40);
+    assert_eq!(echo(&station), Some((1500, 1500)), "pulses that no transmitter sends are no sticks");
+    station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    }));
+    station.run_ms(20);
+    station.heard.clear();
+    station.run_ms(100);
+    assert_eq!(echo(&station), None, "let go: there are no sticks to echo");
+}
+
+#[test]
+fn wire_buttons_do_what_their_parameters_say_once_a_press() {
+    let mut station = Station::airborne("drill-hover", 7);
+    set(&mut station, "BTN3_FUNCTION", 11);
+    set(&mut station, "BTN9_FUNCTION", 10);
+    let press = |station: &mut Station, buttons: u16, s: i16| {
+        let extensions = 1;
+        let sticks = MANUAL_CONTROL_DATA { z: 500, buttons, target: 1, enabled_extensions: extensions, s, ..Default::default() };
+        station.send(&MavMessage::MANUAL_CONTROL(sticks));
+        station.run_ms(40);
+    };
+    station.heard.clear();
+    for buttons in [0, 1 << 3, 1 << 3, 1 << 3 | 1 << 9, 1 << 9, 0] {
+        press(&mut station, buttons, 0);
+    }
+    let pictures = station.all(|m| matches!(m, MavMessage::CAMERA_IMAGE_CAPTURED(_)).then_some(())).len();
+    assert_eq!(pictures, 1);
+    for _ in 0..25 {
+        press(&mut station, 0, -900);
+    }
+    assert_eq!(station.last(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
+    let pitch =
+        station.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2].asin()) } else { None });
+    assert!(pitch.unwrap() < -0.5, "the gimbal's axis points down: {pitch:?}");
+}

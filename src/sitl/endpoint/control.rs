@@ -2,6 +2,7 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::arrival::Arrival;
+use super::buttons::{self, Press};
 use super::gimbal::{Aim, DEVICE, Gimbal};
 use super::offboard::{self, Reading};
 use super::{Endpoint, px4};
@@ -20,14 +21,42 @@ pub(super) fn heartbeat(_: &mut Endpoint, beat: &HEARTBEAT_DATA, a: &mut Arrival
 }
 
 pub(super) fn manual_control(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut Arrival) {
-    if let Some(sticks) = e.manual.manual_control(a.from, m, a.view.now) {
+    let from = (a.link, a.from);
+    if let Some(sticks) = e.manual.manual_control(from, m, a.view.now) {
         a.autopilot.sticks(sticks, a.view.now);
     }
+    if let Some(pitch) = e.manual.gimbal(from, m)
+        && let Some(gimbal) = gimbal(e, DEVICE, a)
+    {
+        let camera = &a.view.vehicle.camera;
+        gimbal.set(Gimbal::deflected(camera, pitch), camera);
+    }
+    if e.manual.is_holder(from) {
+        press_buttons(e, m, a);
+    }
+    tell_hands(e);
 }
 
 pub(super) fn channels(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut Arrival) {
-    if let Some(sticks) = e.manual.channels(a.from, c, a.view.now) {
+    if let Some(sticks) = e.manual.channels((a.link, a.from), c, a.view.now) {
         a.autopilot.sticks(sticks, a.view.now);
+    }
+    tell_hands(e);
+}
+
+fn press_buttons(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut Arrival) {
+    for button in e.manual.presses.of(m) {
+        let mut press = Press { from: a.from, view: a.view, payload: &mut e.payload, autopilot: a.autopilot };
+        if let Some(refusal) = buttons::press(button, &e.params, &mut press) {
+            e.tell(MavSeverity::MAV_SEVERITY_CRITICAL, &refusal);
+        }
+    }
+}
+
+/// Every change of hands is told to everybody.
+fn tell_hands(e: &mut Endpoint) {
+    while let Some(text) = e.manual.poll_text() {
+        e.tell(MavSeverity::MAV_SEVERITY_NOTICE, &text);
     }
 }
 

@@ -78,8 +78,7 @@ pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut Arrival)
             refuse_param(e, name, error, a);
         }
         Ok(()) => {
-            e.params.apply(&mut a.autopilot.tuning);
-            e.manual.let_go_s = a.autopilot.tuning.manual_patience_s();
+            e.apply_parameters(a.autopilot);
             if let Some((index, name, value)) = e.params.find(name) {
                 let message = param_value(name, value, index, e.params.count() as u16);
                 e.broadcast(AUTOPILOT, &message);

@@ -1,26 +1,66 @@
-//! Manual control: MANUAL_CONTROL and RC_CHANNELS_OVERRIDE as stick intents. The first sender keeps the sticks until it falls silent.
+//! Manual control: MANUAL_CONTROL and RC_CHANNELS_OVERRIDE as stick intents, and who of several senders has the sticks. Every change of
+//! hands is told.
 
+use super::LinkId;
+use super::buttons::Presses;
 use crate::base::time::SimTime;
 use crate::mav::dialect::{MANUAL_CONTROL_DATA, RC_CHANNELS_OVERRIDE_DATA};
 use crate::sitl::autopilot::Sticks;
+use std::collections::VecDeque;
 
 /// The field's "not used".
 const UNUSED: i16 = i16::MAX;
+/// Somebody whose sticks are ignored is told so this often, s.
+const TELL_EVERY_S: f64 = 5.0;
+/// Pulse lengths of a transmitter's channel, microseconds; what lies outside is no stick (ArduPilot passes it on; we do not).
+const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
+/// The gimbal's axis acts when it has moved by more than this share of its way.
+const GIMBAL_STEP: f64 = 0.01;
+/// Bits of `enabled_extensions`.
+const HAS_PITCH: u8 = 1;
+
+/// Who sends: over which link, system, component.
+type Sender = (LinkId, (u8, u8));
+
+/// What happens when a second sender moves sticks while the first is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Policy {
+    /// Who has the sticks keeps them until he falls silent or lets go.
+    FirstKeeps,
+    /// Who moves a stick off its middle takes them.
+    LatestTakes,
+}
 
 /// Who holds the sticks, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Manual {
     /// A sender that is silent this long has let go of the sticks, s.
     pub let_go_s: f64,
-    holder: Option<(u8, u8)>,
+    /// Among several senders.
+    pub policy: Policy,
+    holder: Option<Sender>,
     heard: SimTime,
     sticks: Sticks,
+    gimbal: Option<f64>,
+    told: Option<(Sender, SimTime)>,
+    texts: VecDeque<String>,
+    /// Buttons of the holder.
+    pub presses: Presses,
 }
 
 impl Default for Manual {
     fn default() -> Self {
-        let let_go_s = crate::sitl::autopilot::Tuning::default().manual_patience_s();
-        Self { let_go_s, holder: None, heard: SimTime::ZERO, sticks: Sticks::default() }
+        Self {
+            let_go_s: crate::sitl::autopilot::Tuning::default().manual_patience_s(),
+            policy: Policy::FirstKeeps,
+            holder: None,
+            heard: SimTime::ZERO,
+            sticks: Sticks::default(),
+            gimbal: None,
+            told: None,
+            texts: VecDeque::new(),
+            presses: Presses::default(),
+        }
     }
 }
 
@@ -28,35 +68,102 @@ impl Manual {
     /// The sticks, while they are fresh.
     #[must_use]
     pub fn fresh(&self, now: SimTime) -> Option<Sticks> {
-        (self.holder.is_some() && (now - self.heard).s() <= self.let_go_s).then_some(self.sticks)
+        self.holds(now).then_some(self.sticks)
     }
 
-    fn take(&mut self, from: (u8, u8), sticks: Sticks, now: SimTime) -> Option<Sticks> {
-        let other = self.holder.is_some_and(|holder| holder != from) && (now - self.heard).s() <= self.let_go_s;
-        if other {
-            return None;
+    fn holds(&self, now: SimTime) -> bool {
+        self.holder.is_some() && (now - self.heard).s() <= self.let_go_s
+    }
+
+    /// The next thing to tell everybody.
+    pub fn poll_text(&mut self) -> Option<String> {
+        self.texts.pop_front()
+    }
+
+    fn take(&mut self, from: Sender, sticks: Sticks, now: SimTime) -> Option<Sticks> {
+        let another = self.holder.filter(|holder| *holder != from && self.holds(now));
+        if let Some(holder) = another {
+            let moved = [sticks.forward, sticks.right, sticks.up, sticks.yaw].iter().any(|axis| axis.abs() > 0.1);
+            if self.policy == Policy::FirstKeeps || !moved {
+                self.tell_ignored(from, holder, now);
+                return None;
+            }
+        }
+        if self.holder != Some(from) {
+            if self.holder.is_some() {
+                self.texts.push_back(format!("Sticks: {} now has them", name(from)));
+            }
+            self.presses = Presses::default();
+            self.gimbal = None;
         }
         (self.holder, self.heard, self.sticks) = (Some(from), now, sticks);
         Some(sticks)
     }
 
-    /// MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its middle. Anything out of
-    /// range or not used counts as centred.
-    pub fn manual_control(&mut self, from: (u8, u8), m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
-        let axis = |v: i16| if v == UNUSED || !(-1000..=1000).contains(&v) { 0.0 } else { f64::from(v) / 1000.0 };
-        let up = if (0..=1000).contains(&m.z) { f64::from(m.z) / 500.0 - 1.0 } else { 0.0 };
-        self.take(from, Sticks { forward: axis(m.x), right: axis(m.y), up, yaw: axis(m.r) }, now)
+    fn tell_ignored(&mut self, from: Sender, holder: Sender, now: SimTime) {
+        if self.told.is_none_or(|(known, at)| known != from || (now - at).s() >= TELL_EVERY_S) {
+            self.told = Some((from, now));
+            self.texts.push_back(format!("Sticks of {} ignored: {} has them", name(from), name(holder)));
+        }
     }
 
-    /// RC_CHANNELS_OVERRIDE: channels 1 to 4 roll, pitch, throttle, yaw in microseconds; 0 and 65535 leave a channel centred. Pitch is
-    /// reversed as on a transmitter: stick forward is below the middle.
-    pub fn channels(&mut self, from: (u8, u8), c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
-        let axis = |us: u16| if (800..=2200).contains(&us) { ((f64::from(us) - 1500.0) / 500.0).clamp(-1.0, 1.0) } else { 0.0 };
+    /// MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its middle. Anything out of
+    /// range or not used counts as centred.
+    pub fn manual_control(&mut self, from: Sender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
+        let up = if (0..=1000).contains(&m.z) { f64::from(m.z) / 500.0 - 1.0 } else { 0.0 };
+        let zero = |value: Option<f64>| value.unwrap_or(0.0);
+        self.take(from, Sticks { forward: zero(axis(m.x)), right: zero(axis(m.y)), up, yaw: zero(axis(m.r)) }, now)
+    }
+
+    /// The gimbal's axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the holder has moved it.
+    pub fn gimbal(&mut self, from: Sender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
+        let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
+        let before = self.gimbal.replace(pitch);
+        // Where the axis stands at first is no wish: the gimbal may have been pointed by a command.
+        before.is_some_and(|before| (before - pitch).abs() > GIMBAL_STEP).then_some(pitch)
+    }
+
+    /// Whether a sender has the sticks.
+    #[must_use]
+    pub fn is_holder(&self, from: Sender) -> bool {
+        self.holder == Some(from)
+    }
+
+    /// RC_CHANNELS_OVERRIDE: channels 1 to 4 roll, pitch, throttle, yaw in microseconds. 65535 leaves a channel as it was, 0 releases it to
+    /// its middle; all four released let go of the sticks. Pitch is reversed as on a transmitter: stick forward is below the middle.
+    pub fn channels(&mut self, from: Sender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
         let all = [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw];
+        if all.iter().all(|us| *us == 0) {
+            if self.holder == Some(from) {
+                self.holder = None;
+            }
+            return None;
+        }
         if all.iter().all(|us| *us == 0 || *us == u16::MAX) {
             return None;
         }
-        let sticks = Sticks { right: axis(all[0]), forward: -axis(all[1]), up: axis(all[2]), yaw: axis(all[3]) };
+        let own = self.holder == Some(from) && self.holds(now);
+        let before = if own { self.sticks } else { Sticks::default() };
+        let axis = |us: u16, before: f64| match us {
+            u16::MAX => before,
+            us if PULSES_US.contains(&us) => ((f64::from(us) - 1500.0) / 500.0).clamp(-1.0, 1.0),
+            _ => 0.0,
+        };
+        let sticks = Sticks {
+            right: axis(all[0], before.right),
+            forward: -axis(all[1], -before.forward),
+            up: axis(all[2], before.up),
+            yaw: axis(all[3], before.yaw),
+        };
         self.take(from, sticks, now)
     }
+}
+
+fn axis(value: i16) -> Option<f64> {
+    (value != UNUSED && (-1000..=1000).contains(&value)).then(|| f64::from(value) / 1000.0)
+}
+
+/// As short as a text's 50 bytes ask: system/component@link.
+fn name((link, (system, component)): Sender) -> String {
+    format!("{system}/{component}@{}", link.0)
 }

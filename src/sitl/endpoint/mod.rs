@@ -3,6 +3,7 @@
 mod areas;
 mod arrival;
 pub mod budget;
+pub mod buttons;
 pub mod camera;
 pub mod commands;
 mod control;
@@ -278,10 +279,16 @@ impl Endpoint {
         self.storage.wish.take()
     }
 
-    /// Many parameters may have changed: they act, and every link gets the whole list.
-    fn parameters_changed(&mut self, autopilot: &mut Autopilot) {
+    /// The parameters act.
+    fn apply_parameters(&mut self, autopilot: &mut Autopilot) {
         self.params.apply(&mut autopilot.tuning);
         self.manual.let_go_s = autopilot.tuning.manual_patience_s();
+        self.manual.policy = self.params.stick_policy();
+    }
+
+    /// Many parameters may have changed: they act, and every link gets the whole list.
+    fn parameters_changed(&mut self, autopilot: &mut Autopilot) {
+        self.apply_parameters(autopilot);
         for id in self.links.keys() {
             self.param_lists.insert(*id, (0..self.params.count()).collect());
         }

@@ -4,6 +4,7 @@ pub mod metadata;
 mod table;
 pub mod text;
 
+use super::manual::Policy;
 use crate::sitl::autopilot::{FenceAction, LinkLoss, Tuning};
 use Value::{Int, Real};
 use std::collections::BTreeMap;
@@ -151,6 +152,18 @@ impl Params {
             self.changes += 1;
         }
         Ok(())
+    }
+
+    /// The value of a whole-number parameter.
+    #[must_use]
+    pub fn whole(&self, name: &str) -> Option<i32> {
+        self.values.get(name).and_then(|value| if let Int(whole) = value { Some(*whole) } else { None })
+    }
+
+    /// Who of several senders has the sticks.
+    #[must_use]
+    pub fn stick_policy(&self) -> Policy {
+        if self.whole("SPAN_STICKS") == Some(1) { Policy::LatestTakes } else { Policy::FirstKeeps }
     }
 
     fn number(&self, name: &str) -> f64 {

@@ -1,5 +1,6 @@
 //! The parameters: one row each, with what ground stations show of it.
 
+use super::super::buttons::FUNCTIONS;
 use super::Value::{self, Int, Real};
 
 /// One parameter.
@@ -79,6 +80,7 @@ const CALIBRATION: &str = "Sensor Calibration";
 const COMMANDER: &str = "Commander";
 const FENCE: &str = "Geofence";
 const FLIGHT: &str = "Multicopter Position Control";
+const JOYSTICK: &str = "Joystick";
 const MAVLINK: &str = "MAVLink";
 const MISSION: &str = "Mission";
 const RADIO: &str = "Radio Calibration";
@@ -87,6 +89,10 @@ const SYSTEM: &str = "System";
 
 const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Hold"), (2, "Return"), (3, "Land")];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
+
+const fn button(name: &'static str) -> Row {
+    row(name, Int(0), (0.0, 14.0), "", JOYSTICK, "What a press of the button does").values(FUNCTIONS)
+}
 
 /// Names from QGroundControl's and MAVSDK's sources (mavlink.md 1.4), with PX4's defaults where they have a meaning here. In the order of
 /// their names.
@@ -100,6 +106,22 @@ pub const ROWS: &[Row] = &[
     row("BAT_CRIT_THR", Real(0.07), (0.0, 0.5), "norm", BATTERY, "Charge that counts as critical"),
     row("BAT_EMERGEN_THR", Real(0.05), (0.0, 0.5), "norm", BATTERY, "Charge that counts as an emergency").token(),
     row("BAT_LOW_THR", Real(0.15), (0.0, 0.9), "norm", BATTERY, "Charge that counts as low"),
+    button("BTN0_FUNCTION"),
+    button("BTN10_FUNCTION"),
+    button("BTN11_FUNCTION"),
+    button("BTN12_FUNCTION"),
+    button("BTN13_FUNCTION"),
+    button("BTN14_FUNCTION"),
+    button("BTN15_FUNCTION"),
+    button("BTN1_FUNCTION"),
+    button("BTN2_FUNCTION"),
+    button("BTN3_FUNCTION"),
+    button("BTN4_FUNCTION"),
+    button("BTN5_FUNCTION"),
+    button("BTN6_FUNCTION"),
+    button("BTN7_FUNCTION"),
+    button("BTN8_FUNCTION"),
+    button("BTN9_FUNCTION"),
     row("CAL_ACC0_ID", Int(1_310_988), (0.0, 2e9), "", CALIBRATION, "Number of the accelerometer that was calibrated").token(),
     row("CAL_GYRO0_ID", Int(1_310_988), (0.0, 2e9), "", CALIBRATION, "Number of the gyroscope that was calibrated").token(),
     row("CAL_MAG0_ID", Int(197_388), (0.0, 2e9), "", CALIBRATION, "Number of the magnetometer that was calibrated").token(),
@@ -165,6 +187,8 @@ pub const ROWS: &[Row] = &[
     row("SENS_BOARD_ROT", Int(0), (0.0, 40.0), "", CALIBRATION, "How the board is turned in the vehicle").token(),
     row("SENS_DPRES_OFF", Real(0.0), (-1e3, 1e3), "", CALIBRATION, "Offset of the airspeed sensor").token(),
     row("SPAN_FLAVOUR", Int(0), (0.0, 2.0), "", SYSTEM, "Whose interface is spoken").values(&[(0, "PX4")]).read_only(),
+    row("SPAN_STICKS", Int(0), (0.0, 1.0), "", JOYSTICK, "Who of several senders has the sticks")
+        .values(&[(0, "The first, until he falls silent"), (1, "Whoever moves them last")]),
     row("SYS_AUTOCONFIG", Int(0), (0.0, 2.0), "", SYSTEM, "Reset of the configuration at start").token(),
     row("SYS_AUTOSTART", Int(4001), (0.0, 1e6), "", SYSTEM, "Airframe").token(),
     row("SYS_HAS_MAG", Int(1), (0.0, 3.0), "", SYSTEM, "Number of magnetometers").token(),
