@@ -6,6 +6,7 @@ pub mod inbox;
 use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
 use super::endpoint::files::job::{Done, FileError, Job};
+use super::endpoint::logs::Logs;
 use super::endpoint::params::Thresholds;
 use super::endpoint::params::text::Problem;
 use super::endpoint::view::{Scoring, View};
@@ -337,6 +338,7 @@ impl Sim {
     /// Somebody does file jobs from now on ([`Sim::poll_file_job`]).
     pub fn serve_files(&mut self) {
         self.endpoint.files.stored();
+        self.endpoint.logs.stored = true;
     }
 
     /// Keeps a log of every flight from now on.
@@ -356,12 +358,16 @@ impl Sim {
 
     /// The next thing to do with files for a client.
     pub fn poll_file_job(&mut self) -> Option<Job> {
-        self.endpoint.files.poll_job()
+        self.endpoint.files.poll_job().or_else(|| self.endpoint.logs.poll_job())
     }
 
     /// It is done.
     pub fn file_job_done(&mut self, ticket: u64, outcome: Result<Done, FileError>) {
-        self.endpoint.files.done(ticket, outcome, self.now);
+        if Logs::owns(ticket) {
+            self.endpoint.logs.done(ticket, outcome);
+        } else {
+            self.endpoint.files.done(ticket, outcome, self.now);
+        }
     }
 
     /// SHA-256 over the state of every tick so far.

@@ -8,6 +8,7 @@ import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action
 from mavsdk.plugins.ftp import Ftp, FtpResult
+from mavsdk.plugins.log_files import LogFiles, LogFilesResult
 from mavsdk.plugins.telemetry import Telemetry
 from pyulog import ULog
 
@@ -99,3 +100,27 @@ def test_val_pyulog_reads_the_flights_log(vehicle):
     assert max(abs(norm - 1) for norm in norms) < QUATERNION_TOLERANCE
     assert log.initial_parameters["MAV_SYS_ID"] == 1
     assert not log.dropouts and not log.file_corruption
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavsdk_lists_downloads_and_erases_logs(vehicle, tmp_path):
+    """A log of an earlier flight, listed with its time, brought down whole, erased; the notes beside it stay."""
+    _process, port, folder = vehicle
+    day = folder / "log" / "2026-11-20"
+    day.mkdir(parents=True)
+    content = bytes(k * k % 253 for k in range(61_234))
+    (day / "15_08_00.ulg").write_bytes(content)
+    (day / "notes.txt").write_text("not a log", encoding="utf-8")
+    mavsdk, system = connect(port)
+    logs = LogFiles(system)
+    entries = logs.get_entries()
+    assert [(e.id, e.date, e.size_bytes) for e in entries] == [(0, "2026-11-20T15:08:00Z", len(content))]
+    results = []
+    down = tmp_path / "down.ulg"
+    logs.download_log_file_async(entries[0], str(down), lambda result, _progress, _data: results.append(LogFilesResult(result)))
+    ended = wait_for("the download", lambda: next((r for r in results if r != LogFilesResult.NEXT), None))
+    assert ended == LogFilesResult.SUCCESS and down.read_bytes() == content
+    logs.erase_all_log_files()
+    wait_for("the erasing", lambda: not (day / "15_08_00.ulg").exists())
+    assert (day / "notes.txt").exists()
+    mavsdk.destroy()

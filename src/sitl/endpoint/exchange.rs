@@ -275,11 +275,23 @@ pub(super) fn data_stream(e: &mut Endpoint, r: &REQUEST_DATA_STREAM_DATA, a: &mu
     }
 }
 
-/// There are no logs: the flight is in the session's telemetry.
-pub(super) fn log_list(e: &mut Endpoint, _: &LOG_REQUEST_LIST_DATA, a: &mut Arrival) {
-    e.answer(a.link, &MavMessage::LOG_ENTRY(LOG_ENTRY_DATA::default()));
+pub(super) fn log_list(e: &mut Endpoint, r: &LOG_REQUEST_LIST_DATA, a: &mut Arrival) {
+    e.logs.list(a.link, r.start, r.end);
 }
 
 pub(super) fn log_data(e: &mut Endpoint, r: &LOG_REQUEST_DATA_DATA, a: &mut Arrival) {
-    e.answer(a.link, &MavMessage::LOG_DATA(LOG_DATA_DATA { id: r.id, ofs: r.ofs, ..LOG_DATA_DATA::default() }));
+    e.logs.read(a.link, r.id, r.ofs, r.count);
+}
+
+pub(super) fn log_end(e: &mut Endpoint, _: &LOG_REQUEST_END_DATA, a: &mut Arrival) {
+    e.logs.stop(a.link);
+}
+
+/// Not in flight: the log of now is among them.
+pub(super) fn log_erase(e: &mut Endpoint, _: &LOG_ERASE_DATA, a: &mut Arrival) {
+    if a.view.status.armed {
+        e.tell(MavSeverity::MAV_SEVERITY_WARNING, "Logs are not erased while armed");
+    } else {
+        e.logs.erase();
+    }
 }

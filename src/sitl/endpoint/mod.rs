@@ -14,6 +14,7 @@ pub mod gimbal;
 pub mod guard;
 pub mod lamp;
 pub mod link;
+pub mod logs;
 pub mod manual;
 pub mod mission;
 mod offboard;
@@ -125,6 +126,8 @@ pub struct Endpoint {
     guard: Option<Guard>,
     /// The file server.
     pub files: files::Server,
+    /// The flight logs.
+    pub logs: logs::Logs,
     params: Params,
     storage: Storage,
     plans: Plans,
@@ -171,6 +174,7 @@ impl Endpoint {
             router: Router::new(),
             guard: None,
             files: metadata_server(),
+            logs: logs::Logs::default(),
             storage: Storage::new(params.clone()),
             params,
             plans: Plans::default(),
@@ -240,6 +244,7 @@ impl Endpoint {
         self.router.close(id);
         self.param_lists.remove(&id);
         self.files.forget(id);
+        self.logs.forget(id);
     }
 
     /// Names and present values of all parameters, in the order of their names.
@@ -373,6 +378,7 @@ impl Endpoint {
         self.say_texts();
         self.send_params();
         ftp::speak(self);
+        self.tell_logs();
         if let Some((peer, message)) = self.plans.remind(view.now) {
             self.send_to(peer, &message);
         }
@@ -478,6 +484,14 @@ impl Endpoint {
                 });
                 self.broadcast(AUTOPILOT, &message);
             }
+        }
+    }
+
+    fn tell_logs(&mut self) {
+        let links = &self.links;
+        let ready = |link: &LinkId| links.get(link).is_none_or(|link| !link.is_busy());
+        for (link, message) in self.logs.poll(ready) {
+            self.answer(link, &message);
         }
     }
 

@@ -61,6 +61,8 @@ handlers! {
     MISSION_WRITE_PARTIAL_LIST MISSION_WRITE_PARTIAL_LIST_DATA exchange::mission_write_partial,
     LOG_REQUEST_LIST LOG_REQUEST_LIST_DATA exchange::log_list,
     LOG_REQUEST_DATA LOG_REQUEST_DATA_DATA exchange::log_data,
+    LOG_REQUEST_END LOG_REQUEST_END_DATA exchange::log_end,
+    LOG_ERASE LOG_ERASE_DATA exchange::log_erase,
 }
 
 impl Endpoint {
