@@ -137,7 +137,7 @@ impl Sim {
         let team = &scenario.ground_team;
         let start = (team.pad_m + Vec3::new(0.0, 0.0, feet_m)).ned();
         let yaw = crate::base::math::wrap_pi(team.pad_heading_deg.to_radians());
-        let autopilot = Autopilot::new(vehicle, &scenario.rules, scenario.origin, Autopilot::tuning_for(&scenario.rules));
+        let autopilot = fresh_autopilot(&config);
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
         let rules = &scenario.rules;
         let thresholds = Thresholds { low_pct: rules.low_battery_pct, critical_pct: rules.critical_battery_pct };
@@ -414,6 +414,19 @@ impl Sim {
         let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
         let view = view!(self, &estimate, &status);
         self.endpoint.receive(link, bytes, &view, autopilot);
+        if self.endpoint.take_restart() {
+            self.restart_autopilot();
+        }
+    }
+
+    /// The autopilot's software starts again on the ground; the world goes on.
+    fn restart_autopilot(&mut self) {
+        let Backend::Builtin(autopilot) = &mut self.backend;
+        **autopilot = fresh_autopilot(&self.config);
+        let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
+        let view = view!(self, &estimate, &status);
+        self.endpoint.boot(&view, autopilot);
+        self.keep_pace();
     }
 
     fn tick(&mut self) {
@@ -479,4 +492,9 @@ impl Sim {
         }
         self.digest.update(bits);
     }
+}
+
+fn fresh_autopilot(config: &SimConfig) -> Autopilot {
+    let scenario = &config.scenario;
+    Autopilot::new(&config.vehicle, &scenario.rules, scenario.origin, Autopilot::tuning_for(&scenario.rules))
 }

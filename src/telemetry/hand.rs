@@ -30,7 +30,8 @@ impl Hand {
     fn of_px4(custom_mode: u32) -> Self {
         match custom_mode.to_le_bytes() {
             [_, _, 4, 4] => Self::Mission,
-            [_, _, 4, _] => Self::Autopilot,
+            // Automatic modes, and the orbit, which is a sub-mode of position.
+            [_, _, 4, _] | [_, _, 3, 1] => Self::Autopilot,
             [_, _, 6, _] => Self::Script,
             _ => Self::Pilot,
         }

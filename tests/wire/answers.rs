@@ -80,6 +80,10 @@ fn wire_the_cameras_component_does_not_fly() {
 fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
     use spandrel::sitl::endpoint::streams::STREAMS;
     let mut station = Station::airborne("two-bridges", 7);
+    // Something to say for the stream about orbits.
+    let orbit = [3.0, 0.5, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(20);
     for stream in STREAMS {
         let id = stream.id as f32;
         station.sticks(0, 0, 500, 0);

@@ -1,6 +1,7 @@
 //! The program as a user meets it: processes, sockets, files, exit codes.
 
 mod answers;
+mod circles;
 mod fence;
 mod flights;
 mod inspection;

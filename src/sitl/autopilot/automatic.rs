@@ -49,7 +49,8 @@ impl Autopilot {
         self.status.target_m = Some(target);
         let way = heading_of(target - here, TURN_BEYOND_M);
         let turns = speed.is_some() || self.status.mode != Mode::Hold;
-        self.turn_to(self.course.target_yaw_rad.or(way.filter(|_| turns)), dt_s);
+        let yaw = self.look_rad().or(self.course.target_yaw_rad).or(way.filter(|_| turns));
+        self.turn_to(yaw, dt_s);
         let wish = towards(&self.gains, here, target, cruise, up, down);
         self.shaper.advance(wish, &self.auto_limits(), dt_s);
         Wanted::Fly(self.motion(self.shaper.velocity_m_s))

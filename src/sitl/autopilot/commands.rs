@@ -22,6 +22,11 @@ impl Autopilot {
             Request::SetSpeed(speed) => self.set_speed(speed),
             Request::SetHome(home) => self.set_home(home),
             Request::EnableFence(on) => self.enable_fence(on),
+            Request::Orbit(wish) => self.request_orbit(wish, now),
+            Request::LookAt(place) => {
+                self.look_at_m = place;
+                Outcome::Accepted
+            }
         }
     }
 
@@ -87,6 +92,9 @@ impl Autopilot {
             && let Some(step) = self.step_outside_fence()
         {
             return Some(Outcome::Denied(format!("Mission item {step} lies outside the geofence")));
+        }
+        if mode == Mode::Orbit && self.orbit.is_none() {
+            return Some(Outcome::Denied("Nothing to circle: DO_ORBIT says what".into()));
         }
         if mode == Mode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_patience_s(), now) {
             return Some(Outcome::TemporarilyRejected("Offboard needs external set-points first".into()));

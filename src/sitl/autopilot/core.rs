@@ -9,6 +9,7 @@ use super::link::Links;
 use super::mission::Mission;
 use super::mixer::{Demand, Given, Mixer};
 use super::modes::{Course, Wanted};
+use super::orbit::Orbit;
 use super::shaper::Shaper;
 use super::supervise::Watch;
 use super::velocity::{Motion, Pull, VelocityLoop};
@@ -98,6 +99,9 @@ pub struct Autopilot {
     pub(super) course: Course,
     pub(super) mission: Mission,
     pub(super) fence: Fence,
+    pub(super) orbit: Option<Orbit>,
+    /// Automatic modes turn towards this place, m.
+    pub(super) look_at_m: Option<Vec3<Ned>>,
     /// Places to return to beside home, m.
     pub(super) refuges_m: Vec<Vec3<Ned>>,
     pub(super) links: Links,
@@ -138,6 +142,8 @@ impl Autopilot {
             course: Course::default(),
             mission: Mission::default(),
             fence: Fence::default(),
+            orbit: None,
+            look_at_m: None,
             refuges_m: Vec::new(),
             links: Links::default(),
             seen: Seen::default(),
@@ -369,6 +375,7 @@ fn boot_status() -> Status {
         mission_finished: false,
         mission_paused: false,
         fence: FenceState::default(),
+        orbit: None,
     }
 }
 

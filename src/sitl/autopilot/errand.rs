@@ -19,6 +19,9 @@ impl Autopilot {
             return self.go(None, dt_s);
         };
         self.status.mission_current = self.mission.current;
+        if let Some(place) = self.mission.look_at_m.take() {
+            self.look_at_m = place;
+        }
         if let Some(place) = self.mission.left_at {
             return self.go_back_to(place, dt_s);
         }

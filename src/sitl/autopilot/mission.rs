@@ -26,6 +26,8 @@ pub struct Mission {
     pub reached: Vec<usize>,
     /// The current step has been begun.
     pub begun: bool,
+    /// A step has said where to look from now on, m.
+    pub look_at_m: Option<Option<Vec3<Ned>>>,
     /// Where it was left on its way, m: it goes on from there.
     pub left_at: Option<Vec3<Ned>>,
 }
@@ -111,6 +113,10 @@ impl Mission {
                 None => return false,
                 Some(MissionStep::Speed(speed)) => {
                     self.speed_m_s = (speed > 0.0).then_some(speed);
+                    self.next();
+                }
+                Some(MissionStep::LookAt(place)) => {
+                    self.look_at_m = Some(place);
                     self.next();
                 }
                 Some(MissionStep::Payload) => self.next(),

@@ -15,6 +15,7 @@ mod manual;
 pub mod mission;
 pub mod mixer;
 pub mod modes;
+pub mod orbit;
 pub mod shaper;
 pub mod supervise;
 #[cfg(test)]
@@ -49,6 +50,8 @@ pub enum Mode {
     Mission,
     /// Follow external set-points.
     Offboard,
+    /// Circle a place.
+    Orbit,
 }
 
 /// Stick intent, each in [-1, 1]: forward, right, up, clockwise positive.
@@ -106,6 +109,10 @@ pub enum Request {
     SetSpeed(f64),
     /// Home position about the origin, m.
     SetHome(Vec3<Ned>),
+    /// Circle a place.
+    Orbit(orbit::OrbitWish),
+    /// Turn towards a place in automatic modes, m about the origin; `None`: no more.
+    LookAt(Option<Vec3<Ned>>),
     /// The geofence on or off.
     EnableFence(bool),
 }
@@ -209,6 +216,8 @@ pub struct Status {
     pub mission_paused: bool,
     /// The geofence.
     pub fence: fence::FenceState,
+    /// The circle that is flown.
+    pub orbit: Option<orbit::Orbit>,
 }
 
 /// One mission step as the autopilot flies it; the endpoint keeps the MAVLink items beside it.
@@ -248,6 +257,8 @@ pub enum MissionStep {
         /// Repetitions.
         times: u32,
     },
+    /// Turn towards a place from here on, m; `None`: no more.
+    LookAt(Option<Vec3<Ned>>),
     /// Something for the payload that the endpoint does when this item becomes current.
     Payload,
 }

@@ -94,6 +94,7 @@ impl Autopilot {
     /// Begins a mode (again).
     pub(super) fn enter(&mut self, mode: Mode, now: SimTime) {
         self.leave_mission(mode);
+        self.status.orbit = None;
         self.status.mode = mode;
         self.links.sticks_then = self.links.sticks;
         self.begin_course(now);
@@ -177,7 +178,7 @@ impl Autopilot {
                 matches!(self.mission.step(), Some(MissionStep::Takeoff { .. } | MissionStep::Waypoint { .. }))
             }
             Mode::Offboard => self.links.offboard.is_some_and(|(s, _)| rises(&s, self.estimate.position_m.down())),
-            Mode::Hold | Mode::Land | Mode::Return => false,
+            Mode::Hold | Mode::Land | Mode::Return | Mode::Orbit => false,
         }
     }
 
@@ -195,6 +196,7 @@ impl Autopilot {
             Mode::Offboard => self.follow(now, dt_s),
             _ if blind => self.sink_blind(dt_s),
             Mode::Hold => self.go(self.course.speed_m_s, dt_s),
+            Mode::Orbit => self.fly_orbit(now, dt_s),
             Mode::Takeoff => self.take_off(now, dt_s),
             Mode::Return => self.go_home(dt_s),
             Mode::Mission => self.fly_mission(now, dt_s),

@@ -252,7 +252,8 @@ impl Autopilot {
 
     /// Moved sticks take over from automatic flight.
     pub(super) fn take_over(&mut self, now: SimTime) {
-        let automatic = matches!(self.watch.intended, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Return | Mode::Mission);
+        let automatic =
+            matches!(self.watch.intended, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Return | Mode::Mission | Mode::Orbit);
         let flying = self.status.armed && matches!(self.status.landed, Landed::InAir | Landed::Landing);
         if self.tuning.stick_takeover && automatic && flying && !self.watch.overridden && self.links.moved(TAKE_OVER) {
             let mission = self.status.mode == Mode::Mission;

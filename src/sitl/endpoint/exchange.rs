@@ -6,7 +6,9 @@ use super::arrival::Arrival;
 use super::mission::{Reply, ack};
 use super::params::{HASH, Refusal, Value};
 use super::streams::{self, AUTOPILOT};
+use super::view::View;
 use crate::mav::dialect::*;
+use crate::sitl::autopilot::Autopilot;
 use mavlink::MessageData;
 
 const MISSION_ACK: u32 = 47;
@@ -215,7 +217,7 @@ fn carry_out(e: &mut Endpoint, reply: Reply, a: &mut Arrival) {
     match reply {
         Reply::Say(message) => e.answer(a.link, &message),
         Reply::New(kind, message) => {
-            hand_over(e, kind, a);
+            hand_over(e, kind, a.view, a.autopilot);
             e.answer(a.link, &message);
         }
         Reply::Nothing => {}
@@ -223,19 +225,19 @@ fn carry_out(e: &mut Endpoint, reply: Reply, a: &mut Arrival) {
 }
 
 /// The autopilot gets what has changed.
-fn hand_over(e: &mut Endpoint, kind: MavMissionType, a: &mut Arrival) {
+pub(super) fn hand_over(e: &mut Endpoint, kind: MavMissionType, view: &View, autopilot: &mut Autopilot) {
     let is = |one| kind == one || kind == MavMissionType::MAV_MISSION_TYPE_ALL;
-    let home_up = a.view.status.home_m.map_or(0.0, |h| -h.down());
+    let home_up = view.status.home_m.map_or(0.0, |h| -h.down());
     if is(MavMissionType::MAV_MISSION_TYPE_MISSION) {
-        a.autopilot.set_mission(e.plans.steps(a.view.plane, home_up, a.autopilot.tuning.accept_radius_m));
-        a.autopilot.hang_mission_on_home(e.plans.over_home());
+        autopilot.set_mission(e.plans.steps(view.plane, home_up, autopilot.tuning.accept_radius_m));
+        autopilot.hang_mission_on_home(e.plans.over_home());
         e.payload.camera.mission_items = e.plans.mission().len() as u16;
     }
     if is(MavMissionType::MAV_MISSION_TYPE_FENCE) {
-        a.autopilot.set_fence(e.plans.zones(a.view.plane));
+        autopilot.set_fence(e.plans.zones(view.plane));
     }
     if is(MavMissionType::MAV_MISSION_TYPE_RALLY) {
-        a.autopilot.set_refuges(e.plans.refuges(a.view.plane, home_up));
+        autopilot.set_refuges(e.plans.refuges(view.plane, home_up));
     }
 }
 

@@ -146,6 +146,13 @@ impl Link {
         true
     }
 
+    /// Every stream at its kind's usual rate again.
+    pub fn usual_rates(&mut self, now: SimTime) {
+        self.every = STREAMS.iter().map(|s| period(s.rate_hz(self.kind))).collect();
+        self.next.fill(now);
+        self.soonest = now;
+    }
+
     /// Signs what our components say from now on.
     pub fn sign_with(&mut self, signing: Option<Signing>) {
         self.signing = signing;

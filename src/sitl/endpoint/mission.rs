@@ -378,6 +378,10 @@ fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64, accept
         MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH => MissionStep::Return,
         MavCmd::MAV_CMD_DO_CHANGE_SPEED if item.param2 > 0.0 => MissionStep::Speed(number(item.param2, 5.0)),
         MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY => MissionStep::Delay(number(item.param1, 0.0).max(0.0)),
+        MavCmd::MAV_CMD_DO_SET_ROI_NONE => MissionStep::LookAt(None),
+        MavCmd::MAV_CMD_DO_SET_ROI_LOCATION | MavCmd::MAV_CMD_DO_SET_ROI => {
+            place(item, plane, home_up_m).map_or(MissionStep::Payload, |place| MissionStep::LookAt(Some(place)))
+        }
         MavCmd::MAV_CMD_DO_JUMP => {
             let times = number(item.param2, 0.0);
             // -1 repeats for ever (MAVLink common).

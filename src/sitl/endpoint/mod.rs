@@ -26,7 +26,9 @@ pub mod streams;
 pub mod view;
 
 use crate::base::time::{Schedule, SimTime};
-use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
+use crate::mav::dialect::{
+    MISSION_ITEM_REACHED_DATA, MavMessage, MavMissionType, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA,
+};
 use crate::mav::router::Router;
 use crate::mav::signing::Key;
 use crate::sitl::autopilot::{Autopilot, Event, Severity};
@@ -100,6 +102,8 @@ pub struct Context<'a, 'v> {
     pub params: &'a mut Params,
     /// Where they are kept.
     pub storage: &'a mut Storage,
+    /// The autopilot's software is to start again.
+    pub restart: &'a mut bool,
 }
 
 impl Context<'_, '_> {
@@ -130,6 +134,7 @@ pub struct Endpoint {
     pub logs: logs::Logs,
     params: Params,
     storage: Storage,
+    restart: bool,
     plans: Plans,
     manual: Manual,
     /// Camera, gimbal, lamp.
@@ -176,6 +181,7 @@ impl Endpoint {
             files: metadata_server(),
             logs: logs::Logs::default(),
             storage: Storage::new(params.clone()),
+            restart: false,
             params,
             plans: Plans::default(),
             manual: Manual::default(),
@@ -282,6 +288,21 @@ impl Endpoint {
     /// What a client wants of whoever keeps the parameters.
     pub fn poll_storage(&mut self) -> Option<Wish> {
         self.storage.wish.take()
+    }
+
+    /// True once after somebody has asked for a restart of the autopilot's software.
+    pub fn take_restart(&mut self) -> bool {
+        std::mem::take(&mut self.restart)
+    }
+
+    /// A fresh autopilot gets parameters and plans; links get their usual rates.
+    pub fn boot(&mut self, view: &View, autopilot: &mut Autopilot) {
+        self.apply_parameters(autopilot);
+        exchange::hand_over(self, MavMissionType::MAV_MISSION_TYPE_ALL, view, autopilot);
+        for link in self.links.values_mut() {
+            link.usual_rates(view.now);
+        }
+        self.tell(MavSeverity::MAV_SEVERITY_INFO, "Autopilot restarted");
     }
 
     /// The parameters act.

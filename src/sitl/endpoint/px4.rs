@@ -37,7 +37,7 @@ const fn row(
 use MavStandardMode as S;
 
 /// All modes, in the order of AVAILABLE_MODES.
-pub const MODES: [ModeRow; 9] = [
+pub const MODES: [ModeRow; 10] = [
     row(Mode::Position, 3, 0, "Position", S::MAV_STANDARD_MODE_POSITION_HOLD, false, true),
     row(Mode::Altitude, 2, 0, "Altitude", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, false, true),
     row(Mode::Stabilized, 7, 0, "Stabilized", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
@@ -46,6 +46,7 @@ pub const MODES: [ModeRow; 9] = [
     row(Mode::Mission, 4, 4, "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
     row(Mode::Return, 4, 5, "Return", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true),
     row(Mode::Land, 4, 6, "Land", S::MAV_STANDARD_MODE_LAND, true, true),
+    row(Mode::Orbit, 3, 1, "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
     row(Mode::Offboard, 6, 0, "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
 ];
 

@@ -142,6 +142,7 @@ impl Endpoint {
             texts: &mut self.texts,
             params: &mut self.params,
             storage: &mut self.storage,
+            restart: &mut self.restart,
         };
         let before = context.params.changes();
         let result = commands::handle(command, &mut context);

@@ -191,6 +191,7 @@ fn nav_state(mode: Mode) -> u8 {
         Mode::Hold => 4,
         Mode::Return => 5,
         Mode::Offboard => 14,
+        Mode::Orbit => 21,
         Mode::Stabilized => 15,
         Mode::Takeoff => 17,
         Mode::Land => 18,

@@ -3,6 +3,7 @@
 use super::super::{px4, storage};
 use super::{Command, result};
 use crate::mav::dialect::{MavCmd, MavResult};
+use crate::sitl::autopilot::orbit::{OrbitWish, OrbitYaw};
 use crate::sitl::autopilot::{Mode, Request};
 use crate::sitl::endpoint::Context;
 
@@ -44,6 +45,10 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             Some(speed) if speed > 0.0 => Request::SetSpeed(speed),
             _ => return Some(DENIED),
         },
+        n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, x) {
+            Some(wish) => Request::Orbit(wish),
+            None => return Some(DENIED),
+        },
         n if n == M::MAV_CMD_CONDITION_YAW as u16 => turn(c, x)?,
         n if n == M::MAV_CMD_DO_SET_HOME as u16 => match home(c, x) {
             Some(request) => request,
@@ -58,7 +63,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => return Some(storage::preflight(c, x)),
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {
-            return Some(if x.view.status.armed { DENIED } else { MavResult::MAV_RESULT_UNSUPPORTED });
+            return Some(reboot(c, x));
         }
         n if n == M::MAV_CMD_DO_SET_MISSION_CURRENT as u16 => {
             let known = c.given(0).is_some_and(|seq| seq >= 0.0 && x.autopilot.set_mission_current(seq as usize));
@@ -68,6 +73,22 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     };
     let outcome = x.autopilot.request(request, x.view.now);
     Some(result(outcome, x))
+}
+
+/// Parameter 1: 0 nothing, 1 and 3 the autopilot starts again; a simulated vehicle is not shut down by a client.
+fn reboot(c: &Command, x: &mut Context) -> MavResult {
+    match c.p[0] {
+        0.0 => MavResult::MAV_RESULT_ACCEPTED,
+        1.0 | 3.0 if x.view.status.armed => {
+            x.tell("Reboot denied: armed");
+            MavResult::MAV_RESULT_TEMPORARILY_REJECTED
+        }
+        1.0 | 3.0 => {
+            *x.restart = true;
+            MavResult::MAV_RESULT_ACCEPTED
+        }
+        _ => MavResult::MAV_RESULT_DENIED,
+    }
 }
 
 fn arm(c: &Command) -> Option<Request> {
@@ -137,6 +158,14 @@ fn reposition(c: &Command, x: &Context) -> Option<Request> {
     };
     let speed_m_s = c.given(0).filter(|s| *s > 0.0);
     Some(Request::GoTo { north_east_m, up_m, yaw_rad: c.given(3), speed_m_s })
+}
+
+/// Parameters 1 radius, 2 speed, 3 where the nose points, 4 how far round in radians, 5 to 7 the middle.
+fn orbit(c: &Command, x: &Context) -> Option<OrbitWish> {
+    let Request::GoTo { north_east_m, up_m, .. } = reposition(c, x)? else { return None };
+    let yaw = c.given(2).map_or(Some(OrbitYaw::Centre), |number| OrbitYaw::from_number(number as i64))?;
+    let arc_rad = c.given(3).unwrap_or(0.0).abs();
+    Some(OrbitWish { centre_m: north_east_m, up_m, radius_m: c.given(0), speed_m_s: c.given(1), yaw, arc_rad })
 }
 
 fn turn(c: &Command, x: &Context) -> Option<Request> {

@@ -8,7 +8,7 @@ use super::Context;
 use super::streams::CAMERA;
 use crate::mav::codec::Received;
 use crate::mav::dialect::{MISSION_ITEM_INT_DATA, MavResult};
-use crate::sitl::autopilot::Outcome;
+use crate::sitl::autopilot::{Outcome, Request};
 
 /// A command from either message.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,9 +84,19 @@ pub fn handle(c: &Command, x: &mut Context) -> MavResult {
         if c.component == CAMERA {
             return payload::camera(c, &x.view, x.payload);
         }
-        flight::handle(c, x).or_else(|| payload::handle(c, &x.view, x.payload))
+        flight::handle(c, x).or_else(|| look(c, x)).or_else(|| payload::handle(c, &x.view, x.payload))
     });
     done.unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED)
+}
+
+/// What the gimbal looks at the vehicle turns to.
+fn look(c: &Command, x: &mut Context) -> Option<MavResult> {
+    let place = payload::looked_at(c, &x.view)?;
+    let done = payload::handle(c, &x.view, x.payload);
+    if done == Some(MavResult::MAV_RESULT_ACCEPTED) {
+        x.autopilot.request(Request::LookAt(place), x.view.now);
+    }
+    done
 }
 
 /// The autopilot's answer on the wire; its reason becomes a text.

@@ -5,6 +5,7 @@ use super::super::Payload;
 use super::super::gimbal::{Aim, DEVICE};
 use super::super::view::View;
 use super::Command;
+use crate::base::frames::{Enu, Ned, Vec3};
 use crate::base::geodesy::Geo;
 use crate::mav::dialect::{MavCmd, MavResult};
 
@@ -106,16 +107,31 @@ fn configure(c: &Command, payload: &mut Payload) -> MavResult {
     }
 }
 
-fn roi(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
-    let (Some(lat), Some(lon), Some(alt)) = (c.given(4), c.given(5), c.given(6)) else { return DENIED };
+/// Where a command makes the vehicle look: `None` for another command or no usable place, `Some(None)` for looking nowhere any more.
+pub(in super::super) fn looked_at(c: &Command, view: &View) -> Option<Option<Vec3<Ned>>> {
+    match c.number {
+        n if n == MavCmd::MAV_CMD_DO_SET_ROI_NONE as u16 => Some(None),
+        n if n == MavCmd::MAV_CMD_DO_SET_ROI_LOCATION as u16 || n == MavCmd::MAV_CMD_DO_SET_ROI as u16 => {
+            Some(Some(place(c, view)?.ned()))
+        }
+        _ => None,
+    }
+}
+
+/// The place in parameters 5 to 7.
+fn place(c: &Command, view: &View) -> Option<Vec3<Enu>> {
+    let (lat, lon, alt) = (c.given(4)?, c.given(5)?, c.given(6)?);
     if lat.abs() > 90.0 || lon.abs() > 180.0 || alt.abs() > 1e5 {
-        return DENIED;
+        return None;
     }
     let origin = view.plane.origin();
     let home_up = view.status.home_m.map_or(0.0, |h| -h.down());
     let altitude_m = if matches!(c.frame, 3 | 6 | 10 | 11) { origin.altitude_m + home_up + alt } else { alt };
-    let place = view.plane.enu_from_geo(Geo { latitude_deg: lat, longitude_deg: lon, altitude_m });
-    aim(Aim::Place(place), c, view, payload)
+    Some(view.plane.enu_from_geo(Geo { latitude_deg: lat, longitude_deg: lon, altitude_m }))
+}
+
+fn roi(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
+    place(c, view).map_or(DENIED, |place| aim(Aim::Place(place), c, view, payload))
 }
 
 fn lamp(value: f64, view: &View, payload: &mut Payload) -> MavResult {

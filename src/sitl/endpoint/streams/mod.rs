@@ -78,6 +78,7 @@ pub const STREAMS: &[Stream] = &[
     row(245, [5.0, 5.0, 5.0], system::extended_state),
     row(42, [1.0, 1.0, 1.0], system::mission_current),
     row(436, [1.0, 1.0, 0.5], system::current_mode),
+    row(360, [2.0, 2.0, 0.0], position::orbit),
     row(162, [1.0, 1.0, 0.0], system::fence),
     row(65, [50.0, 50.0, 50.0], truth::sticks),
     row(330, [5.0, 5.0, 0.0], sensors::obstacles),

@@ -4,7 +4,8 @@ use super::super::view::View;
 use crate::base::frames::Vec3;
 use crate::mav::dialect::{
     ALTITUDE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA,
-    MavEstimatorType, MavFrame, MavMessage, ODOMETRY_DATA, POSITION_TARGET_LOCAL_NED_DATA, PositionTargetTypemask, VFR_HUD_DATA,
+    MavEstimatorType, MavFrame, MavMessage, ODOMETRY_DATA, ORBIT_EXECUTION_STATUS_DATA, POSITION_TARGET_LOCAL_NED_DATA,
+    PositionTargetTypemask, VFR_HUD_DATA,
 };
 use crate::mav::units::{cm, deg_e7, heading_cdeg, mm};
 
@@ -32,6 +33,20 @@ pub(super) fn global(v: &View) -> Option<MavMessage> {
         vy: cm(velocity.east()),
         vz: cm(velocity.down()),
         hdg: heading_cdeg(v.estimate.attitude.yaw_rad()),
+    }))
+}
+
+/// Only while it circles.
+pub(super) fn orbit(v: &View) -> Option<MavMessage> {
+    let orbit = v.status.orbit?;
+    let centre = v.plane.geo_from_enu(orbit.centre_m.enu());
+    Some(MavMessage::ORBIT_EXECUTION_STATUS(ORBIT_EXECUTION_STATUS_DATA {
+        time_usec: v.boot_us(),
+        radius: (orbit.radius_m * orbit.speed_m_s.signum()) as f32,
+        x: deg_e7(centre.latitude_deg),
+        y: deg_e7(centre.longitude_deg),
+        z: centre.altitude_m as f32,
+        frame: MavFrame::MAV_FRAME_GLOBAL,
     }))
 }
 
