@@ -82,6 +82,11 @@ impl WindField {
         }
     }
 
+    /// The weather changes from `at` on within `over`: speed at 20 ft, m/s, and where it comes from, degrees. Only the physical wind does.
+    pub fn change(&mut self, at: SimTime, over: SimTime, speed_m_s: f64, from_deg: f64) {
+        self.wind.events.push(WindEvent::Change { at, over, speed_m_s, from_deg });
+    }
+
     /// Velocity of the air over ground, m/s, at an instant not later than the next sample. Zero in the `paper` model.
     #[must_use]
     pub fn air_velocity(&self, at: SimTime) -> Vec3<Ned> {

@@ -3,6 +3,7 @@
 pub mod autopilot;
 pub mod backend;
 pub mod endpoint;
+pub mod faults;
 pub mod log;
 pub mod physics;
 pub mod sensors;

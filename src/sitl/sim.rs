@@ -2,15 +2,17 @@
 
 mod consequences;
 pub mod inbox;
+mod radio;
 
 use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
 use super::endpoint::files::job::{Done, FileError, Job};
 use super::endpoint::logs::Logs;
-use super::endpoint::params::Thresholds;
 use super::endpoint::params::text::Problem;
+use super::endpoint::params::{Thresholds, World};
 use super::endpoint::view::{Scoring, View};
-use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit, Wish};
+use super::endpoint::{Endpoint, Injection, LinkId, LinkKind, Transmit, Wish};
+use super::faults::{Faults, Unit};
 use super::log::{self, Recorder};
 use super::physics::{self, Actuators, Air, Load, Model};
 use super::sensors::{BatteryReading, Readings, Sensors, Truth};
@@ -22,6 +24,7 @@ use crate::site::Site;
 use crate::site::wind::WindField;
 use crate::vehicle::Vehicle;
 use inbox::Inbox;
+use radio::Radio;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -30,6 +33,8 @@ use std::sync::Arc;
 pub const STEP: SimTime = SimTime::from_ms(1);
 /// Peers in step are asked this often.
 pub const LOCKSTEP: SimTime = SimTime::from_ms(20);
+/// A wind that an instructor changes has changed within this.
+const WIND_CHANGES_IN: SimTime = SimTime::from_ms(5_000);
 /// Uncommon clearances are not looked for beyond this, m.
 const CLEARANCE_REACH_M: f64 = 30.0;
 
@@ -98,6 +103,11 @@ pub struct Sim {
     pace: f64,
     waiting: BTreeMap<LinkId, i64>,
     inbox: Inbox,
+    radio: Radio,
+    faults: Faults,
+    world: World,
+    /// Changes of parameters that the world has followed.
+    heeded: u64,
     events: VecDeque<SimEvent>,
     digest: Sha256,
     recorder: Recorder,
@@ -171,6 +181,10 @@ impl Sim {
             pace: 1.0,
             waiting: BTreeMap::new(),
             inbox: Inbox::default(),
+            radio: Radio::new(seed),
+            faults: Faults::new(seed),
+            heeded: 0,
+            world: World { wind: None, loss: 0.0, delay: SimTime::ZERO },
             events: VecDeque::new(),
             digest: Sha256::new(),
             recorder: Recorder::default(),
@@ -246,6 +260,10 @@ impl Sim {
     /// Takes in a datagram. It acts at the next tick, or a later one when its link sends more than [`inbox`] lets act in one; in step,
     /// after every answer is in, in the order of the links.
     pub fn handle_datagram(&mut self, link: LinkId, bytes: &[u8]) {
+        if self.is_over_radio(link) {
+            self.radio.receive(link, bytes, self.now);
+            return;
+        }
         self.inbox.push(link, bytes);
         if !self.waiting.is_empty() {
             self.look_for_answers(link, bytes);
@@ -279,7 +297,40 @@ impl Sim {
 
     /// The next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
-        self.endpoint.poll()
+        while let Some(transmit) = self.endpoint.poll() {
+            if !self.is_over_radio(transmit.link) {
+                return Some(transmit);
+            }
+            self.radio.send(transmit, self.now);
+        }
+        self.radio.sent(self.now)
+    }
+
+    /// Sidecars and peers in step sit beside the vehicle; all others are reached over the radio, while it is bad.
+    fn is_over_radio(&self, link: LinkId) -> bool {
+        !self.radio.is_good() && self.endpoint.kind(link).is_some_and(|(kind, in_step)| kind != LinkKind::Payload && !in_step)
+    }
+
+    /// Faults and weather that came by command and parameter.
+    fn heed_the_instructor(&mut self) {
+        while let Some(Injection { unit, kind, instance }) = self.endpoint.poll_injection() {
+            self.faults.inject(unit, kind, instance, self.config.vehicle.rotors.len());
+            if unit == Unit::Battery && kind.is_some() {
+                self.state.battery.charge = Faults::charge(self.state.battery.charge);
+            }
+        }
+        let changes = self.endpoint.parameter_changes();
+        if std::mem::replace(&mut self.heeded, changes) == changes {
+            return;
+        }
+        let world = self.endpoint.world();
+        self.radio.set(world.loss, world.delay);
+        if world.wind != self.world.wind {
+            let own = &self.config.scenario.wind;
+            let (speed_m_s, from_deg) = world.wind.unwrap_or((own.speed_m_s, own.from_deg));
+            self.wind.change(self.now, WIND_CHANGES_IN, speed_m_s, from_deg);
+        }
+        self.world = world;
     }
 
     /// The next event.
@@ -403,6 +454,9 @@ impl Sim {
 
     /// What has arrived acts now, as far as this tick's share of each link goes.
     fn take_inbox(&mut self) {
+        while let Some((link, bytes)) = self.radio.received(self.now) {
+            self.inbox.push(link, &bytes);
+        }
         for (link, bytes) in self.inbox.take(self.now) {
             self.digest.update(&bytes);
             self.read(link, &bytes);
@@ -431,6 +485,8 @@ impl Sim {
 
     fn tick(&mut self) {
         let start = self.now;
+        self.heed_the_instructor();
+        self.endpoint.sticks_pass = self.faults.sticks_pass(start);
         self.move_air(start);
         if self.control_due.fire(start) {
             self.control(start);
@@ -461,8 +517,10 @@ impl Sim {
         let b = &self.state.battery;
         let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
         let truth = Truth { rigid: &self.state.rigid, battery, lamp_on: self.endpoint.payload.lamp.on };
-        let fresh = self.sensors.sample(&truth, self.site.as_ref(), now);
+        let mut fresh = self.sensors.sample(&truth, self.site.as_ref(), now);
+        self.faults.spoil(&mut fresh, now);
         self.actuators = self.backend.step(&fresh, now);
+        self.faults.stop_motors(&mut self.actuators);
         if self.ended.is_some() {
             self.actuators = Actuators::default();
         }

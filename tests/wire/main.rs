@@ -2,6 +2,7 @@
 
 mod answers;
 mod circles;
+mod failures;
 mod fence;
 mod flights;
 mod inspection;

@@ -21,6 +21,9 @@ pub(super) fn heartbeat(_: &mut Endpoint, beat: &HEARTBEAT_DATA, a: &mut Arrival
 }
 
 pub(super) fn manual_control(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut Arrival) {
+    if !e.sticks_pass {
+        return;
+    }
     let from = (a.link, a.from);
     if let Some(sticks) = e.manual.manual_control(from, m, a.view.now) {
         a.autopilot.sticks(sticks, a.view.now);
@@ -38,6 +41,9 @@ pub(super) fn manual_control(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut 
 }
 
 pub(super) fn channels(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut Arrival) {
+    if !e.sticks_pass {
+        return;
+    }
     if let Some(sticks) = e.manual.channels((a.link, a.from), c, a.view.now) {
         a.autopilot.sticks(sticks, a.view.now);
     }

@@ -32,6 +32,7 @@ use crate::mav::dialect::{
 use crate::mav::router::Router;
 use crate::mav::signing::Key;
 use crate::sitl::autopilot::{Autopilot, Event, Severity};
+use crate::sitl::faults::{Kind, Unit};
 use camera::{CameraState, Shot};
 use gimbal::Gimbal;
 use guard::Guard;
@@ -104,6 +105,19 @@ pub struct Context<'a, 'v> {
     pub storage: &'a mut Storage,
     /// The autopilot's software is to start again.
     pub restart: &'a mut bool,
+    /// Faults that are put in.
+    pub faults: &'a mut VecDeque<Injection>,
+}
+
+/// A fault to put in, or with no kind to take out; the instance counts from 1, 0 is all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Injection {
+    /// What.
+    pub unit: Unit,
+    /// How.
+    pub kind: Option<Kind>,
+    /// Which.
+    pub instance: usize,
 }
 
 impl Context<'_, '_> {
@@ -135,6 +149,9 @@ pub struct Endpoint {
     params: Params,
     storage: Storage,
     restart: bool,
+    injections: VecDeque<Injection>,
+    /// Manual control gets through.
+    pub sticks_pass: bool,
     plans: Plans,
     manual: Manual,
     /// Camera, gimbal, lamp.
@@ -182,6 +199,8 @@ impl Endpoint {
             logs: logs::Logs::default(),
             storage: Storage::new(params.clone()),
             restart: false,
+            injections: VecDeque::new(),
+            sticks_pass: true,
             params,
             plans: Plans::default(),
             manual: Manual::default(),
@@ -293,6 +312,23 @@ impl Endpoint {
     /// True once after somebody has asked for a restart of the autopilot's software.
     pub fn take_restart(&mut self) -> bool {
         std::mem::take(&mut self.restart)
+    }
+
+    /// The next fault to put in.
+    pub fn poll_injection(&mut self) -> Option<Injection> {
+        self.injections.pop_front()
+    }
+
+    /// What the parameters say of the world: wind and radio.
+    #[must_use]
+    pub fn world(&self) -> params::World {
+        self.params.world()
+    }
+
+    /// What is behind a link.
+    #[must_use]
+    pub fn kind(&self, id: LinkId) -> Option<(LinkKind, bool)> {
+        self.links.get(&id).map(|link| (link.kind, link.lockstep))
     }
 
     /// A fresh autopilot gets parameters and plans; links get their usual rates.

@@ -143,6 +143,7 @@ impl Endpoint {
             params: &mut self.params,
             storage: &mut self.storage,
             restart: &mut self.restart,
+            faults: &mut self.injections,
         };
         let before = context.params.changes();
         let result = commands::handle(command, &mut context);

@@ -5,7 +5,8 @@ use super::{Command, result};
 use crate::mav::dialect::{MavCmd, MavResult};
 use crate::sitl::autopilot::orbit::{OrbitWish, OrbitYaw};
 use crate::sitl::autopilot::{Mode, Request};
-use crate::sitl::endpoint::Context;
+use crate::sitl::endpoint::{Context, Injection};
+use crate::sitl::faults::{Faults, Kind, Unit};
 
 /// The number that forces arming and disarming (MAVLink common, COMPONENT_ARM_DISARM param2).
 const FORCE: f64 = 21196.0;
@@ -60,6 +61,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             _ => return Some(DENIED),
         },
         n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 && c.p[0] > 0.5 => Request::Disarm { force: true },
+        n if n == M::MAV_CMD_INJECT_FAILURE as u16 => return Some(inject(c, x)),
         n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => return Some(storage::preflight(c, x)),
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {
@@ -73,6 +75,24 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     };
     let outcome = x.autopilot.request(request, x.view.now);
     Some(result(outcome, x))
+}
+
+/// Parameters 1 unit, 2 kind, 3 instance. As in PX4 nothing happens unless SYS_FAILURE_EN allows it.
+fn inject(c: &Command, x: &mut Context) -> MavResult {
+    if x.params.whole("SYS_FAILURE_EN") != Some(1) {
+        x.tell("Failure injection is off (SYS_FAILURE_EN)");
+        return MavResult::MAV_RESULT_DENIED;
+    }
+    let whole = |k: usize| c.given(k).map(|value| value as i64);
+    let (unit, kind) = (whole(0).and_then(Unit::from_number), whole(1).and_then(Kind::from_number));
+    let (Some(unit), Some(kind)) = (unit, kind) else { return MavResult::MAV_RESULT_UNSUPPORTED };
+    let instance = usize::try_from(whole(2).unwrap_or(0)).unwrap_or(usize::MAX);
+    let rotors = x.view.vehicle.rotors.len();
+    if !Faults::new(0).inject(unit, kind, instance, rotors) {
+        return MavResult::MAV_RESULT_UNSUPPORTED;
+    }
+    x.faults.push_back(Injection { unit, kind, instance });
+    MavResult::MAV_RESULT_ACCEPTED
 }
 
 /// Parameter 1: 0 nothing, 1 and 3 the autopilot starts again; a simulated vehicle is not shut down by a client.

@@ -5,6 +5,7 @@ mod table;
 pub mod text;
 
 use super::manual::Policy;
+use crate::base::time::SimTime;
 use crate::sitl::autopilot::{FenceAction, LinkLoss, Tuning};
 use Value::{Int, Real};
 use std::collections::BTreeMap;
@@ -59,6 +60,17 @@ pub struct Thresholds {
     pub low_pct: f64,
     /// Critical, %.
     pub critical_pct: f64,
+}
+
+/// What an instructor can make of the world by parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct World {
+    /// Mean wind at 20 ft, m/s, and where it comes from, degrees; `None`: the scenario's.
+    pub wind: Option<(f64, f64)>,
+    /// Share of datagrams that is lost, each way.
+    pub loss: f64,
+    /// How late the others are, each way.
+    pub delay: SimTime,
 }
 
 /// The parameter table: present values by name, in the order of their names.
@@ -164,6 +176,17 @@ impl Params {
     #[must_use]
     pub fn stick_policy(&self) -> Policy {
         if self.whole("SPAN_STICKS") == Some(1) { Policy::LatestTakes } else { Policy::FirstKeeps }
+    }
+
+    /// What an instructor has made of the world.
+    #[must_use]
+    pub fn world(&self) -> World {
+        let wind_m_s = Some(self.number("SIM_WIND_SPD")).filter(|speed| *speed >= 0.0);
+        World {
+            wind: wind_m_s.map(|speed| (speed, self.number("SIM_WIND_DIR"))),
+            loss: self.number("SIM_LINK_LOSS") / 100.0,
+            delay: SimTime::from_ms(self.number("SIM_LINK_DELAY") as i64),
+        }
     }
 
     fn number(&self, name: &str) -> f64 {

@@ -85,6 +85,7 @@ const MAVLINK: &str = "MAVLink";
 const MISSION: &str = "Mission";
 const RADIO: &str = "Radio Calibration";
 const RETURN: &str = "Return Mode";
+const SIMULATION: &str = "Simulation";
 const SYSTEM: &str = "System";
 
 const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Hold"), (2, "Return"), (3, "Land")];
@@ -186,11 +187,30 @@ pub const ROWS: &[Row] = &[
     row("RTL_RETURN_ALT", Real(30.0), (2.0, 150.0), "m", RETURN, "Height over home at which it returns"),
     row("SENS_BOARD_ROT", Int(0), (0.0, 40.0), "", CALIBRATION, "How the board is turned in the vehicle").token(),
     row("SENS_DPRES_OFF", Real(0.0), (-1e3, 1e3), "", CALIBRATION, "Offset of the airspeed sensor").token(),
+    row("SIM_LINK_DELAY", Int(0), (0.0, 2e3), "ms", SIMULATION, "How late datagrams of ground stations and SDKs are, each way"),
+    row(
+        "SIM_LINK_LOSS",
+        Real(0.0),
+        (0.0, 90.0),
+        "%",
+        SIMULATION,
+        "Share of datagrams of ground stations and SDKs that is lost, each way",
+    ),
+    row(
+        "SIM_WIND_DIR",
+        Real(0.0),
+        (0.0, 360.0),
+        "deg",
+        SIMULATION,
+        "Where the wind comes from, clockwise from north, where SIM_WIND_SPD is set",
+    ),
+    row("SIM_WIND_SPD", Real(-1.0), (-1.0, 25.0), "m/s", SIMULATION, "Mean wind 6 m over the water; negative: the scenario's"),
     row("SPAN_FLAVOUR", Int(0), (0.0, 2.0), "", SYSTEM, "Whose interface is spoken").values(&[(0, "PX4")]).read_only(),
     row("SPAN_STICKS", Int(0), (0.0, 1.0), "", JOYSTICK, "Who of several senders has the sticks")
         .values(&[(0, "The first, until he falls silent"), (1, "Whoever moves them last")]),
     row("SYS_AUTOCONFIG", Int(0), (0.0, 2.0), "", SYSTEM, "Reset of the configuration at start").token(),
     row("SYS_AUTOSTART", Int(4001), (0.0, 1e6), "", SYSTEM, "Airframe").token(),
+    row("SYS_FAILURE_EN", Int(0), (0.0, 1.0), "", SYSTEM, "Failures may be injected by command").values(OFF_ON),
     row("SYS_HAS_MAG", Int(1), (0.0, 3.0), "", SYSTEM, "Number of magnetometers").token(),
     row("SYS_HAS_NUM_ASPD", Int(0), (0.0, 1.0), "", SYSTEM, "Number of airspeed sensors").token(),
     row("SYS_HITL", Int(0), (0.0, 2.0), "", SYSTEM, "Hardware in the loop").values(OFF_ON).token(),

@@ -1,0 +1,203 @@
+//! What an instructor breaks, and what the vehicle makes of it.
+
+use super::station::Station;
+use spandrel::mav::dialect::*;
+
+const OFF: f32 = 1.0;
+const OK: f32 = 0.0;
+const GNSS: f32 = 4.0;
+const BATTERY: f32 = 100.0;
+const MOTOR: f32 = 101.0;
+const STICKS: f32 = 104.0;
+const HOLD: u32 = 4 << 16 | 3 << 24;
+/// Wind that is set and what telemetry says of it; turbulence comes on top, m/s.
+const WIND_TOLERANCE_M_S: f64 = 2.5;
+
+fn set(station: &mut Station, name: &str, value: f32, kind: MavParamType) {
+    let set =
+        PARAM_SET_DATA { param_value: value, target_system: 1, target_component: 1, param_id: name.into(), param_type: kind };
+    let told = station.ask(&MavMessage::PARAM_SET(set), |m| matches!(m, MavMessage::PARAM_VALUE(_)).then_some(()));
+    assert_eq!(told, Some(()), "{name}");
+}
+
+fn set_whole(station: &mut Station, name: &str, value: i32) {
+    set(station, name, f32::from_bits(value.cast_unsigned()), MavParamType::MAV_PARAM_TYPE_INT32);
+}
+
+fn set_real(station: &mut Station, name: &str, value: f32) {
+    set(station, name, value, MavParamType::MAV_PARAM_TYPE_REAL32);
+}
+
+fn inject(station: &mut Station, unit: f32, kind: f32, instance: f32) -> MavResult {
+    station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, [unit, kind, instance, 0.0, 0.0, 0.0, 0.0])
+}
+
+fn said(station: &Station, what: &str) -> bool {
+    !station
+        .all(
+            |m| {
+                if let MavMessage::STATUSTEXT(t) = m {
+                    t.text.to_str().ok().filter(|t| t.contains(what)).map(|_| ())
+                } else {
+                    None
+                }
+            },
+        )
+        .is_empty()
+}
+
+/// Holding by itself at some height, with failures allowed.
+fn holding() -> Station {
+    let mut station = Station::airborne("drill-hover", 7);
+    set_whole(&mut station, "SYS_FAILURE_EN", 1);
+    let hold = [1.0, 4.0, 3.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, hold), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(2_000);
+    station
+}
+
+#[test]
+fn wire_failures_are_injected_only_where_they_are_allowed_and_only_such_as_there_are() {
+    let mut station = Station::airborne("drill-hover", 7);
+    assert_eq!(inject(&mut station, GNSS, OFF, 0.0), MavResult::MAV_RESULT_DENIED);
+    set_whole(&mut station, "SYS_FAILURE_EN", 1);
+    assert_eq!(inject(&mut station, GNSS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    for (unit, kind, instance) in
+        [(8.0, OFF, 0.0), (GNSS, 99.0, 0.0), (MOTOR, OFF, 9.0), (f32::NAN, OFF, 0.0), (BATTERY, 3.0, 0.0)]
+    {
+        assert_eq!(inject(&mut station, unit, kind, instance), MavResult::MAV_RESULT_UNSUPPORTED, "{unit} {kind} {instance}");
+    }
+}
+
+#[test]
+fn flight_a_receiver_that_hears_nothing_is_told_and_so_is_its_return() {
+    let mut station = holding();
+    let seen = |s: &Station| {
+        let healthy = s.last(|m| match m {
+            MavMessage::SYS_STATUS(s) => {
+                Some(s.onboard_control_sensors_health.contains(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_GPS))
+            }
+            _ => None,
+        });
+        let fix = s.last(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some(g.fix_type as u8) } else { None });
+        (healthy, fix)
+    };
+    assert_eq!(inject(&mut station, GNSS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(10.0, |s| matches!(seen(s), (Some(false), Some(0 | 1)))), "{:?}", seen(&station));
+    station.heard.clear();
+    assert_eq!(inject(&mut station, GNSS, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(30.0, |s| seen(s) == (Some(true), Some(3))), "{:?}", seen(&station));
+}
+
+/// The estimate follows a jump of the fixes or refuses it; either way the vehicle stays in the air and whole.
+#[test]
+fn flight_a_jump_of_the_fixes_does_not_bring_it_down() {
+    const WRONG: f32 = 4.0;
+    let mut station = holding();
+    let before = station.sim.truth().rigid.position_m;
+    assert_eq!(inject(&mut station, GNSS, WRONG, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(15_000);
+    let now = station.sim.truth().rigid;
+    assert!((now.position_m.down() - before.down()).abs() < 3.0, "{:?}", now.position_m);
+    assert!(now.velocity_m_s.norm() < 8.0, "{:?}", now.velocity_m_s);
+}
+
+#[test]
+fn flight_with_a_motor_gone_it_falls() {
+    let mut station = holding();
+    let before = station.sim.truth().rigid.position_m.down();
+    assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(
+        station.run_until(8.0, |s| s.sim.truth().rigid.position_m.down() - before > 4.0),
+        "a quadrotor on three rotors comes down"
+    );
+}
+
+#[test]
+fn flight_without_manual_control_the_failsafe_holds_and_with_it_flies_on() {
+    let mut station = Station::airborne("drill-hover", 7);
+    set_whole(&mut station, "SYS_FAILURE_EN", 1);
+    assert_eq!(inject(&mut station, STICKS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    for _ in 0..50 {
+        station.sticks(500, 0, 500, 0);
+        station.run_ms(40);
+    }
+    assert_eq!(station.mode(), Some(HOLD));
+    assert_eq!(inject(&mut station, STICKS, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    for _ in 0..50 {
+        station.sticks(0, 0, 500, 0);
+        station.run_ms(40);
+    }
+    assert_eq!(station.mode(), Some(3 << 16));
+}
+
+#[test]
+fn wire_a_failing_battery_is_told() {
+    let mut station = holding();
+    assert_eq!(inject(&mut station, BATTERY, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(5.0, |s| said(s, "Low battery")));
+    station.run_ms(600);
+    let left = station.last(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.battery_remaining) } else { None });
+    assert!(left.unwrap() <= 5, "{left:?}");
+}
+
+#[test]
+fn flight_the_wind_that_an_instructor_sets_blows() {
+    let mut station = holding();
+    set_real(&mut station, "SIM_WIND_DIR", 270.0);
+    set_real(&mut station, "SIM_WIND_SPD", 8.0);
+    station.run_ms(10_000);
+    let mean = (0..50).map(|_| {
+        station.run_ms(200);
+        f64::from(station.last(|m| if let MavMessage::WIND_COV(w) = m { Some(w.wind_y) } else { None }).unwrap())
+    });
+    let east = mean.sum::<f64>() / 50.0;
+    assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "a west wind blows to the east at {east} m/s");
+}
+
+#[test]
+fn wire_a_bad_radio_loses_its_share_and_is_late() {
+    let mut station = Station::new("drill-hover", 7);
+    station.run_ms(1_000);
+    let frames = |s: &mut Station| {
+        s.heard.clear();
+        s.run_ms(5_000);
+        s.heard.iter().filter(|f| f.message_id == 30).count() as f64
+    };
+    let good = frames(&mut station);
+    set_real(&mut station, "SIM_LINK_LOSS", 50.0);
+    let share = frames(&mut station) / good;
+    assert!((0.35..0.65).contains(&share), "{share}");
+    // The way back to a good radio leads over the bad one.
+    let healed = (0..100).any(|_| {
+        let set = PARAM_SET_DATA {
+            param_value: 0.0,
+            target_system: 1,
+            target_component: 1,
+            param_id: "SIM_LINK_LOSS".into(),
+            param_type: MavParamType::MAV_PARAM_TYPE_REAL32,
+        };
+        station.ask(&MavMessage::PARAM_SET(set), |m| matches!(m, MavMessage::PARAM_VALUE(_)).then_some(())).is_some()
+    });
+    assert!(healed);
+    station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
+        param_value: f32::from_bits(150),
+        target_system: 1,
+        target_component: 1,
+        param_id: "SIM_LINK_DELAY".into(),
+        param_type: MavParamType::MAV_PARAM_TYPE_INT32,
+    }));
+    station.run_ms(5);
+    let asked_at = station.sim.now();
+    station.heard.clear();
+    station.send(&MavMessage::TIMESYNC(TIMESYNC_DATA { ts1: 77, ..Default::default() }));
+    while station
+        .last(|m| if let MavMessage::TIMESYNC(t) = m { (t.tc1 != 0 && t.ts1 == 77).then_some(()) } else { None })
+        .is_none()
+    {
+        station.run_ms(1);
+        assert!((station.sim.now() - asked_at).ms() < 1_000, "it comes late, but it comes");
+    }
+    let there_and_back = (station.sim.now() - asked_at).ms();
+    assert!((300..=305).contains(&there_and_back), "{there_and_back} ms");
+}
