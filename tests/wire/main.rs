@@ -5,6 +5,7 @@ mod circles;
 mod failures;
 mod fence;
 mod flights;
+mod impaired;
 mod inspection;
 mod manual;
 mod network;

@@ -1,0 +1,186 @@
+//! How soon a running simulator answers over loopback, in real time: command to acknowledgement, stick to first changed telemetry; and
+//! whether a peer that floods it makes it miss ticks. Beside each figure stands the control tick, 2.5 ms.
+
+use spandrel::mav::codec::{Decoder, Encoder};
+use spandrel::mav::dialect::*;
+use std::io::{BufRead, BufReader};
+use std::net::UdpSocket;
+use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+const TICK_MS: f64 = 2.5;
+/// The target for the 99th percentile: two control ticks.
+const TARGET_MS: f64 = 2.0 * TICK_MS;
+const ROUNDS: usize = 1_000;
+/// Between two questions; no multiple of any period in the vehicle, so that every phase is met.
+const PAUSE: Duration = Duration::from_micros(7_310);
+const GONE: Duration = Duration::from_secs(5);
+/// Messages a second of the peer that floods, and for how long.
+const FLOOD_HZ: u64 = 50_000;
+const FLOOD_FOR: Duration = Duration::from_secs(5);
+/// Simulation time that passes under the flood, as a share of wall time: the floor.
+const PACE_FLOOR: f64 = 0.99;
+
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // Its standard input closes, which ends it; a child that is gone already is no error.
+        drop(self.0.stdin.take());
+        let _ = self.0.wait();
+    }
+}
+
+struct Client {
+    socket: UdpSocket,
+    encoder: Encoder,
+    decoder: Decoder,
+    buffer: Vec<u8>,
+}
+
+impl Client {
+    fn new(port: u16, system: u8) -> Self {
+        let socket = UdpSocket::bind("127.0.0.1:0").expect("a free port");
+        socket.connect(("127.0.0.1", port)).expect("loopback");
+        socket.set_read_timeout(Some(GONE)).expect("a timeout");
+        Self { socket, encoder: Encoder::new(system, 190), decoder: Decoder::new(), buffer: vec![0; 65_536] }
+    }
+
+    fn send(&mut self, message: &MavMessage) {
+        let frame = self.encoder.encode(message);
+        self.socket.send(&frame).expect("loopback takes it");
+    }
+
+    fn wait<T>(&mut self, mut pick: impl FnMut(&MavMessage) -> Option<T>) -> T {
+        loop {
+            let len = self.socket.recv(&mut self.buffer).expect("the simulator speaks");
+            let frames = self.decoder.datagram(&self.buffer[..len]);
+            if let Some(found) = frames.iter().filter_map(|frame| frame.message.as_ref()).find_map(&mut pick) {
+                return found;
+            }
+        }
+    }
+}
+
+fn start() -> (Running, u16) {
+    let arguments =
+        ["sim", "--scenario", "drill-hover", "--seed", "7", "--ports", "ephemeral", "--announce", "--leash", "--log", "warn"];
+    let mut child = Command::new(env!("CARGO_BIN_EXE_spandrel"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().expect("piped")).read_line(&mut line).expect("one line");
+    let announced: serde_json::Value = serde_json::from_str(&line).expect("JSON");
+    (Running(child), announced["gcs_port"].as_u64().expect("a port") as u16)
+}
+
+fn long(command: MavCmd, p: [f32; 2]) -> MavMessage {
+    MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+        command,
+        param1: p[0],
+        param2: p[1],
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    })
+}
+
+/// Median and 99th percentile, ms.
+fn spread(mut times: Vec<f64>) -> (f64, f64) {
+    times.sort_by(f64::total_cmp);
+    (times[times.len() / 2], times[times.len() * 99 / 100])
+}
+
+fn ms(since: Instant) -> f64 {
+    since.elapsed().as_secs_f64() * 1e3
+}
+
+fn commands(client: &mut Client) -> (f64, f64) {
+    let one = |k: usize| {
+        std::thread::sleep(PAUSE);
+        let command = MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF;
+        let begin = Instant::now();
+        client.send(&long(command, [(k % 2) as f32, 0.0]));
+        client.wait(|m| if let MavMessage::COMMAND_ACK(ack) = m { (ack.command == command).then_some(()) } else { None });
+        ms(begin)
+    };
+    spread((0..ROUNDS).map(one).collect())
+}
+
+fn sticks(client: &mut Client) -> (f64, f64) {
+    // RC_CHANNELS as often as the control loop runs.
+    client.send(&long(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [65.0, 2_500.0]));
+    let one = |k: usize| {
+        std::thread::sleep(PAUSE);
+        let y = if k % 2 == 0 { 400 } else { -400 };
+        let begin = Instant::now();
+        client.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() }));
+        let wanted = (1_500 + y / 2) as u16;
+        client.wait(|m| if let MavMessage::RC_CHANNELS(c) = m { (c.chan1_raw == wanted).then_some(()) } else { None });
+        ms(begin)
+    };
+    spread((0..ROUNDS).map(one).collect())
+}
+
+/// Simulation time in a second of wall time, as a calm peer sees it while another floods; and messages sent a second.
+fn under_flood(client: &mut Client, port: u16) -> (f64, f64) {
+    let (stop, sent) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
+    let flood = {
+        let (stop, sent) = (Arc::clone(&stop), Arc::clone(&sent));
+        std::thread::spawn(move || {
+            let mut rude = Client::new(port, 77);
+            let frame =
+                rude.encoder.encode(&MavMessage::STATUSTEXT(STATUSTEXT_DATA { text: "flood".into(), ..Default::default() }));
+            let begin = Instant::now();
+            while !stop.load(Ordering::Relaxed) {
+                let due = (begin.elapsed().as_secs_f64() * FLOOD_HZ as f64) as u64;
+                let before = sent.load(Ordering::Relaxed);
+                for _ in before..due {
+                    // A full buffer of the system's loses it, as it would on a network.
+                    let _ = rude.socket.send(&frame);
+                }
+                sent.store(due.max(before), Ordering::Relaxed);
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        })
+    };
+    let clock = |client: &mut Client| {
+        client.wait(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some((t.time_boot_ms, Instant::now())) } else { None })
+    };
+    let (sim_begin, wall_begin) = clock(client);
+    let (mut sim_end, mut wall_end) = (sim_begin, wall_begin);
+    while wall_end - wall_begin < FLOOD_FOR {
+        (sim_end, wall_end) = clock(client);
+    }
+    stop.store(true, Ordering::Relaxed);
+    flood.join().expect("the flood ends");
+    let wall_s = (wall_end - wall_begin).as_secs_f64();
+    (f64::from(sim_end - sim_begin) / 1e3 / wall_s, sent.load(Ordering::Relaxed) as f64 / wall_s)
+}
+
+fn main() {
+    let (_running, port) = start();
+    let mut client = Client::new(port, 255);
+    client.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
+    client.wait(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(()));
+    let mut good = true;
+    for (what, (median, p99)) in
+        [("command to acknowledgement", commands(&mut client)), ("stick to changed telemetry", sticks(&mut client))]
+    {
+        println!(
+            "{what}: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks; target 2)",
+            median / TICK_MS,
+            p99 / TICK_MS
+        );
+        good &= p99 <= TARGET_MS;
+    }
+    let (pace, rate) = under_flood(&mut client, port);
+    println!("under {rate:.0} messages a second of one peer: {pace:.4} s of simulation time in a second (floor {PACE_FLOOR})");
+    good &= pace >= PACE_FLOOR;
+    assert!(good, "a target is missed");
+}

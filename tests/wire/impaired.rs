@@ -1,0 +1,217 @@
+//! Plans, parameters and files over a link that loses 30 %, is 200 ms late, exchanges and doubles datagrams, both ways, with a client that
+//! asks again without limit. All in simulated time, from a seed.
+
+use super::plans::{home_north, item};
+use super::station::{GCS, Station};
+use spandrel::base::random::RandomStream;
+use spandrel::base::time::SimTime;
+use spandrel::mav::codec::{Decoder, Encoder};
+use spandrel::mav::dialect::*;
+use spandrel::mav::ftp::{DATA_MAX, Opcode, Packet};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The figures: share lost, mean delay and its spread (which exchanges datagrams), share doubled.
+const LOSS: f64 = 0.3;
+const DELAY_MS: (f64, f64) = (100.0, 300.0);
+const DOUBLED: f64 = 0.1;
+/// The client asks again after this, ms: a round trip and a half.
+const PATIENCE_MS: i64 = 900;
+/// Each exchange ends within this, s of simulated time; only a hang is longer.
+const LIMIT_S: f64 = 1_200.0;
+
+/// One way of the link.
+struct Way {
+    stream: RandomStream,
+    under_way: BTreeMap<(i64, u64), Vec<u8>>,
+    count: u64,
+}
+
+impl Way {
+    fn new(seed: u64, name: &str) -> Self {
+        Self { stream: RandomStream::new(seed, name), under_way: BTreeMap::new(), count: 0 }
+    }
+
+    fn send(&mut self, bytes: &[u8], now: SimTime) {
+        let copies = if self.stream.uniform() < DOUBLED { 2 } else { 1 };
+        for _ in 0..copies {
+            if self.stream.uniform() >= LOSS {
+                let at = now.ms() + self.stream.range(DELAY_MS.0, DELAY_MS.1) as i64;
+                self.count += 1;
+                self.under_way.insert((at, self.count), bytes.to_vec());
+            }
+        }
+    }
+
+    fn arrived(&mut self, now: SimTime) -> Vec<Vec<u8>> {
+        let later = self.under_way.split_off(&(now.ms() + 1, 0));
+        std::mem::replace(&mut self.under_way, later).into_values().collect()
+    }
+}
+
+/// A client at the far end.
+struct Client {
+    station: Station,
+    there: Way,
+    back: Way,
+    encoder: Encoder,
+}
+
+impl Client {
+    fn new(seed: u64) -> Self {
+        let mut station = Station::new("drill-hover", 7);
+        station.run_ms(2_500);
+        Self { station, there: Way::new(seed, "there"), back: Way::new(seed, "back"), encoder: Encoder::new(255, 190) }
+    }
+
+    /// A millisecond passes; what the client hears.
+    fn tick(&mut self) -> Vec<MavMessage> {
+        let sim = &mut self.station.sim;
+        for datagram in self.there.arrived(sim.now()) {
+            sim.handle_datagram(GCS, &datagram);
+        }
+        sim.handle_timeout(sim.poll_timeout());
+        while let Some(transmit) = sim.poll_transmit() {
+            self.back.send(&transmit.bytes, sim.now());
+        }
+        let arrived = self.back.arrived(sim.now());
+        arrived.iter().flat_map(|bytes| Decoder::new().datagram(bytes)).filter_map(|frame| frame.message).collect()
+    }
+
+    fn send(&mut self, message: &MavMessage) {
+        let frame = self.encoder.encode(message);
+        self.there.send(&frame, self.station.sim.now());
+    }
+
+    /// Asks, again and again, until an answer is liked.
+    fn ask<T>(&mut self, message: &MavMessage, mut like: impl FnMut(&MavMessage) -> Option<T>) -> T {
+        let begin = self.station.sim.now();
+        loop {
+            self.send(message);
+            for _ in 0..PATIENCE_MS {
+                if let Some(found) = self.tick().iter().find_map(&mut like) {
+                    return found;
+                }
+            }
+            assert!((self.station.sim.now() - begin).s() < LIMIT_S, "no answer to {message:?}");
+        }
+    }
+}
+
+fn count(count: u16) -> MavMessage {
+    MavMessage::MISSION_COUNT(MISSION_COUNT_DATA { count, target_system: 1, target_component: 1, ..Default::default() })
+}
+
+#[test]
+fn wire_a_mission_goes_up_and_comes_down_over_a_bad_link() {
+    let mut client = Client::new(1);
+    let home = home_north(&client.station);
+    let items: Vec<_> = (0..40).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 2.0 * f64::from(k), 6.0)).collect();
+    // The vehicle asks for one item after the other; whatever it asks for last is sent.
+    let next = |m: &MavMessage| match m {
+        MavMessage::MISSION_REQUEST_INT(r) => Some(Some(r.seq)),
+        MavMessage::MISSION_ACK(a) if a.mavtype == MavMissionResult::MAV_MISSION_ACCEPTED => Some(None),
+        _ => None,
+    };
+    let mut wanted = client.ask(&count(items.len() as u16), next);
+    while let Some(seq) = wanted {
+        wanted = client.ask(&MavMessage::MISSION_ITEM_INT(items[usize::from(seq)].clone()), next);
+    }
+    let list = MavMessage::MISSION_REQUEST_LIST(MISSION_REQUEST_LIST_DATA {
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    });
+    let total = client.ask(&list, |m| if let MavMessage::MISSION_COUNT(c) = m { Some(c.count) } else { None });
+    assert_eq!(usize::from(total), items.len());
+    for sent in &items {
+        let request = MISSION_REQUEST_INT_DATA { seq: sent.seq, target_system: 1, target_component: 1, ..Default::default() };
+        let got = client.ask(&MavMessage::MISSION_REQUEST_INT(request), |m| match m {
+            MavMessage::MISSION_ITEM_INT(item) if item.seq == sent.seq => Some((item.command, item.x, item.y, item.z)),
+            _ => None,
+        });
+        assert_eq!(got, (sent.command, sent.x, sent.y, sent.z));
+    }
+}
+
+#[test]
+fn wire_parameters_are_read_whole_and_set_over_a_bad_link() {
+    let mut client = Client::new(2);
+    let list = MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 });
+    let (mut seen, mut total) = (BTreeSet::new(), None);
+    client.send(&list);
+    // What the list brings by itself, then the missing ones by their index.
+    for _ in 0..3_000 {
+        for message in client.tick() {
+            if let MavMessage::PARAM_VALUE(value) = message
+                && value.param_index != u16::MAX
+            {
+                seen.insert(value.param_index);
+                total = Some(value.param_count);
+            }
+        }
+    }
+    let total = total.expect("a part of the list comes through");
+    assert!(seen.len() < usize::from(total), "the link is bad");
+    for index in (0..total).filter(|index| !seen.contains(index)) {
+        let read =
+            PARAM_REQUEST_READ_DATA { param_index: index as i16, target_system: 1, target_component: 1, param_id: "".into() };
+        client.ask(&MavMessage::PARAM_REQUEST_READ(read), |m| match m {
+            MavMessage::PARAM_VALUE(v) if v.param_index == index => Some(()),
+            _ => None,
+        });
+    }
+    let set = PARAM_SET_DATA {
+        param_value: 6.5,
+        target_system: 1,
+        target_component: 1,
+        param_id: "MIS_TAKEOFF_ALT".into(),
+        param_type: MavParamType::MAV_PARAM_TYPE_REAL32,
+    };
+    client.ask(&MavMessage::PARAM_SET(set), |m| match m {
+        MavMessage::PARAM_VALUE(v) if v.param_id.to_str() == Ok("MIS_TAKEOFF_ALT") && v.param_value == 6.5 => Some(()),
+        _ => None,
+    });
+}
+
+#[test]
+fn wire_a_file_comes_whole_over_a_bad_link() {
+    let mut client = Client::new(3);
+    let mut sequence = 0u16;
+    let mut ask = |client: &mut Client, opcode: Opcode, session: u8, offset: u32, data: &[u8]| {
+        let mut field = [0; DATA_MAX];
+        field[..data.len()].copy_from_slice(data);
+        let packet = Packet {
+            sequence,
+            session,
+            opcode: opcode as u8,
+            size: if data.is_empty() { DATA_MAX as u8 } else { data.len() as u8 },
+            offset,
+            data: field,
+            ..Packet::read(&[0; 251])
+        };
+        let expected = sequence.wrapping_add(1);
+        sequence = sequence.wrapping_add(2);
+        let message = MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
+            target_network: 0,
+            target_system: 1,
+            target_component: 1,
+            payload: packet.write(),
+        });
+        client.ask(&message, |m| match m {
+            MavMessage::FILE_TRANSFER_PROTOCOL(f) => Some(Packet::read(&f.payload)).filter(|p| p.sequence == expected),
+            _ => None,
+        })
+    };
+    let path = b"/etc/extras/parameter.json.xz";
+    let open = ask(&mut client, Opcode::OpenFileRo, 0, 0, path);
+    let size = u32::from_le_bytes(open.data[..4].try_into().unwrap());
+    let mut file: Vec<u8> = Vec::new();
+    while (file.len() as u32) < size {
+        let part = ask(&mut client, Opcode::ReadFile, open.session, file.len() as u32, &[]);
+        let len = usize::from(part.size);
+        assert!(len > 0 && part.offset == file.len() as u32);
+        file.extend(&part.data[..len]);
+    }
+    assert_eq!(file, spandrel::sitl::endpoint::params::metadata::parameter().bytes.to_vec());
+    ask(&mut client, Opcode::TerminateSession, open.session, 0, &[]);
+}
