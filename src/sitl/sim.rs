@@ -1,24 +1,22 @@
 //! One simulation step, in a written order (design.md, "One simulation step"). Sans-IO: datagrams and times come in, datagrams go out.
 
 mod consequences;
+mod doors;
 pub mod inbox;
+mod instructor;
 mod radio;
 
 use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
-use super::endpoint::files::job::{Done, FileError, Job};
-use super::endpoint::logs::Logs;
-use super::endpoint::params::text::Problem;
 use super::endpoint::params::{Thresholds, World};
 use super::endpoint::view::{Scoring, View};
-use super::endpoint::{Endpoint, Injection, LinkId, LinkKind, Transmit, Wish};
-use super::faults::{Faults, Unit};
-use super::log::{self, Recorder};
+use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit};
+use super::faults::Faults;
+use super::log::Recorder;
 use super::physics::{self, Actuators, Air, Load, Model};
 use super::sensors::{BatteryReading, Readings, Sensors, Truth};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::{Schedule, SimTime};
-use crate::mav::signing::Key;
 use crate::scenario::Scenario;
 use crate::site::Site;
 use crate::site::wind::WindField;
@@ -33,8 +31,6 @@ use std::sync::Arc;
 pub const STEP: SimTime = SimTime::from_ms(1);
 /// Peers in step are asked this often.
 pub const LOCKSTEP: SimTime = SimTime::from_ms(20);
-/// A wind that an instructor changes has changed within this.
-const WIND_CHANGES_IN: SimTime = SimTime::from_ms(5_000);
 /// Uncommon clearances are not looked for beyond this, m.
 const CLEARANCE_REACH_M: f64 = 30.0;
 
@@ -306,119 +302,9 @@ impl Sim {
         self.radio.sent(self.now)
     }
 
-    /// Sidecars and peers in step sit beside the vehicle; all others are reached over the radio, while it is bad.
-    fn is_over_radio(&self, link: LinkId) -> bool {
-        !self.radio.is_good() && self.endpoint.kind(link).is_some_and(|(kind, in_step)| kind != LinkKind::Payload && !in_step)
-    }
-
-    /// Faults and weather that came by command and parameter.
-    fn heed_the_instructor(&mut self) {
-        while let Some(Injection { unit, kind, instance }) = self.endpoint.poll_injection() {
-            self.faults.inject(unit, kind, instance, self.config.vehicle.rotors.len());
-            if unit == Unit::Battery && kind.is_some() {
-                self.state.battery.charge = Faults::charge(self.state.battery.charge);
-            }
-        }
-        let changes = self.endpoint.parameter_changes();
-        if std::mem::replace(&mut self.heeded, changes) == changes {
-            return;
-        }
-        let world = self.endpoint.world();
-        self.radio.set(world.loss, world.delay);
-        if world.wind != self.world.wind {
-            let own = &self.config.scenario.wind;
-            let (speed_m_s, from_deg) = world.wind.unwrap_or((own.speed_m_s, own.from_deg));
-            self.wind.change(self.now, WIND_CHANGES_IN, speed_m_s, from_deg);
-        }
-        self.world = world;
-    }
-
     /// The next event.
     pub fn poll_event(&mut self) -> Option<SimEvent> {
         self.events.pop_front()
-    }
-
-    /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
-    /// trusted; `stamp` is the signing timestamp of now.
-    pub fn demand_signatures(&mut self, key: Key, stamp: u64, trusted: &[LinkKind]) {
-        self.endpoint.demand_signatures(key, stamp, trusted);
-    }
-
-    /// The signing timestamp of now.
-    pub fn tell_stamp(&mut self, stamp: u64) {
-        self.endpoint.tell_stamp(stamp);
-    }
-
-    /// Frames that did nothing because they bore no good signature.
-    #[must_use]
-    pub fn refused(&self) -> u64 {
-        self.endpoint.refused()
-    }
-
-    /// Changes of parameters so far.
-    #[must_use]
-    pub fn parameter_changes(&self) -> u64 {
-        self.endpoint.parameter_changes()
-    }
-
-    /// The parameters as a text file, in the format of QGroundControl.
-    #[must_use]
-    pub fn parameter_text(&self) -> String {
-        self.endpoint.parameter_text()
-    }
-
-    /// Sets what a parameter file says.
-    ///
-    /// # Errors
-    /// Every line that is wrong; then nothing is set.
-    pub fn read_parameters(&mut self, text: &str) -> Result<(), Vec<Problem>> {
-        let Backend::Builtin(autopilot) = &mut self.backend;
-        self.endpoint.read_parameters(text, autopilot)
-    }
-
-    /// Somebody keeps the parameters in a file from now on ([`Sim::poll_storage`]).
-    pub fn keep_parameters(&mut self) {
-        self.endpoint.keep_parameters();
-    }
-
-    /// What a client wants of the parameter file.
-    pub fn poll_storage(&mut self) -> Option<Wish> {
-        self.endpoint.poll_storage()
-    }
-
-    /// Somebody does file jobs from now on ([`Sim::poll_file_job`]).
-    pub fn serve_files(&mut self) {
-        self.endpoint.files.stored();
-        self.endpoint.logs.stored = true;
-    }
-
-    /// Keeps a log of every flight from now on.
-    pub fn record(&mut self) {
-        self.recorder.turn_on();
-    }
-
-    /// Ends a log that is under way: the program ends.
-    pub fn stop_recording(&mut self) {
-        self.recorder.stop();
-    }
-
-    /// The next piece of the flight's log.
-    pub fn poll_log(&mut self) -> Option<log::Piece> {
-        self.recorder.poll()
-    }
-
-    /// The next thing to do with files for a client.
-    pub fn poll_file_job(&mut self) -> Option<Job> {
-        self.endpoint.files.poll_job().or_else(|| self.endpoint.logs.poll_job())
-    }
-
-    /// It is done.
-    pub fn file_job_done(&mut self, ticket: u64, outcome: Result<Done, FileError>) {
-        if Logs::owns(ticket) {
-            self.endpoint.logs.done(ticket, outcome);
-        } else {
-            self.endpoint.files.done(ticket, outcome, self.now);
-        }
     }
 
     /// SHA-256 over the state of every tick so far.

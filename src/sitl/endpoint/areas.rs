@@ -1,6 +1,6 @@
 //! Geofence and rally points of a plan, as the autopilot takes them.
 
-use super::mission::place;
+use super::places::{flyable, place};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::geodesy::LocalPlane;
 use crate::mav::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavMissionResult};
@@ -24,7 +24,7 @@ pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<
     if !first {
         return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);
     }
-    super::mission::flyable(item, plane)
+    flyable(item, plane)
 }
 
 /// Whether a whole fence holds together: every polygon has as many corners in a row as each of them says.

@@ -29,25 +29,6 @@ pub const NAMES: [&str; COUNT] = [
     "BTN14_FUNCTION",
     "BTN15_FUNCTION",
 ];
-/// What a button can do, by the parameter's value.
-pub const FUNCTIONS: &[(i32, &str)] = &[
-    (0, "Nothing"),
-    (1, "Arm"),
-    (2, "Disarm"),
-    (3, "Take-off"),
-    (4, "Land"),
-    (5, "Return"),
-    (6, "Hold"),
-    (7, "Position mode"),
-    (8, "Altitude mode"),
-    (9, "Mission"),
-    (10, "Snapshot"),
-    (11, "Lamp on or off"),
-    (12, "Gimbal level"),
-    (13, "Gimbal up"),
-    (14, "Gimbal down"),
-];
-
 /// Buttons as they were last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Presses {

@@ -3,6 +3,7 @@
 
 use super::LinkId;
 use super::buttons::Presses;
+use super::params::Policy;
 use crate::base::time::SimTime;
 use crate::mav::dialect::{MANUAL_CONTROL_DATA, RC_CHANNELS_OVERRIDE_DATA};
 use crate::sitl::autopilot::Sticks;
@@ -21,15 +22,6 @@ const HAS_PITCH: u8 = 1;
 
 /// Who sends: over which link, system, component.
 type Sender = (LinkId, (u8, u8));
-
-/// What happens when a second sender moves sticks while the first is there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Policy {
-    /// Who has the sticks keeps them until he falls silent or lets go.
-    FirstKeeps,
-    /// Who moves a stick off its middle takes them.
-    LatestTakes,
-}
 
 /// Who holds the sticks, and how.
 #[derive(Debug, Clone, PartialEq)]

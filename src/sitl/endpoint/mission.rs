@@ -3,6 +3,7 @@
 
 use super::areas;
 use super::commands::payload;
+use super::places::{HIGHEST_M, flyable, place, placeless, relative};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
@@ -10,7 +11,6 @@ use crate::mav::dialect::{
     MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MavCmd, MavFrame, MavMessage,
     MavMissionResult, MavMissionType,
 };
-use crate::mav::units;
 use crate::sitl::autopilot::MissionStep;
 use crate::sitl::autopilot::fence::Zone;
 
@@ -20,8 +20,6 @@ const MOST_ITEMS: u16 = 2_000;
 const STALL_S: f64 = 10.0;
 /// Longest stay of an item, s.
 const LONGEST_S: f32 = 86_400.0;
-/// Heights beyond this are mistakes, m.
-const HIGHEST_M: f32 = 10_000.0;
 /// A silent uploader is asked again after this long, s.
 const ASK_AGAIN_S: f64 = 1.0;
 
@@ -270,32 +268,6 @@ fn ask(to: Peer, kind: MavMissionType, seq: u16) -> MavMessage {
     })
 }
 
-fn relative(frame: MavFrame) -> Option<bool> {
-    match frame {
-        MavFrame::MAV_FRAME_GLOBAL | MavFrame::MAV_FRAME_GLOBAL_INT => Some(false),
-        MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT
-        | MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT
-        | MavFrame::MAV_FRAME_GLOBAL_TERRAIN_ALT
-        | MavFrame::MAV_FRAME_GLOBAL_TERRAIN_ALT_INT => Some(true),
-        _ => None,
-    }
-}
-
-/// Where an item is, m; `None` without a usable place.
-pub(super) fn place(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> Option<Vec3<Ned>> {
-    let relative = relative(item.frame)?;
-    let altitude = f64::from(item.z);
-    let origin = plane.origin();
-    let amsl = if relative { origin.altitude_m + home_up_m + altitude } else { altitude };
-    let enu = plane.enu_from_geo(units::geo(item.x, item.y, amsl)?);
-    (enu.is_finite() && enu.norm() < 50_000.0).then(|| enu.ned())
-}
-
-/// No place given: where the vehicle is then.
-fn placeless(item: &MISSION_ITEM_INT_DATA) -> bool {
-    (item.x, item.y) == (0, 0) || item.x == i32::MAX || item.y == i32::MAX
-}
-
 /// Refuses what could never be flown, naming the parameter that is wrong.
 fn legal(item: &MISSION_ITEM_INT_DATA, count: u16, plane: &LocalPlane) -> Result<(), MavMissionResult> {
     use MavMissionResult as R;
@@ -329,24 +301,6 @@ fn legal(item: &MISSION_ITEM_INT_DATA, count: u16, plane: &LocalPlane) -> Result
         command if payload::knows(command) => Ok(()),
         _ => Err(R::MAV_MISSION_UNSUPPORTED),
     }
-}
-
-/// A place in a known frame, at a height, not on another continent.
-pub(super) fn flyable(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
-    if relative(item.frame).is_none() {
-        return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED_FRAME);
-    }
-    if !(-HIGHEST_M..=HIGHEST_M).contains(&item.z) {
-        return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM7);
-    }
-    let (lat, lon) = (f64::from(item.x) * 1e-7, f64::from(item.y) * 1e-7);
-    if lat.abs() > 90.0 {
-        return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM5_X);
-    }
-    if lon.abs() > 180.0 || place(item, plane, 0.0).is_none() {
-        return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM6_Y);
-    }
-    Ok(())
 }
 
 fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64, accept_m: f64) -> MissionStep {

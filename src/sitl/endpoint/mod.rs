@@ -19,16 +19,18 @@ pub mod manual;
 pub mod mission;
 mod offboard;
 pub mod params;
+mod persistence;
+mod places;
 pub mod px4;
 mod receive;
+mod scoring;
 mod storage;
 pub mod streams;
+mod texts;
 pub mod view;
 
-use crate::base::time::{Schedule, SimTime};
-use crate::mav::dialect::{
-    MISSION_ITEM_REACHED_DATA, MavMessage, MavMissionType, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA,
-};
+use crate::base::time::SimTime;
+use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavMissionType, MavResult, MavSeverity, TIMESYNC_DATA};
 use crate::mav::router::Router;
 use crate::mav::signing::Key;
 use crate::sitl::autopilot::{Autopilot, Event, Severity};
@@ -42,10 +44,11 @@ use manual::Manual;
 use mission::Plans;
 use params::{Params, Thresholds};
 pub use receive::HANDLED;
+use scoring::TruthRates;
 use std::collections::{BTreeMap, VecDeque};
 use storage::Storage;
 pub use storage::Wish;
-use streams::{AUTOPILOT, CAMERA, STREAMS, truth};
+use streams::{AUTOPILOT, CAMERA, STREAMS};
 use view::{Scoring, View};
 
 /// A link's name, chosen by the shell.
@@ -169,16 +172,6 @@ pub struct Endpoint {
     row_buffer: Vec<usize>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
-struct TruthRates {
-    contact: Schedule,
-    clearance: Schedule,
-    lux: Schedule,
-    slow: Schedule,
-}
-
-/// Parameters sent to a link in one tick of the list.
-const PARAMS_A_TICK: usize = 2;
 /// Texts that wait for the next tick; a flood of refusals says no more than these.
 const MOST_TEXTS: usize = 32;
 /// Set-points come many times a second: what is wrong with them is told this often.
@@ -188,7 +181,6 @@ impl Endpoint {
     /// An endpoint without links.
     #[must_use]
     pub fn new(system_id: u8, cells: u32, battery: Thresholds) -> Self {
-        let at = |hz| Schedule::new(SimTime::ZERO, hz);
         let params = Params::new(system_id, cells, battery);
         Self {
             system_id,
@@ -211,7 +203,7 @@ impl Endpoint {
             pace: 1.0,
             told_pace: 1.0,
             complained: SimTime::ZERO.saturating_sub(COMPLAIN_EVERY),
-            truth_rates: TruthRates { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2) },
+            truth_rates: TruthRates::new(),
             sent: Scoring::default(),
             bad_bytes: 0,
             gone_dropped: 0,
@@ -277,38 +269,6 @@ impl Endpoint {
         (0..self.params.count()).filter_map(|index| self.params.at(index))
     }
 
-    /// Changes of parameters so far.
-    #[must_use]
-    pub fn parameter_changes(&self) -> u64 {
-        self.params.changes()
-    }
-
-    /// The parameters as a text file.
-    #[must_use]
-    pub fn parameter_text(&self) -> String {
-        params::text::write(&self.params, self.system_id)
-    }
-
-    /// Sets what a parameter file says, and tells everybody.
-    ///
-    /// # Errors
-    /// Every line that is wrong; then nothing is set.
-    pub fn read_parameters(&mut self, text: &str, autopilot: &mut Autopilot) -> Result<(), Vec<params::text::Problem>> {
-        params::text::read(&mut self.params, text)?;
-        self.parameters_changed(autopilot);
-        Ok(())
-    }
-
-    /// Somebody keeps the parameters from now on.
-    pub fn keep_parameters(&mut self) {
-        self.storage.kept = true;
-    }
-
-    /// What a client wants of whoever keeps the parameters.
-    pub fn poll_storage(&mut self) -> Option<Wish> {
-        self.storage.wish.take()
-    }
-
     /// True once after somebody has asked for a restart of the autopilot's software.
     pub fn take_restart(&mut self) -> bool {
         std::mem::take(&mut self.restart)
@@ -339,21 +299,6 @@ impl Endpoint {
             link.usual_rates(view.now);
         }
         self.tell(MavSeverity::MAV_SEVERITY_INFO, "Autopilot restarted");
-    }
-
-    /// The parameters act.
-    fn apply_parameters(&mut self, autopilot: &mut Autopilot) {
-        self.params.apply(&mut autopilot.tuning);
-        self.manual.let_go_s = autopilot.tuning.manual_patience_s();
-        self.manual.policy = self.params.stick_policy();
-    }
-
-    /// Many parameters may have changed: they act, and every link gets the whole list.
-    fn parameters_changed(&mut self, autopilot: &mut Autopilot) {
-        self.apply_parameters(autopilot);
-        for id in self.links.keys() {
-            self.param_lists.insert(*id, (0..self.params.count()).collect());
-        }
     }
 
     /// Links that are kept in step.
@@ -476,39 +421,6 @@ impl Endpoint {
         self.row_buffer = rows;
     }
 
-    /// Named values for the scoring: contact on change and at 10 Hz, hits and respawns on change and with the slow ones.
-    fn truth(&mut self, view: &View) {
-        let s = view.scoring;
-        let rates = &mut self.truth_rates;
-        let mut out = Vec::new();
-        if rates.contact.fire(view.now) | (s.contact != self.sent.contact) {
-            out.push(truth::named_int(view, "contact", s.contact));
-        }
-        let slow = rates.slow.fire(view.now);
-        for (name, value, known) in [("hits", s.hits, self.sent.hits), ("respawns", s.respawns, self.sent.respawns)] {
-            if slow || value != known {
-                out.push(truth::named_int(view, name, value));
-            }
-        }
-        if slow {
-            out.push(truth::named_int(view, "seed", s.seed));
-            out.push(truth::named_int(view, "scn_crc", s.scenario_crc));
-            if self.pace != 1.0 {
-                out.push(truth::named_float(view, "pace", self.pace));
-            }
-        }
-        if rates.clearance.fire(view.now) {
-            out.push(truth::named_float(view, "clearance", s.clearance_m));
-        }
-        if rates.lux.fire(view.now) {
-            out.push(truth::named_float(view, "lux", s.lux));
-        }
-        self.sent = *s;
-        for link in self.links.values_mut().filter(|link| !link.is_limited()) {
-            out.iter().for_each(|message| link.send(AUTOPILOT, message));
-        }
-    }
-
     fn broadcast(&mut self, component: u8, message: &MavMessage) {
         for link in self.links.values_mut() {
             link.send(component, message);
@@ -524,49 +436,12 @@ impl Endpoint {
         }
     }
 
-    /// Texts of more than 50 bytes go out in pieces that clients put together by their id.
-    fn say_texts(&mut self) {
-        for (severity, text) in std::mem::take(&mut self.texts) {
-            let pieces = pieces(&text);
-            let whole = pieces.len() == 1;
-            if !whole {
-                self.text_id = self.text_id.wrapping_add(1).max(1);
-            }
-            for (k, piece) in pieces.iter().enumerate() {
-                let message = MavMessage::STATUSTEXT(STATUSTEXT_DATA {
-                    severity,
-                    text: piece.as_str().into(),
-                    id: if whole { 0 } else { self.text_id },
-                    chunk_seq: k as u8,
-                });
-                self.broadcast(AUTOPILOT, &message);
-            }
-        }
-    }
-
     fn tell_logs(&mut self) {
         let links = &self.links;
         let ready = |link: &LinkId| links.get(link).is_none_or(|link| !link.is_busy());
         for (link, message) in self.logs.poll(ready) {
             self.answer(link, &message);
         }
-    }
-
-    fn send_params(&mut self) {
-        let count = self.params.count() as u16;
-        for (id, list) in &mut self.param_lists {
-            let Some(link) = self.links.get_mut(id) else { continue };
-            for _ in 0..PARAMS_A_TICK {
-                if link.is_busy() {
-                    break;
-                }
-                let Some(index) = list.pop_front() else { break };
-                if let Some((name, value)) = self.params.at(index) {
-                    link.send(AUTOPILOT, &exchange::param_value(name, value, index, count));
-                }
-            }
-        }
-        self.param_lists.retain(|_, list| !list.is_empty());
     }
 }
 
@@ -577,19 +452,4 @@ fn metadata_server() -> files::Server {
         server.make_up(file.path, file.bytes.clone());
     }
     server
-}
-
-/// Pieces of at most 50 bytes, cut between characters.
-fn pieces(text: &str) -> Vec<String> {
-    const LONGEST: usize = 50;
-    let mut out = vec![String::new()];
-    for character in text.chars() {
-        let last = out.len() - 1;
-        if out[last].len() + character.len_utf8() > LONGEST {
-            out.push(String::new());
-        }
-        let last = out.len() - 1;
-        out[last].push(character);
-    }
-    out
 }

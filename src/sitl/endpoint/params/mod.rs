@@ -4,7 +4,6 @@ pub mod metadata;
 mod table;
 pub mod text;
 
-use super::manual::Policy;
 use crate::base::time::SimTime;
 use crate::sitl::autopilot::{FenceAction, LinkLoss, Tuning};
 use Value::{Int, Real};
@@ -71,6 +70,15 @@ pub struct World {
     pub loss: f64,
     /// How late the others are, each way.
     pub delay: SimTime,
+}
+
+/// What happens when a second sender moves sticks while the first is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Policy {
+    /// Who has the sticks keeps them until he falls silent or lets go.
+    FirstKeeps,
+    /// Who moves a stick off its middle takes them.
+    LatestTakes,
 }
 
 /// The parameter table: present values by name, in the order of their names.

@@ -1,6 +1,5 @@
 //! The parameters: one row each, with what ground stations show of it.
 
-use super::super::buttons::FUNCTIONS;
 use super::Value::{self, Int, Real};
 
 /// One parameter.
@@ -89,6 +88,24 @@ const SIMULATION: &str = "Simulation";
 const SYSTEM: &str = "System";
 
 const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Hold"), (2, "Return"), (3, "Land")];
+/// What a button can do, by the parameter's value.
+const FUNCTIONS: &[(i32, &str)] = &[
+    (0, "Nothing"),
+    (1, "Arm"),
+    (2, "Disarm"),
+    (3, "Take-off"),
+    (4, "Land"),
+    (5, "Return"),
+    (6, "Hold"),
+    (7, "Position mode"),
+    (8, "Altitude mode"),
+    (9, "Mission"),
+    (10, "Snapshot"),
+    (11, "Lamp on or off"),
+    (12, "Gimbal level"),
+    (13, "Gimbal up"),
+    (14, "Gimbal down"),
+];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 
 const fn button(name: &'static str) -> Row {

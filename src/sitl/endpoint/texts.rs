@@ -1,0 +1,42 @@
+//! Texts to everybody, in the pieces that the wire asks for.
+
+use super::Endpoint;
+use super::streams::AUTOPILOT;
+use crate::mav::dialect::{MavMessage, STATUSTEXT_DATA};
+
+impl Endpoint {
+    /// Texts of more than 50 bytes go out in pieces that clients put together by their id.
+    pub(super) fn say_texts(&mut self) {
+        for (severity, text) in std::mem::take(&mut self.texts) {
+            let pieces = pieces(&text);
+            let whole = pieces.len() == 1;
+            if !whole {
+                self.text_id = self.text_id.wrapping_add(1).max(1);
+            }
+            for (k, piece) in pieces.iter().enumerate() {
+                let message = MavMessage::STATUSTEXT(STATUSTEXT_DATA {
+                    severity,
+                    text: piece.as_str().into(),
+                    id: if whole { 0 } else { self.text_id },
+                    chunk_seq: k as u8,
+                });
+                self.broadcast(AUTOPILOT, &message);
+            }
+        }
+    }
+}
+
+/// Pieces of at most 50 bytes, cut between characters.
+fn pieces(text: &str) -> Vec<String> {
+    const LONGEST: usize = 50;
+    let mut out = vec![String::new()];
+    for character in text.chars() {
+        let last = out.len() - 1;
+        if out[last].len() + character.len_utf8() > LONGEST {
+            out.push(String::new());
+        }
+        let last = out.len() - 1;
+        out[last].push(character);
+    }
+    out
+}

@@ -1,0 +1,95 @@
+//! What the shell does for the vehicle: keys, files, logs, parameters. The core asks, the shell answers.
+
+use super::Sim;
+use crate::mav::signing::Key;
+use crate::sitl::backend::Backend;
+use crate::sitl::endpoint::files::job::{Done, FileError, Job};
+use crate::sitl::endpoint::logs::Logs;
+use crate::sitl::endpoint::params::text::Problem;
+use crate::sitl::endpoint::{LinkKind, Wish};
+use crate::sitl::log;
+
+impl Sim {
+    /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
+    /// trusted; `stamp` is the signing timestamp of now.
+    pub fn demand_signatures(&mut self, key: Key, stamp: u64, trusted: &[LinkKind]) {
+        self.endpoint.demand_signatures(key, stamp, trusted);
+    }
+
+    /// The signing timestamp of now.
+    pub fn tell_stamp(&mut self, stamp: u64) {
+        self.endpoint.tell_stamp(stamp);
+    }
+
+    /// Frames that did nothing because they bore no good signature.
+    #[must_use]
+    pub fn refused(&self) -> u64 {
+        self.endpoint.refused()
+    }
+
+    /// Changes of parameters so far.
+    #[must_use]
+    pub fn parameter_changes(&self) -> u64 {
+        self.endpoint.parameter_changes()
+    }
+
+    /// The parameters as a text file, in the format of QGroundControl.
+    #[must_use]
+    pub fn parameter_text(&self) -> String {
+        self.endpoint.parameter_text()
+    }
+
+    /// Sets what a parameter file says.
+    ///
+    /// # Errors
+    /// Every line that is wrong; then nothing is set.
+    pub fn read_parameters(&mut self, text: &str) -> Result<(), Vec<Problem>> {
+        let Backend::Builtin(autopilot) = &mut self.backend;
+        self.endpoint.read_parameters(text, autopilot)
+    }
+
+    /// Somebody keeps the parameters in a file from now on ([`Sim::poll_storage`]).
+    pub fn keep_parameters(&mut self) {
+        self.endpoint.keep_parameters();
+    }
+
+    /// What a client wants of the parameter file.
+    pub fn poll_storage(&mut self) -> Option<Wish> {
+        self.endpoint.poll_storage()
+    }
+
+    /// Somebody does file jobs from now on ([`Sim::poll_file_job`]).
+    pub fn serve_files(&mut self) {
+        self.endpoint.files.stored();
+        self.endpoint.logs.stored = true;
+    }
+
+    /// Keeps a log of every flight from now on.
+    pub fn record(&mut self) {
+        self.recorder.turn_on();
+    }
+
+    /// Ends a log that is under way: the program ends.
+    pub fn stop_recording(&mut self) {
+        self.recorder.stop();
+    }
+
+    /// The next piece of the flight's log.
+    pub fn poll_log(&mut self) -> Option<log::Piece> {
+        self.recorder.poll()
+    }
+
+    /// The next thing to do with files for a client.
+    pub fn poll_file_job(&mut self) -> Option<Job> {
+        self.endpoint.files.poll_job().or_else(|| self.endpoint.logs.poll_job())
+    }
+
+    /// It is done.
+    pub fn file_job_done(&mut self, ticket: u64, outcome: Result<Done, FileError>) {
+        if Logs::owns(ticket) {
+            self.endpoint.logs.done(ticket, outcome);
+        } else {
+            self.endpoint.files.done(ticket, outcome, self.now);
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! What an instructor does to the flight while it goes on: faults, weather, a bad radio.
+
+use super::Sim;
+use crate::base::time::SimTime;
+use crate::sitl::endpoint::{Injection, LinkId, LinkKind};
+use crate::sitl::faults::{Faults, Unit};
+
+/// A wind that an instructor changes has changed within this.
+const WIND_CHANGES_IN: SimTime = SimTime::from_ms(5_000);
+
+impl Sim {
+    /// Sidecars and peers in step sit beside the vehicle; all others are reached over the radio, while it is bad.
+    pub(super) fn is_over_radio(&self, link: LinkId) -> bool {
+        !self.radio.is_good() && self.endpoint.kind(link).is_some_and(|(kind, in_step)| kind != LinkKind::Payload && !in_step)
+    }
+
+    /// Faults and weather that came by command and parameter.
+    pub(super) fn heed_the_instructor(&mut self) {
+        while let Some(Injection { unit, kind, instance }) = self.endpoint.poll_injection() {
+            self.faults.inject(unit, kind, instance, self.config.vehicle.rotors.len());
+            if unit == Unit::Battery && kind.is_some() {
+                self.state.battery.charge = Faults::charge(self.state.battery.charge);
+            }
+        }
+        let changes = self.endpoint.parameter_changes();
+        if std::mem::replace(&mut self.heeded, changes) == changes {
+            return;
+        }
+        let world = self.endpoint.world();
+        self.radio.set(world.loss, world.delay);
+        if world.wind != self.world.wind {
+            let own = &self.config.scenario.wind;
+            let (speed_m_s, from_deg) = world.wind.unwrap_or((own.speed_m_s, own.from_deg));
+            self.wind.change(self.now, WIND_CHANGES_IN, speed_m_s, from_deg);
+        }
+        self.world = world;
+    }
+}
