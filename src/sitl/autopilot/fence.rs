@@ -85,6 +85,8 @@ impl FenceAction {
 /// What the fence tells the world.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FenceState {
+    /// There is something to breach.
+    pub set: bool,
     /// The breach of now.
     pub breach: Option<Breach>,
     /// Breaches so far.
@@ -152,6 +154,14 @@ impl Autopilot {
     /// The first step of the mission that lies outside.
     pub(super) fn step_outside_fence(&self) -> Option<usize> {
         self.mission.places().find(|(_, place)| self.breach_at(*place).is_some()).map(|(step, _)| step)
+    }
+
+    /// Whether there is a fence at all.
+    pub(super) fn note_fence(&mut self) {
+        let t = &self.tuning;
+        let limits = t.fence_height_m > 0.0 || t.fence_distance_m > 0.0;
+        let acts = self.fence.on && t.fence_action != FenceAction::None;
+        self.status.fence.set = acts && (limits || !self.fence.zones.is_empty());
     }
 
     /// Acts when a breach begins: once, so that the pilot can fly back in by hand.

@@ -77,6 +77,7 @@ impl Autopilot {
             self.move_home(self.estimate.position_m);
         }
         self.warn_of_battery();
+        self.note_fence();
         if !self.status.armed {
             self.status.arming_reasons = self.arming_reasons(now);
             self.status.failsafe = None;

@@ -62,7 +62,12 @@ pub(super) fn sys_status(v: &View) -> Option<MavMessage> {
     if v.vehicle.sensors.flow_velocity_m_s > 0.0 {
         present |= S::MAV_SYS_STATUS_SENSOR_OPTICAL_FLOW;
     }
-    let mut health = present;
+    if v.status.fence.set {
+        present |= S::MAV_SYS_STATUS_GEOFENCE;
+    }
+    // Healthy without a fence, too: MAVProxy takes its absence for a breach.
+    let mut health = present | S::MAV_SYS_STATUS_GEOFENCE;
+    health.set(S::MAV_SYS_STATUS_GEOFENCE, v.status.fence.breach.is_none());
     let fix = v.readings.gnss.is_some_and(|g| g.fix >= 3);
     health.set(S::MAV_SYS_STATUS_SENSOR_GPS, fix && v.estimate.position_valid);
     health.set(S::MAV_SYS_STATUS_AHRS, v.estimate.attitude_valid);

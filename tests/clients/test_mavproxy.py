@@ -1,0 +1,128 @@
+"""MAVProxy as a person types into it, headless over a pipe."""
+
+import pathlib
+import queue
+import subprocess
+import sys
+import threading
+
+import pytest
+
+import spandrel
+
+# Wall seconds for a line of MAVProxy's on a busy machine, ten times over.
+LIMIT_S = 120
+# 1e-5 degrees of latitude are about a metre; the drill's pad.
+LAT, LON = 46.70520, 8.38140
+
+
+class Console:
+    """MAVProxy's prompt: lines in, lines out."""
+
+    def __init__(self, port, folder):
+        script = pathlib.Path(sys.executable).with_name("mavproxy.py")
+        self.process = subprocess.Popen(
+            [sys.executable, str(script), "--master", f"udpin:127.0.0.1:{port}", "--state-basedir", str(folder)],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1, cwd=folder,
+        )
+        self.lines, self.heard = queue.Queue(), []
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self):
+        for line in self.process.stdout:
+            self.lines.put(line.rstrip())
+
+    def wait(self, text):
+        """The next line that holds a text."""
+        while True:
+            try:
+                line = self.lines.get(timeout=LIMIT_S)
+            except queue.Empty:
+                raise AssertionError(f"never said '{text}':\n" + "\n".join(self.heard[-60:])) from None
+            self.heard.append(line)
+            if text in line:
+                return line
+
+    def say(self, command, answer):
+        """Types a command and waits for its answer."""
+        self.process.stdin.write(command + "\n")
+        self.process.stdin.flush()
+        return self.wait(answer) if answer else None
+
+    def until(self, command, answer):
+        """Types a command again and again until its answer comes: MAVProxy does what was typed before in its own time."""
+        for _ in range(LIMIT_S):
+            self.process.stdin.write(command + "\n")
+            self.process.stdin.flush()
+            try:
+                while True:
+                    self.heard.append(self.lines.get(timeout=1))
+                    if answer in self.heard[-1]:
+                        return
+            except queue.Empty:
+                pass
+        raise AssertionError(f"never said '{answer}':\n" + "\n".join(self.heard[-60:]))
+
+    def close(self):
+        """Ends it."""
+        self.process.stdin.close()
+        self.process.terminate()
+        self.process.wait(timeout=LIMIT_S)
+
+
+@pytest.fixture
+def console(tmp_path):
+    """A vehicle and MAVProxy beside it, parameters fetched."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, speed=2)
+    console = Console(port, tmp_path)
+    console.wait("parameters to")
+    yield console, tmp_path
+    console.close()
+    spandrel.end(process)
+
+
+def plan(folder, name, rows):
+    """A plan in the text format of Mission Planner and MAVProxy."""
+    lines = ["QGC WPL 110"]
+    for seq, (frame, command, params, north_m, height) in enumerate(rows):
+        values = "\t".join(str(p) for p in params)
+        lines.append(f"{seq}\t0\t{frame}\t{command}\t{values}\t{LAT + north_m * 1e-5:.7f}\t{LON:.7f}\t{height:.6f}\t1")
+    path = folder / name
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavproxy_reads_parameters_flies_by_channels_and_switches_the_lamp(console):
+    """Parameters, an arming refused with its reason, channels that climb, the relay, channels let go."""
+    typed, _folder = console
+    typed.say("param show MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT  2.5")
+    typed.say("param set MPC_XY_CRUISE 4", None)
+    typed.until("param fetch MPC_XY_CRUISE", "MPC_XY_CRUISE = 4.0")
+    typed.say("mode", "Available modes")
+    typed.say("rc 3 1900", None)
+    typed.until("arm throttle", "Sticks not centred")
+    typed.say("rc all 1500", None)
+    typed.until("arm throttle", "ARMED")
+    typed.say("rc 3 1800", "Takeoff detected")
+    typed.say("relay set 0 1", "DO_SET_RELAY: ACCEPTED")
+    typed.say("rc clear", "manual control lost")
+    assert "breach" not in "\n".join(typed.heard)
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavproxy_loads_and_lists_plans(console):
+    """A mission, a fence and a rally point go up and come back; a fence of two corners is refused."""
+    typed, folder = console
+    nothing = (0.0, 0.0, 0.0, 0.0)
+    mission = plan(folder, "mission.txt", [(3, 22, nothing, 0, 5), (3, 16, nothing, 10, 6), (3, 21, nothing, 0, 0)])
+    typed.say(f"wp load {mission}", "Loaded 3 waypoints")
+    typed.wait("Got MISSION_ACK: TYPE_MISSION: ACCEPTED")
+    typed.say("wp list", "Requesting 3 waypoints")
+    corners = [(0, 5001, (4.0, 0.0, 0.0, 0.0), north, 0) for north in (-50, 50)]
+    typed.say(f"fence load {plan(folder, 'fence.txt', [(0, 5003, (80.0, 0.0, 0.0, 0.0), 0, 0)])}", "Got MISSION_ACK: TYPE_FENCE: ACCEPTED")
+    typed.say("fence list", "Requesting 1 fence")
+    typed.say(f"fence load {plan(folder, 'torn.txt', corners)}", "Got MISSION_ACK: TYPE_FENCE: INVALID_PARAM1")
+    typed.say(f"rally load {plan(folder, 'rally.txt', [(3, 5100, nothing, 20, 5)])}", "Got MISSION_ACK: TYPE_RALLY: ACCEPTED")
+    typed.say("rally list", "Requesting 1 rally")
