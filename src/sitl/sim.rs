@@ -130,6 +130,7 @@ macro_rules! view {
             gimbal: $sim.endpoint.payload.gimbal,
             lamp: $sim.endpoint.payload.lamp,
             camera: $sim.endpoint.payload.camera.summary(),
+            plans: $sim.endpoint.plans(),
         }
     };
 }

@@ -306,3 +306,40 @@ fn wire_older_and_partial_forms_are_taken_or_refused_but_always_answered() {
     assert_eq!(station.last(result), Some(R::MAV_MISSION_UNSUPPORTED));
     assert_eq!(station.last(asked), None);
 }
+
+/// A station that comes later sees by the id that the plan is not its own, and one that has it need not fetch it.
+#[test]
+fn wire_each_plan_has_an_id_that_changes_with_it() {
+    let mut station = ready(7);
+    let id_in_ack = |s: &Station| s.last(|m| if let MavMessage::MISSION_ACK(a) = m { Some(a.opaque_id) } else { None }).unwrap();
+    let mut ids = Vec::new();
+    for height in [6.0, 7.0, 6.0] {
+        assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0, height)]), ACCEPTED);
+        ids.push(id_in_ack(&station));
+    }
+    assert!(ids[0] != 0 && ids[0] != ids[1] && ids[0] == ids[2], "{ids:?}");
+    station.run_ms(1_100);
+    let told = station.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some((c.mission_id, c.fence_id)) } else { None });
+    assert_eq!(told, Some((ids[2], 0)));
+    let list = MavMessage::MISSION_REQUEST_LIST(MISSION_REQUEST_LIST_DATA {
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    });
+    let counted = station.ask(&list, |m| if let MavMessage::MISSION_COUNT(c) = m { Some(c.opaque_id) } else { None });
+    assert_eq!(counted, Some(ids[2]));
+}
+
+#[test]
+fn wire_five_hundred_items_go_up_and_come_back() {
+    let mut station = ready(7);
+    let items: Vec<_> = (0..500).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, f64::from(k), 6.0)).collect();
+    assert_eq!(upload(&mut station, &items), ACCEPTED);
+    for sent in items.iter().step_by(97) {
+        let request = MISSION_REQUEST_INT_DATA { seq: sent.seq, target_system: 1, target_component: 1, ..Default::default() };
+        let got = station.ask(&MavMessage::MISSION_REQUEST_INT(request), |m| {
+            if let MavMessage::MISSION_ITEM_INT(i) = m { Some(i.x) } else { None }
+        });
+        assert_eq!(got, Some(sent.x));
+    }
+}

@@ -19,8 +19,6 @@ pub struct CameraState {
     pub shots: Vec<Shot>,
     /// Seconds between pictures of a running series.
     pub interval_s: Option<f64>,
-    /// Items of the uploaded mission (MISSION_CURRENT wants the number).
-    pub mission_items: u16,
     next: Option<SimTime>,
     left: Option<u32>,
     /// A picture every so many metres, and where the last one was.
@@ -43,12 +41,7 @@ impl CameraState {
     /// The counters.
     #[must_use]
     pub fn summary(&self) -> CameraSummary {
-        CameraSummary {
-            pictures: self.shots.len(),
-            interval_s: self.interval_s,
-            series: self.by_distance.is_some(),
-            mission_items: self.mission_items,
-        }
+        CameraSummary { pictures: self.shots.len(), interval_s: self.interval_s, series: self.by_distance.is_some() }
     }
 
     /// Starts a series or takes one picture: `count` 0 means until stopped. False when the numbers make no sense.

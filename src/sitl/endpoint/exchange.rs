@@ -231,7 +231,6 @@ pub(super) fn hand_over(e: &mut Endpoint, kind: MavMissionType, view: &View, aut
     if is(MavMissionType::MAV_MISSION_TYPE_MISSION) {
         autopilot.set_mission(e.plans.steps(view.plane, home_up, autopilot.tuning.accept_radius_m));
         autopilot.hang_mission_on_home(e.plans.over_home());
-        e.payload.camera.mission_items = e.plans.mission().len() as u16;
     }
     if is(MavMissionType::MAV_MISSION_TYPE_FENCE) {
         autopilot.set_fence(e.plans.zones(view.plane));

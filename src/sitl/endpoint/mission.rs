@@ -4,6 +4,7 @@
 use super::areas;
 use super::commands::payload;
 use super::places::{HIGHEST_M, flyable, place, placeless, relative};
+use super::view::PlanSummary;
 use crate::base::frames::{Ned, Vec3};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
@@ -30,6 +31,7 @@ pub type Peer = (u8, u8);
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plans {
     kept: [Vec<MISSION_ITEM_INT_DATA>; 3],
+    ids: [u32; 3],
     upload: Option<Upload>,
     /// Who finished an upload last: the acknowledgement may have been lost.
     done: Option<(Peer, MavMissionType)>,
@@ -39,7 +41,7 @@ pub struct Plans {
 
 impl Default for Plans {
     fn default() -> Self {
-        Self { kept: Default::default(), upload: None, done: None, pace: 1.0 }
+        Self { kept: Default::default(), ids: [0; 3], upload: None, done: None, pace: 1.0 }
     }
 }
 
@@ -76,19 +78,45 @@ fn slot(kind: MavMissionType) -> Option<usize> {
 /// An acknowledgement to a peer.
 #[must_use]
 pub fn ack(to: Peer, kind: MavMissionType, result: MavMissionResult) -> MavMessage {
+    ack_with(to, kind, result, 0)
+}
+
+/// An acknowledgement with the id of the plan that is accepted.
+fn ack_with(to: Peer, kind: MavMissionType, result: MavMissionResult, opaque_id: u32) -> MavMessage {
     MavMessage::MISSION_ACK(MISSION_ACK_DATA {
         target_system: to.0,
         target_component: to.1,
         mavtype: result,
         mission_type: kind,
-        opaque_id: 0,
+        opaque_id,
     })
+}
+
+/// A plan's id: the checksum of its items, never 0 for a plan that has some.
+fn id_of(items: &[MISSION_ITEM_INT_DATA]) -> u32 {
+    if items.is_empty() {
+        return 0;
+    }
+    let mut crc = crc32fast::Hasher::new();
+    for item in items {
+        let whole = [item.x, item.y, item.command as i32, item.frame as i32];
+        let real = [item.param1, item.param2, item.param3, item.param4, item.z];
+        whole.iter().for_each(|value| crc.update(&value.to_le_bytes()));
+        real.iter().for_each(|value| crc.update(&value.to_bits().to_le_bytes()));
+    }
+    crc.finalize().max(1)
 }
 
 impl Plans {
     /// Uploaders that are not kept in step take longer by this factor.
     pub fn set_pace(&mut self, pace: f64) {
         self.pace = pace;
+    }
+
+    /// What stations see of the plans.
+    #[must_use]
+    pub fn summary(&self) -> PlanSummary {
+        PlanSummary { mission_items: self.kept[0].len() as u16, ids: self.ids }
     }
 
     /// The fence's areas.
@@ -118,7 +146,7 @@ impl Plans {
             target_system: from.0,
             target_component: from.1,
             mission_type: kind,
-            opaque_id: 0,
+            opaque_id: self.ids[slot],
         })
     }
 
@@ -150,6 +178,7 @@ impl Plans {
         if count == 0 {
             self.upload = None;
             self.kept[slot].clear();
+            self.ids[slot] = 0;
             let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
             return Reply::New(kind, done);
         }
@@ -190,9 +219,10 @@ impl Plans {
             return Reply::Say(ack(from, upload.kind, result));
         }
         let slot = slot(upload.kind).unwrap_or(0);
+        self.ids[slot] = id_of(&upload.items);
         self.kept[slot] = upload.items;
         self.done = Some((from, upload.kind));
-        let done = ack(from, upload.kind, MavMissionResult::MAV_MISSION_ACCEPTED);
+        let done = ack_with(from, upload.kind, MavMissionResult::MAV_MISSION_ACCEPTED, self.ids[slot]);
         Reply::New(upload.kind, done)
     }
 
@@ -219,8 +249,14 @@ impl Plans {
         self.upload.take_if(|u| u.from == from);
         self.done = None;
         match slot(kind) {
-            Some(slot) => self.kept[slot].clear(),
-            None => self.kept.iter_mut().for_each(Vec::clear),
+            Some(slot) => {
+                self.kept[slot].clear();
+                self.ids[slot] = 0;
+            }
+            None => {
+                self.kept.iter_mut().for_each(Vec::clear);
+                self.ids = [0; 3];
+            }
         }
         let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
         Reply::New(kind, done)

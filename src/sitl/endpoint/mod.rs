@@ -312,6 +312,12 @@ impl Endpoint {
         self.bad_bytes
     }
 
+    /// What stations see of the plans.
+    #[must_use]
+    pub fn plans(&self) -> view::PlanSummary {
+        self.plans.summary()
+    }
+
     /// The sticks, while they are fresh.
     #[must_use]
     pub fn sticks(&self, now: SimTime) -> Option<crate::sitl::autopilot::Sticks> {

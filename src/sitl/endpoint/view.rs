@@ -47,6 +47,8 @@ pub struct View<'a> {
     pub lamp: LampState,
     /// Camera.
     pub camera: CameraSummary,
+    /// Plans.
+    pub plans: PlanSummary,
 }
 
 /// The camera's counters.
@@ -58,8 +60,15 @@ pub struct CameraSummary {
     pub interval_s: Option<f64>,
     /// A series by distance runs.
     pub series: bool,
-    /// Items of the uploaded mission.
+}
+
+/// What is kept of plans.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PlanSummary {
+    /// Items of the mission.
     pub mission_items: u16,
+    /// Ids of mission, fence and rally points, by which stations see whether theirs is the present one; 0 for none.
+    pub ids: [u32; 3],
 }
 
 /// What the scoring needs beside the motion (design.md, truth for the scoring).

@@ -185,7 +185,7 @@ pub(super) fn vibration(v: &View) -> Option<MavMessage> {
 pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
     let flying = v.status.mode == Mode::Mission;
     let state = match (v.status.mode, v.status.mission_finished) {
-        _ if v.camera.mission_items == 0 => MissionState::MISSION_STATE_NO_MISSION,
+        _ if v.plans.mission_items == 0 => MissionState::MISSION_STATE_NO_MISSION,
         (_, true) => MissionState::MISSION_STATE_COMPLETE,
         (Mode::Mission, _) if v.status.armed => MissionState::MISSION_STATE_ACTIVE,
         _ if v.status.mission_paused => MissionState::MISSION_STATE_PAUSED,
@@ -193,12 +193,14 @@ pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
     };
     Some(MavMessage::MISSION_CURRENT(MISSION_CURRENT_DATA {
         // Once flown to its end, the last item stays the current one.
-        seq: (v.status.mission_current as u16).min(v.camera.mission_items.saturating_sub(1)),
-        total: v.camera.mission_items,
+        seq: (v.status.mission_current as u16).min(v.plans.mission_items.saturating_sub(1)),
+        total: v.plans.mission_items,
         mission_state: state,
         // 1 in mission mode, 2 not.
         mission_mode: if flying { 1 } else { 2 },
-        ..Default::default()
+        mission_id: v.plans.ids[0],
+        fence_id: v.plans.ids[1],
+        rally_points_id: v.plans.ids[2],
     }))
 }
 
