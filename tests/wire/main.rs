@@ -14,6 +14,7 @@ mod offboard;
 mod payload;
 mod plans;
 mod program;
+mod ranges;
 mod signing;
 mod station;
 mod vehicle;

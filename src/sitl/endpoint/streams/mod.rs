@@ -83,6 +83,8 @@ pub const STREAMS: &[Stream] = &[
     row(65, [50.0, 50.0, 50.0], truth::sticks),
     row(330, [5.0, 5.0, 0.0], sensors::obstacles),
     row(132, [5.0, 5.0, 0.0], sensors::range_down),
+    row(132, [5.0, 5.0, 0.0], sensors::range_up),
+    row(132, [5.0, 5.0, 0.0], sensors::range_ahead),
     row(281, [0.5, 1.0, 0.0], payload::gimbal_manager_status),
     row(285, [10.0, 10.0, 25.0], payload::gimbal_attitude),
     row(440, [2.0, 2.0, 10.0], payload::lamp),

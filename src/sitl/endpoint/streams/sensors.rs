@@ -84,16 +84,31 @@ pub(super) fn obstacles(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn range_down(v: &View) -> Option<MavMessage> {
-    let range = v.readings.range_down_m?;
+    Some(range(v, 0, v.readings.range_down_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_270))
+}
+
+/// To the soffit.
+pub(super) fn range_up(v: &View) -> Option<MavMessage> {
+    Some(range(v, 1, v.readings.range_up_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_90))
+}
+
+/// Ahead: the sector of the nose among those around.
+pub(super) fn range_ahead(v: &View) -> Option<MavMessage> {
+    Some(range(v, 2, v.readings.range_around_m?[0], MavSensorOrientation::MAV_SENSOR_ROTATION_NONE))
+}
+
+/// Nothing within reach is told as a little more than the reach.
+fn range(v: &View, id: u8, distance_m: f64, orientation: MavSensorOrientation) -> MavMessage {
     let reach = cm_u16(v.vehicle.sensors.range_max_m);
-    Some(MavMessage::DISTANCE_SENSOR(DISTANCE_SENSOR_DATA {
+    MavMessage::DISTANCE_SENSOR(DISTANCE_SENSOR_DATA {
         time_boot_ms: v.boot_ms(),
         min_distance: 10,
         max_distance: reach,
-        current_distance: if range.is_finite() { cm_u16(range) } else { reach + 1 },
+        current_distance: if distance_m.is_finite() { cm_u16(distance_m) } else { reach + 1 },
         mavtype: MavDistanceSensor::MAV_DISTANCE_SENSOR_LASER,
-        orientation: MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_270,
+        id,
+        orientation,
         covariance: u8::MAX,
         ..Default::default()
-    }))
+    })
 }
