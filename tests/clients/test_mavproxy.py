@@ -22,7 +22,7 @@ class Console:
     def __init__(self, port, folder):
         script = pathlib.Path(sys.executable).with_name("mavproxy.py")
         self.process = subprocess.Popen(
-            [sys.executable, str(script), "--master", f"udpin:127.0.0.1:{port}", "--state-basedir", str(folder)],
+            [sys.executable, "-u", str(script), "--master", f"udpin:127.0.0.1:{port}", "--state-basedir", str(folder)],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1, cwd=folder,
         )
         self.lines, self.heard = queue.Queue(), []
