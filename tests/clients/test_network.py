@@ -9,6 +9,7 @@ import subprocess
 import time
 import tty
 
+import pytest
 from pymavlink import mavutil
 
 import spandrel
@@ -32,7 +33,10 @@ def wait_for(connection, kind, condition=lambda message: True):
 
 def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
     """Over a pseudo-terminal: parameters come whole, the byte rate stays within the baud rate, a command is answered."""
-    ours, theirs = pty.openpty()
+    try:
+        ours, theirs = pty.openpty()
+    except OSError as error:
+        pytest.skip(f"this machine has no pseudo-terminals: {error}")
     tty.setraw(ours)
     tty.setraw(theirs)
     sim = spandrel.start_sim(
