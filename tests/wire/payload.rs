@@ -158,3 +158,32 @@ fn wire_pictures_by_distance_come_as_far_apart_as_asked() {
     assert!((count - flown / 3.0).abs() <= 1.5, "{count} pictures on {flown} m");
     assert!(count >= 3.0);
 }
+
+/// The buttons that QGroundControl makes of the file in docs/.
+#[test]
+fn wire_every_action_of_the_ground_stations_file_is_accepted() {
+    let file: serde_json::Value = serde_json::from_str(&super::station::shipped("docs/qgroundcontrol-actions.json")).unwrap();
+    assert_eq!((file["fileType"].as_str(), file["version"].as_u64()), (Some("MavlinkActions"), Some(1)));
+    let mut station = Station::airborne("drill-hover", 7);
+    for action in file["actions"].as_array().unwrap() {
+        let label = action["label"].as_str().unwrap();
+        assert!(action["description"].is_string(), "{label}");
+        let number = action["mavCmd"].as_u64().unwrap() as u16;
+        let component = action["compId"].as_u64().unwrap() as u8;
+        // COMMAND_LONG as it lies on the wire: seven parameters, number, target.
+        let mut payload = Vec::new();
+        for k in 1..=7 {
+            payload.extend((action[format!("param{k}")].as_f64().unwrap_or(0.0) as f32).to_le_bytes());
+        }
+        payload.extend(number.to_le_bytes());
+        payload.extend([1, component, 0]);
+        station.heard.clear();
+        station.send_payload(76, &payload);
+        station.run_ms(5);
+        let result = station.last(|m| match m {
+            MavMessage::COMMAND_ACK(ack) if ack.command as u16 == number => Some(ack.result),
+            _ => None,
+        });
+        assert_eq!(result, Some(MavResult::MAV_RESULT_ACCEPTED), "{label}");
+    }
+}
