@@ -22,7 +22,7 @@ const STALL_S: f64 = 10.0;
 /// Longest stay of an item, s.
 const LONGEST_S: f32 = 86_400.0;
 /// A silent uploader is asked again after this long, s.
-const ASK_AGAIN_S: f64 = 1.0;
+const ASK_AGAIN_S: f64 = 0.5;
 
 /// Who speaks: system and component.
 pub type Peer = (u8, u8);
@@ -197,12 +197,13 @@ impl Plans {
             return Reply::Say(ack(from, item.mission_type, result));
         };
         upload.heard = now;
-        upload.asked = now;
         let wanted = upload.items.len() as u16;
         if item.seq != wanted {
-            // Heard before or out of turn: ask for the one that is missing.
-            return Reply::Say(ask(from, upload.kind, wanted));
+            // Heard before or out of turn. The one that is missing has been asked for; asking at every echo would double all that follows,
+            // and clients that count repetitions give up. Its time comes in `remind`.
+            return Reply::Nothing;
         }
+        upload.asked = now;
         if let Err(result) = legal(item, upload.count, plane) {
             let kind = upload.kind;
             self.upload = None;
