@@ -250,3 +250,19 @@ fn wire_frames_for_somebody_else_reach_him_alone() {
     assert_eq!(copies(&mut station, &sticks(1)), [monitor], "our own system is also heard behind the monitor's link");
     assert_eq!(copies(&mut station, &sticks(0)), [monitor, other], "sticks for everybody");
 }
+
+#[test]
+fn wire_speeds_and_terminations_that_change_nothing_are_granted() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let change = |s: &mut Station, speed| s.command(1, MavCmd::MAV_CMD_DO_CHANGE_SPEED, [1.0, speed, -1.0, 0.0, 0.0, 0.0, 0.0]);
+    for (speed, result) in [(3.0, true), (-1.0, true), (-2.0, true), (0.0, false), (f32::NAN, false)] {
+        assert_eq!(change(&mut station, speed) == MavResult::MAV_RESULT_ACCEPTED, result, "{speed}");
+    }
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_FLIGHTTERMINATION, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(1_100);
+    let armed = station.last(|m| match m {
+        MavMessage::HEARTBEAT(b) if b.mavtype == MavType::MAV_TYPE_QUADROTOR => Some(b.base_mode),
+        _ => None,
+    });
+    assert!(armed.unwrap().contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED), "it flies on");
+}

@@ -204,7 +204,7 @@ fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
     assert_eq!(echo(&station), Some((1700, 1600)));
     channels(&mut station, 2500, 65_534);
     station.run_ms(40);
-    assert_eq!(echo(&station), Some((1500, 1500)), "pulses that no transmitter sends are no sticks");
+    assert_eq!(echo(&station), Some((1700, 1600)), "pulses that no transmitter sends change nothing");
     station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
         target_system: 1,
         target_component: 1,

@@ -121,7 +121,7 @@ impl Manual {
         self.holder == Some(from)
     }
 
-    /// RC_CHANNELS_OVERRIDE: channels 1 to 4 roll, pitch, throttle, yaw in microseconds. 65535 leaves a channel as it was, 0 releases it to
+    /// RC_CHANNELS_OVERRIDE: channels 1 to 4 roll, pitch, throttle, yaw in microseconds. 65535, and what no transmitter sends, leaves a channel as it was, 0 releases it to
     /// its middle; all four released let go of the sticks. Pitch is reversed as on a transmitter: stick forward is below the middle.
     pub fn channels(&mut self, from: Sender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
         let all = [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw];
@@ -131,15 +131,16 @@ impl Manual {
             }
             return None;
         }
-        if all.iter().all(|us| *us == 0 || *us == u16::MAX) {
+        // Nothing in it that a transmitter could send: nobody's sticks.
+        if !all.iter().any(|us| PULSES_US.contains(us)) {
             return None;
         }
         let own = self.holder == Some(from) && self.holds(now);
         let before = if own { self.sticks } else { Sticks::default() };
         let axis = |us: u16, before: f64| match us {
-            u16::MAX => before,
+            0 => 0.0,
             us if PULSES_US.contains(&us) => ((f64::from(us) - 1500.0) / 500.0).clamp(-1.0, 1.0),
-            _ => 0.0,
+            _ => before,
         };
         let sticks = Sticks {
             right: axis(all[0], before.right),

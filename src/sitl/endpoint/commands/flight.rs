@@ -43,6 +43,9 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             Request::StartMission { first: c.given(0).filter(|f| *f > 0.0).map(|f| f as usize) }
         }
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.given(1) {
+            // -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
+            Some(-1.0) => return Some(MavResult::MAV_RESULT_ACCEPTED),
+            Some(-2.0) => Request::SetSpeed(x.params.cruise_m_s()),
             Some(speed) if speed > 0.0 => Request::SetSpeed(speed),
             _ => return Some(DENIED),
         },
@@ -60,7 +63,11 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             1.0 => Request::EnableFence(true),
             _ => return Some(DENIED),
         },
-        n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 && c.p[0] > 0.5 => Request::Disarm { force: true },
+        n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 => match c.p[0] {
+            p if p > 0.5 => Request::Disarm { force: true },
+            0.0 => return Some(MavResult::MAV_RESULT_ACCEPTED),
+            _ => return Some(DENIED),
+        },
         n if n == M::MAV_CMD_INJECT_FAILURE as u16 => return Some(inject(c, x)),
         n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => return Some(storage::preflight(c, x)),
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),

@@ -186,6 +186,12 @@ impl Params {
         if self.whole("SPAN_STICKS") == Some(1) { Policy::LatestTakes } else { Policy::FirstKeeps }
     }
 
+    /// Speed of missions, returns and go-to, m/s.
+    #[must_use]
+    pub fn cruise_m_s(&self) -> f64 {
+        self.number("MPC_XY_CRUISE")
+    }
+
     /// What an instructor has made of the world.
     #[must_use]
     pub fn world(&self) -> World {
