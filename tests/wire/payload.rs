@@ -187,3 +187,68 @@ fn wire_every_action_of_the_ground_stations_file_is_accepted() {
         assert_eq!(result, Some(MavResult::MAV_RESULT_ACCEPTED), "{label}");
     }
 }
+
+#[test]
+fn wire_only_who_has_the_gimbal_lets_go_of_it() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let configure = |s: &mut Station, who: f32| {
+        let message = MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+            command: MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE,
+            param1: who,
+            param2: who,
+            param3: -1.0,
+            param4: -1.0,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        });
+        s.send(&message);
+    };
+    let control = |s: &mut Station| {
+        s.run_ms(2_100);
+        s.last(|m| if let MavMessage::GIMBAL_MANAGER_STATUS(g) = m { Some(g.primary_control_sysid) } else { None }).unwrap()
+    };
+    configure(&mut station, -2.0);
+    assert_eq!(control(&mut station), 255);
+    station.speak_as(254, 190);
+    configure(&mut station, -3.0);
+    assert_eq!(control(&mut station), 255, "another cannot release it");
+    station.speak_as(255, 190);
+    configure(&mut station, -3.0);
+    assert_eq!(control(&mut station), 0);
+}
+
+#[test]
+fn wire_a_single_picture_does_not_end_a_running_series() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let taken = |s: &Station| s.all(|m| matches!(m, MavMessage::CAMERA_IMAGE_CAPTURED(_)).then_some(())).len();
+    let series = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, series), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(1_500);
+    let one = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, one), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(3_000);
+    // The one, and those of three more seconds.
+    assert_eq!(taken(&station), 4);
+}
+
+#[test]
+fn wire_the_lamp_neither_dims_nor_strobes_and_the_gimbal_has_a_neutral_place() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let configure = MavCmd::MAV_CMD_DO_ILLUMINATOR_CONFIGURE;
+    for (mode, pct, result) in [(1.0, 100.0, true), (0.0, f32::NAN, true), (1.0, 30.0, false), (2.0, 100.0, false)] {
+        let answer = station.command(1, configure, [mode, pct, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(answer == MavResult::MAV_RESULT_ACCEPTED, result, "{mode} {pct}");
+    }
+    let pitch = |s: &mut Station| {
+        s.run_ms(3_000);
+        s.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2].asin()) } else { None }).unwrap()
+    };
+    let aim = |s: &mut Station, p: [f32; 7]| s.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, p);
+    let nan = f32::NAN;
+    assert_eq!(aim(&mut station, [-40.0, 0.0, nan, nan, 0.0, 0.0, 0.0]), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(pitch(&mut station) < -0.6);
+    assert_eq!(aim(&mut station, [nan, nan, nan, nan, 2.0, 0.0, 0.0]), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(pitch(&mut station).abs() < 0.05, "neutral is level");
+    assert_eq!(aim(&mut station, [nan, nan, nan, nan, 1.0, 0.0, 0.0]), MavResult::MAV_RESULT_DENIED);
+}

@@ -23,6 +23,8 @@ pub struct CameraState {
     left: Option<u32>,
     /// A picture every so many metres, and where the last one was.
     by_distance: Option<(f64, Vec3<Enu>)>,
+    /// A single picture beside a running series.
+    once: bool,
 }
 
 /// A memory card of 32 GB, MiB.
@@ -51,6 +53,10 @@ impl CameraState {
             return false;
         }
         let single = count as u32 == 1;
+        if single && self.interval_s.is_some() && self.next.is_some() {
+            self.once = true;
+            return true;
+        }
         self.interval_s = (!single).then_some(interval_s.max(LEAST_INTERVAL_S));
         self.left = (count as u32 > 0).then_some(count as u32);
         self.next = Some(now);
@@ -78,19 +84,23 @@ impl CameraState {
     /// Ends a series.
     pub fn stop(&mut self) {
         (self.interval_s, self.next, self.left, self.by_distance) = (None, None, None, None);
+        self.once = false;
     }
 
     /// True when a picture is due at `now`; call [`CameraState::take`] then.
     #[must_use]
     pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
         let far = self.by_distance.is_some_and(|(way_m, last)| (here - last).norm() >= way_m);
-        !self.full() && (far || self.next.is_some_and(|next| next <= now))
+        !self.full() && (self.once || far || self.next.is_some_and(|next| next <= now))
     }
 
     /// The picture that is due. A full card ends every series.
     pub fn take(&mut self, shot: Shot, now: SimTime, here: Vec3<Enu>) -> MavMessage {
         let message = MavMessage::CAMERA_IMAGE_CAPTURED(shot.message.clone());
         self.shots.push(shot);
+        if std::mem::take(&mut self.once) {
+            return message;
+        }
         if let Some((_, last)) = &mut self.by_distance {
             *last = here;
         }

@@ -1,15 +1,13 @@
-//! The drone's lamp.
+//! The drone's lamp: on or off.
 
-/// On or off, and how bright.
+/// On or off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LampState {
     /// Shines.
     pub on: bool,
-    /// Brightness, %.
-    pub brightness_pct: f64,
 }
 
 impl LampState {
     /// Dark.
-    pub const OFF: Self = Self { on: false, brightness_pct: 100.0 };
+    pub const OFF: Self = Self { on: false };
 }

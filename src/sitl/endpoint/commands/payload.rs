@@ -11,6 +11,9 @@ use crate::mav::dialect::{MavCmd, MavResult};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
+/// GIMBAL_MANAGER_FLAGS_RETRACT and _NEUTRAL; this gimbal does not retract.
+const RETRACT: u32 = 1;
+const NEUTRAL: u32 = 2;
 
 /// What a command does to the payload.
 type Act = fn(&Command, &View, &mut Payload) -> MavResult;
@@ -39,7 +42,7 @@ const MOUNTED: &[(MavCmd, Act)] = &[
     (MavCmd::MAV_CMD_DO_SET_ROI, roi),
     (MavCmd::MAV_CMD_DO_SET_ROI_NONE, |c, v, p| aim(Aim::Angle(0.0), c, v, p)),
     (MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, |c, v, p| lamp(c.p[0], v, p)),
-    (MavCmd::MAV_CMD_DO_ILLUMINATOR_CONFIGURE, |c, _, p| brightness(c, p)),
+    (MavCmd::MAV_CMD_DO_ILLUMINATOR_CONFIGURE, |c, _, _| brightness(c)),
     (MavCmd::MAV_CMD_DO_SET_RELAY, |c, v, p| if c.p[0] == 0.0 { lamp(c.p[1], v, p) } else { DENIED }),
     (MavCmd::MAV_CMD_DO_SET_ACTUATOR, |c, v, p| match c.given(0) {
         Some(value) => lamp(if value > 0.0 { 1.0 } else { 0.0 }, v, p),
@@ -80,6 +83,13 @@ fn pitch_yaw(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
     if !(c.p[6] == 0.0 || c.p[6] == f64::from(DEVICE)) {
         return DENIED;
     }
+    let flags = c.given(4).map_or(0, |flags| flags as u32);
+    if flags & RETRACT != 0 {
+        return DENIED;
+    }
+    if flags & NEUTRAL != 0 {
+        return aim(Aim::Angle(0.0), c, view, payload);
+    }
     match (c.given(0), c.given(2)) {
         (Some(pitch), _) => aim(Aim::Angle(pitch.to_radians()), c, view, payload),
         (None, Some(rate)) => aim(Aim::Rate(rate.to_radians()), c, view, payload),
@@ -93,7 +103,8 @@ fn configure(c: &Command, payload: &mut Payload) -> MavResult {
     let chosen = |system: f64, component: f64, now: (u8, u8)| match system {
         -1.0 => Some(now),
         -2.0 => Some(c.from),
-        -3.0 => Some((0, 0)),
+        // Only who has it can let go of it.
+        -3.0 => Some(if now == c.from { (0, 0) } else { now }),
         id if (0.0..=255.0).contains(&id) => Some((id as u8, component.clamp(0.0, 255.0) as u8)),
         _ => None,
     };
@@ -142,13 +153,9 @@ fn lamp(value: f64, view: &View, payload: &mut Payload) -> MavResult {
     ACCEPTED
 }
 
-/// Mode in parameter 1, brightness in per cent in parameter 2; strobing is not fitted.
-fn brightness(c: &Command, payload: &mut Payload) -> MavResult {
-    match c.given(1) {
-        Some(pct) if (0.0..=100.0).contains(&pct) => {
-            payload.lamp.brightness_pct = pct;
-            ACCEPTED
-        }
-        _ => DENIED,
-    }
+/// Mode in parameter 1 (0 and 1 leave it as it is), brightness in per cent in parameter 2: this lamp is on or off, it neither dims nor
+/// strobes, and the light of a picture is judged by that.
+fn brightness(c: &Command) -> MavResult {
+    let mode = matches!(c.given(0), None | Some(0.0 | 1.0));
+    verdict(mode && matches!(c.given(1), None | Some(100.0)))
 }

@@ -56,6 +56,10 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let [_, _, name, value, kind] = fields[..] else {
         return Err(format!("{} fields, tab-separated (allowed: vehicle, component, name, value, type)", fields.len()));
     };
+    // A name of another vehicle, whatever its type.
+    if params.range(name).is_none() {
+        return Ok(());
+    }
     let no_number = |allowed| format!("{name} = '{value}' is no number (allowed: {allowed})");
     let (wire, real) = match kind {
         REAL32 => (value.parse().map_err(|_| no_number("a real number"))?, true),
@@ -94,7 +98,7 @@ mod tests {
     #[test]
     fn exact_every_wrong_line_is_named_and_nothing_is_set() {
         let mut before = params();
-        let text = "# a comment\n1\t1\tMIS_TAKEOFF_ALT\t900\t9\n1\t1\tGF_ACTION\tmuch\t6\n1\t1\tOTHER_VEHICLE\t1\t6\n1\t1\n1\t1\tGF_ACTION\t1\t2\n1\t1\tNAV_ACC_RAD\t3\t9\n";
+        let text = "# a comment\n1\t1\tMIS_TAKEOFF_ALT\t900\t9\n1\t1\tGF_ACTION\tmuch\t6\n1\t1\tOTHER_VEHICLE\t1\t2\n1\t1\n1\t1\tGF_ACTION\t1\t2\n1\t1\tNAV_ACC_RAD\t3\t9\n";
         let problems = read(&mut before, text).unwrap_err();
         let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
         assert_eq!(told.len(), 4, "{told:?}");

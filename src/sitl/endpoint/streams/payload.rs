@@ -153,7 +153,7 @@ pub(super) fn lamp(v: &View) -> Option<MavMessage> {
     Some(MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA {
         uptime_ms: v.boot_ms(),
         error_status: IlluminatorErrorFlags::empty(),
-        brightness: v.lamp.brightness_pct as f32,
+        brightness: 100.0,
         temp_c: f32::NAN,
         min_strobe_period: f32::NAN,
         max_strobe_period: f32::NAN,
