@@ -126,3 +126,50 @@ fn wire_a_reboot_on_the_ground_keeps_parameters_and_plans_and_is_refused_in_flig
         "the plan is still there"
     );
 }
+
+#[test]
+fn flight_a_turn_by_command_leaves_the_mission_flying() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let home = home_north(&station);
+    let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 60.0, 8.0)];
+    let turn = [90.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+    station.sticks(0, 0, 500, 0);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, turn), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "by hand");
+    assert_eq!(upload(&mut station, &plan), ACCEPTED);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(3_000);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, turn), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(5_000);
+    assert_eq!(station.mode(), Some(4 << 24 | 4 << 16));
+    assert!(off(yaw(&station), std::f32::consts::FRAC_PI_2) < YAW_TOLERANCE, "{}", yaw(&station));
+}
+
+/// A home over home: the height that is given counts from where home is.
+#[test]
+fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
+    let mut station = ready(7);
+    let home_mm = |s: &mut Station| {
+        s.run_ms(2_100);
+        s.last(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.altitude) } else { None }).unwrap()
+    };
+    let before = home_mm(&mut station);
+    let there = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0);
+    let set = |s: &mut Station, frame: MavFrame, z: f32| {
+        s.heard.clear();
+        s.send(&MavMessage::COMMAND_INT(COMMAND_INT_DATA {
+            command: MavCmd::MAV_CMD_DO_SET_HOME,
+            frame,
+            x: there.x,
+            y: there.y,
+            z,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        }));
+        s.run_ms(5);
+        s.last(|m| if let MavMessage::COMMAND_ACK(ack) = m { Some(ack.result) } else { None }).unwrap()
+    };
+    assert_eq!(set(&mut station, MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT, 3.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!((home_mm(&mut station) - before - 3_000).abs() < 50);
+    assert_eq!(set(&mut station, MavFrame::MAV_FRAME_LOCAL_NED, 3.0), MavResult::MAV_RESULT_DENIED);
+}

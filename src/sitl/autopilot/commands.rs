@@ -18,6 +18,7 @@ impl Autopilot {
             Request::Takeoff { height_m } => self.request_takeoff(height_m, now),
             Request::Land => self.set_mode(Mode::Land, now),
             Request::GoTo { north_east_m, up_m, yaw_rad, speed_m_s } => self.go_to(north_east_m, up_m, yaw_rad, speed_m_s, now),
+            Request::Turn { yaw_rad } => self.turn_by_command(yaw_rad),
             Request::StartMission { first } => self.start_mission(first, now),
             Request::SetSpeed(speed) => self.set_speed(speed),
             Request::SetHome(home) => self.set_home(home),
@@ -121,7 +122,7 @@ impl Autopilot {
             return Outcome::Denied("Take-off height out of range".into());
         }
         let home_up = self.status.home_m.map_or(0.0, |h| -h.down());
-        self.course.takeoff_up_m = Some(home_up + height_m.unwrap_or(self.tuning.takeoff_height_m));
+        let before = self.course.takeoff_up_m.replace(home_up + height_m.unwrap_or(self.tuning.takeoff_height_m));
         let up = -self.estimate.position_m.down();
         let in_air = self.status.armed && self.status.landed != Landed::OnGround;
         if in_air && self.course.takeoff_up_m.is_some_and(|wanted| up >= wanted) {
@@ -129,6 +130,9 @@ impl Autopilot {
             return self.set_mode(Mode::Hold, now);
         }
         let outcome = self.set_mode(Mode::Takeoff, now);
+        if outcome != Outcome::Accepted {
+            self.course.takeoff_up_m = before;
+        }
         if self.status.mode == Mode::Takeoff {
             self.enter(Mode::Takeoff, now);
         }
@@ -169,6 +173,16 @@ impl Autopilot {
         self.course.target_m = Vec3::new(n, e, up_m.map_or(held.down(), |u| -u));
         self.course.target_yaw_rad = yaw_rad;
         self.course.speed_m_s = Some(speed_m_s.filter(|s| *s > 0.0).unwrap_or(self.tuning.cruise_m_s));
+        Outcome::Accepted
+    }
+
+    /// The mode stays: a mission flies on, a person keeps the sticks.
+    fn turn_by_command(&mut self, yaw_rad: f64) -> Outcome {
+        let automatic = matches!(self.status.mode, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Mission);
+        if !self.status.armed || self.status.landed == Landed::OnGround || !automatic {
+            return Outcome::TemporarilyRejected("Not flying by itself".into());
+        }
+        self.course.target_yaw_rad = Some(yaw_rad);
         Outcome::Accepted
     }
 

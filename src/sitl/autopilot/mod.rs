@@ -100,6 +100,11 @@ pub enum Request {
         /// Ground speed, m/s.
         speed_m_s: Option<f64>,
     },
+    /// Turn to a heading in the automatic mode that is flown, rad.
+    Turn {
+        /// Heading.
+        yaw_rad: f64,
+    },
     /// Start or go on with the mission at an item.
     StartMission {
         /// First item, or `None` to go on.

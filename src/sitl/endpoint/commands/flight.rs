@@ -154,12 +154,21 @@ fn standard_mode(c: &Command) -> Option<Mode> {
     px4::MODES.iter().find(|row| row.standard as u32 == wanted).map(|row| row.mode)
 }
 
+/// Whether a command's height counts from home; `None` for a frame that is no place over the ground.
+fn over_home(c: &Command) -> Option<bool> {
+    match c.frame {
+        0 | 5 => Some(false),
+        3 | 6 | 10 | 11 => Some(true),
+        _ => None,
+    }
+}
+
 /// Height over home: parameter 7 is over the sea; not given or too near the ground, the parameter's height.
 fn take_off_height(c: &Command, x: &Context) -> Result<Option<f64>, ()> {
     const LOWEST_M: f64 = 0.5;
     const HIGHEST_M: f64 = 500.0;
     let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
-    let relative = matches!(c.frame, 3 | 6 | 10 | 11);
+    let relative = over_home(c).ok_or(())?;
     let Some(z) = c.given(6) else { return Ok(None) };
     let height_m = if relative { z } else { z - x.view.plane.origin().altitude_m - home_up };
     if height_m > HIGHEST_M { Err(()) } else { Ok(Some(height_m).filter(|h| *h >= LOWEST_M)) }
@@ -168,7 +177,8 @@ fn take_off_height(c: &Command, x: &Context) -> Result<Option<f64>, ()> {
 fn reposition(c: &Command, x: &Context) -> Option<Request> {
     let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
     let origin = x.view.plane.origin();
-    let up_m = c.given(6).map(|z| if matches!(c.frame, 3 | 6 | 10 | 11) { home_up + z } else { z - origin.altitude_m });
+    let relative = over_home(c)?;
+    let up_m = c.given(6).map(|z| if relative { home_up + z } else { z - origin.altitude_m });
     let north_east_m = match (c.given(4), c.given(5)) {
         (Some(lat), Some(lon)) => {
             if lat.abs() > 90.0 || lon.abs() > 180.0 {
@@ -200,8 +210,7 @@ fn turn(c: &Command, x: &Context) -> Option<Request> {
     let relative = c.is_one(3);
     let signed = if c.p[2] < 0.0 { -angle } else { angle };
     let now = x.view.estimate.attitude.yaw_rad();
-    let yaw_rad = Some(if relative { now + signed } else { angle });
-    Some(Request::GoTo { north_east_m: None, up_m: None, yaw_rad, speed_m_s: None })
+    Some(Request::Turn { yaw_rad: if relative { now + signed } else { angle } })
 }
 
 fn home(c: &Command, x: &Context) -> Option<Request> {
@@ -209,6 +218,8 @@ fn home(c: &Command, x: &Context) -> Option<Request> {
         return x.view.estimate.position_valid.then_some(Request::SetHome(x.view.estimate.position_m));
     }
     let (lat, lon, alt) = (c.given(4)?, c.given(5)?, c.given(6)?);
+    let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
+    let alt = if over_home(c)? { x.view.plane.origin().altitude_m + home_up + alt } else { alt };
     let geo = crate::mav::units::geo(crate::mav::units::deg_e7(lat), crate::mav::units::deg_e7(lon), alt)?;
     let local = x.view.plane.enu_from_geo(geo);
     (local.norm() < 20_000.0).then(|| Request::SetHome(local.ned()))
