@@ -1,6 +1,7 @@
 //! Arguments that several subcommands share, with their ranges.
 
 use super::clock;
+use crate::scenario::Scenario;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
 use std::str::FromStr;
 
@@ -19,6 +20,13 @@ pub struct JobArgs {
     /// Seed for everything random (defects, traffic, gusts, sensor noise), 0 to 2147483647 [default: the scenario's, else a new one]
     #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
+}
+
+impl JobArgs {
+    /// The seed asked for, else the scenario's, else a new one.
+    pub fn seed_for(&self, scenario: &Scenario) -> u64 {
+        self.seed.or(scenario.seed).unwrap_or_else(fresh_seed)
+    }
 }
 
 /// Reads a seed.

@@ -5,7 +5,7 @@ use super::files;
 use super::session_folder::Stored;
 use super::table;
 use crate::monitor::watch::build_site;
-use crate::monitor::{Graded, assess_log, export};
+use crate::monitor::{AssessError, Graded, assess_log, export};
 use crate::scenario::Scenario;
 use crate::vehicle::Vehicle;
 use serde_json::json;
@@ -56,7 +56,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// # Errors
 /// When there is nothing to score.
 pub fn grade(log: &[u8], scenario: &Scenario, vehicle: &Vehicle) -> Result<Graded, AppError> {
-    assess_log(log, scenario, vehicle, build_site).map_err(|error| AppError::failed(error.to_string()))
+    assess_log(log, scenario, vehicle, build_site).map_err(|error| match error {
+        AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
+            AppError::wrong(format!("{error}: score the log against the scenario that was flown"))
+        }
+        _ => AppError::failed(error.to_string()),
+    })
 }
 
 fn inputs(args: &Args) -> Result<(Scenario, Vehicle, Vec<u8>), AppError> {

@@ -101,9 +101,36 @@ fn look(source: &Source, aircraft: &Vehicle, findings: &mut Findings) {
     }
 }
 
-/// A vehicle file names a mass at its top; a scenario never does.
+/// What only vehicle files, and what only scenarios say at their top: whatever one of them lacks, the rest tells which it is.
+const OF_VEHICLES: [&str; 10] =
+    ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
+const OF_SCENARIOS: [&str; 13] = [
+    "title",
+    "seed",
+    "origin",
+    "terrain",
+    "ground_team",
+    "bridges",
+    "tasks",
+    "defects",
+    "traffic",
+    "wind",
+    "light",
+    "rules",
+    "scoring",
+];
+
 fn is_vehicle(text: &str) -> bool {
-    text.lines().take_while(|line| !line.trim_start().starts_with('[')).any(|line| line.trim_start().starts_with("mass_kg"))
+    let mut in_table = false;
+    let words = text.lines().filter_map(|line| {
+        let line = line.trim();
+        let head = line.starts_with('[');
+        in_table |= head;
+        let word = line.trim_start_matches(['[', ' ']).split(['.', ']', '=', ' ', '\t']).next();
+        word.filter(|_| head || !in_table)
+    });
+    let weigh = |word: &str| i32::from(OF_VEHICLES.contains(&word)) - i32::from(OF_SCENARIOS.contains(&word));
+    words.map(weigh).sum::<i32>() > 0
 }
 
 fn too_tight(source: &Source, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {

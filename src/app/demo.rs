@@ -35,6 +35,9 @@ pub struct Args {
     job: JobArgs,
     #[command(flatten)]
     skill: SkillArgs,
+    /// Whom the session is recorded for: letters, digits, '-' and '_', at most 32 [default: synthetic-SKILL]
+    #[arg(long, value_name = "ID")]
+    trainee: Option<args::TraineeId>,
     /// So many times real time (0.1 to 100), or max
     #[arg(long, value_name = "X|max", default_value = "5")]
     speed: Speed,
@@ -51,10 +54,10 @@ pub struct Args {
 /// # Errors
 /// When files are wrong, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
-    files::scenario(&args.job.scenario)?;
+    let scenario = files::scenario(&args.job.scenario)?.scenario;
     files::vehicle(&args.job.vehicle)?;
     let stop = Stop::install(false)?;
-    let seed = args.job.seed.unwrap_or_else(args::fresh_seed);
+    let seed = args.job.seed_for(&scenario);
     let job = JobArgs { seed: Some(seed), ..args.job.clone() };
     let quiet = if log == tracing::Level::INFO { tracing::Level::WARN } else { log };
     let mut monitor = Child::start("monitor", &[train::common(&job, log), monitor_args(args)].concat())?;
@@ -80,7 +83,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
 }
 
 fn monitor_args(args: &Args) -> Vec<String> {
-    let trainee = format!("synthetic-{}", args.skill.skill);
+    let trainee = args.trainee.as_ref().map_or_else(|| format!("synthetic-{}", args.skill.skill), |id| id.as_str().to_owned());
     ["--sessions", &args.sessions.display().to_string(), "--trainee", &trainee, "--port", "0"].map(str::to_owned).to_vec()
 }
 

@@ -5,6 +5,7 @@ use super::clock::{self, Stopwatch};
 use super::errors::{AppError, EXIT_CODES};
 use super::files::{self, ScenarioFile, VehicleFile};
 use super::net::{Arrival, Hub, SocketId};
+use super::pace::Speed;
 use super::progress::Progress;
 use super::session_folder::{SessionFolder, Stored};
 use super::stop::Stop;
@@ -50,6 +51,9 @@ pub struct Args {
     /// Who flies: letters, digits, '-' and '_', at most 32
     #[arg(long, value_name = "ID", default_value = "anonymous")]
     trainee: TraineeId,
+    /// Taken as by train and demo, and without effect: the monitor's clock is the telemetry's, at whatever speed it comes
+    #[arg(long, value_name = "X|max")]
+    speed: Option<Speed>,
     /// Go on in this session folder, whose monitor was killed (scenario, vehicle and trainee come from there)
     #[arg(long, value_name = "DIR")]
     session: Option<PathBuf>,

@@ -95,12 +95,12 @@ pub struct Args {
 /// When files or ports are wrong, the vehicle never answers or vanishes, or the flight could not begin.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = Stop::install(args.leash)?;
-    let seed = args.job.seed.unwrap_or_else(args::fresh_seed);
+    let scenario = files::scenario(&args.job.scenario)?.scenario;
     let config = PilotConfig {
-        scenario: Arc::new(files::scenario(&args.job.scenario)?.scenario),
+        seed: args.job.seed_for(&scenario),
+        scenario: Arc::new(scenario),
         vehicle: Arc::new(files::vehicle(&args.job.vehicle)?.vehicle),
         skill: args.skill.skill()?,
-        seed,
     };
     let mut hub = Hub::new();
     let socket = hub.bind(args.listen, args.port.unwrap_or(0), "--port")?;

@@ -70,7 +70,7 @@ impl SessionFolder {
         Self::open(path, scenario.text.clone(), vehicle.text.clone(), readable, 1)
     }
 
-    /// Opens a folder in which a monitor was killed; the telemetry is cut to whole records.
+    /// Opens a folder in which a monitor was killed; telemetry and events are cut to whole records and lines.
     ///
     /// # Errors
     /// When it is no session folder or cannot be written.
@@ -80,6 +80,10 @@ impl SessionFolder {
         let folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
         let whole = u64::try_from(tlog::whole_len(&stored.log)).unwrap_or(u64::MAX);
         folder.telemetry.set_len(whole).map_err(|error| cannot(&path.join(TELEMETRY), &error))?;
+        let events_path = path.join(EVENTS);
+        let events = std::fs::read(&events_path).map_err(|error| cannot(&events_path, &error))?;
+        let lines = events.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+        folder.events.set_len(u64::try_from(lines).unwrap_or(u64::MAX)).map_err(|error| cannot(&events_path, &error))?;
         Ok(folder)
     }
 
@@ -157,29 +161,50 @@ impl SessionFolder {
 }
 
 impl Stored {
-    /// Reads a session folder.
+    /// Reads a session folder. The log and the two TOMLs are the source; without `session.json` the folder's name tells the trainee.
     ///
     /// # Errors
-    /// When a file is missing or wrong.
+    /// When one of these is missing or a file is wrong.
     pub fn read(path: &Path) -> Result<Self, AppError> {
         if !path.join(TELEMETRY).is_file() {
             return Err(AppError::wrong(format!("{}: is no session folder (it has no {TELEMETRY})", path.display())));
         }
-        let session = files::read(&path.join(SESSION))?;
-        let session: serde_json::Value = serde_json::from_str(&session)
-            .map_err(|error| AppError::wrong(format!("{}: line {}: {error}", path.join(SESSION).display(), error.line())))?;
-        let text = |key: &str| session.get(key).and_then(serde_json::Value::as_str).unwrap_or_default().to_owned();
-        let number = |key: &str| session.get(key).and_then(serde_json::Value::as_u64).unwrap_or_default();
+        let session = described(&path.join(SESSION))?;
+        let text = |key: &str| session.get(key).and_then(serde_json::Value::as_str).map(str::to_owned);
+        let number = |key: &str| session.get(key).and_then(serde_json::Value::as_u64);
         let log_path = path.join(TELEMETRY);
+        let log = std::fs::read(&log_path).map_err(|error| cannot_read(&log_path, &error))?;
+        let scenario = files::scenario(&path.join(SCENARIO).display().to_string())?;
+        let vehicle_path = path.join(VEHICLE);
         Ok(Self {
-            scenario: files::scenario(&path.join(SCENARIO).display().to_string())?,
-            vehicle: files::vehicle_named(&path.join(VEHICLE), &text("vehicle"))?,
-            log: std::fs::read(&log_path).map_err(|error| cannot(&log_path, &error))?,
-            trainee: text("trainee"),
-            started_unix_us: number("started_unix_us"),
-            starts: u32::try_from(number("monitor_starts")).unwrap_or(u32::MAX - 1),
+            vehicle: match text("vehicle") {
+                Some(id) => files::vehicle_named(&vehicle_path, &id)?,
+                None => files::vehicle(&vehicle_path.display().to_string())?,
+            },
+            trainee: text("trainee").or_else(|| trainee_of(path, &scenario.scenario.name)).unwrap_or_default(),
+            started_unix_us: number("started_unix_us").or_else(|| tlog::session_start_us(&log)).unwrap_or_default(),
+            starts: u32::try_from(number("monitor_starts").unwrap_or_default()).unwrap_or(u32::MAX - 1),
+            scenario,
+            log,
         })
     }
+}
+
+/// `session.json`, null when there is none.
+fn described(path: &Path) -> Result<serde_json::Value, AppError> {
+    if !path.is_file() {
+        return Ok(serde_json::Value::Null);
+    }
+    serde_json::from_str(&files::read(path)?)
+        .map_err(|error| AppError::wrong(format!("{}: line {}: {error}", path.display(), error.line())))
+}
+
+/// The trainee in `<utc>-<trainee>-<scenario>-<short id>`.
+fn trainee_of(path: &Path, scenario: &str) -> Option<String> {
+    let name = path.file_name()?.to_str()?;
+    let (_, rest) = name.split_once('-')?;
+    let (rest, _) = rest.rsplit_once('-')?;
+    Some(rest.strip_suffix(scenario)?.strip_suffix('-')?.to_owned())
 }
 
 /// A folder of its own even when two sessions start in the same second.
@@ -200,6 +225,10 @@ fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathB
 fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
     let beside = path.with_extension("new");
     std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path)).map_err(|error| cannot(path, &error))
+}
+
+fn cannot_read(path: &Path, error: &std::io::Error) -> AppError {
+    AppError::wrong(format!("{}: cannot be read: {error}", path.display()))
 }
 
 fn cannot(path: &Path, error: &std::io::Error) -> AppError {

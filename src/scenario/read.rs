@@ -334,22 +334,25 @@ fn feedback(r: &mut Reader, root: &mut Section) -> Feedback {
 fn scoring(r: &mut Reader, root: &mut Section) -> Scoring {
     let mut s = r.section(root, "scoring");
     let mut n = |key: &'static str, range: (f64, f64), default: f64| r.number(&mut s, key, range, Some(default));
+    let frame_rate_hz = n("frame_rate_hz", (10.0, 120.0), 30.0);
+    let (speed_limit_mph, max_speed_mph) = (n("speed_limit_mph", (1.0, 60.0), 10.0), n("max_speed_mph", (2.0, 100.0), 30.0));
+    let (time_best_min, time_max_min) = (n("time_best_min", (0.1, 120.0), 15.0), n("time_max_min", (0.2, 240.0), 25.0));
     let scoring = Scoring {
-        frame_rate_hz: n("frame_rate_hz", (10.0, 120.0), 30.0),
-        speed_limit_m_s: n("speed_limit_mph", (1.0, 60.0), 10.0) * M_S_PER_MPH,
-        max_speed_m_s: n("max_speed_mph", (2.0, 100.0), 30.0) * M_S_PER_MPH,
-        time_best_s: 60.0 * n("time_best_min", (0.1, 120.0), 15.0),
-        time_max_s: 60.0 * n("time_max_min", (0.2, 240.0), 25.0),
+        frame_rate_hz,
+        speed_limit_m_s: speed_limit_mph * M_S_PER_MPH,
+        max_speed_m_s: max_speed_mph * M_S_PER_MPH,
+        time_best_s: 60.0 * time_best_min,
+        time_max_s: 60.0 * time_max_min,
         beta: n("beta", (0.0, f64::INFINITY), 1.0),
         clearance_m: n("clearance_m", (0.1, 20.0), 2.0),
         exact_path: r.flag(&mut s, "exact_path", false),
     };
-    for (wrong, key, allowed) in [
-        (scoring.max_speed_m_s <= scoring.speed_limit_m_s, "max_speed_mph", "more than speed_limit_mph"),
-        (scoring.time_max_s <= scoring.time_best_s, "time_max_min", "more than time_best_min"),
+    for (least, value, key, than) in [
+        (speed_limit_mph, max_speed_mph, "max_speed_mph", "speed_limit_mph"),
+        (time_best_min, time_max_min, "time_max_min", "time_best_min"),
     ] {
-        if wrong {
-            r.complain(&s, key, "", allowed, "too small");
+        if value <= least {
+            r.complain(&s, key, &value.to_string(), &format!("more than {than}, which is {least}"), "too small");
         }
     }
     r.finish(&s);

@@ -177,7 +177,8 @@ impl Timeline {
         if header.sender.1 == MONITOR_COMPONENT || frame.len() < header.payload_end + 2 {
             return Pushed::Nothing;
         }
-        let sample = sample::read(frame, &self.plane);
+        // Other systems' words are routed here too; once the vehicle is known they are nothing to the flight.
+        let sample = sample::read(frame, &self.plane).filter(|s| self.system.is_none_or(|system| system == s.sender.0));
         let checksum = u16::from_le_bytes([frame[header.payload_end], frame[header.payload_end + 1]]);
         let ahead =
             matches!(sample.map(|s| s.said), Some(Said::Truth(truth)) if self.newest.is_none_or(|newest| truth.time > newest));

@@ -192,3 +192,50 @@ fn exact_cues_are_repeated_at_five_hertz() {
     }
     assert_eq!(count, 50);
 }
+
+#[test]
+fn exact_too_close_is_told_below_the_pads_height_too() {
+    // The pier of the paper's job is circled 2 m lower than the pad lies.
+    let mut watch = Watch::of(one_task());
+    watch.tape.fly((30.0, 0.0, 10.0), 10.0);
+    watch.tape.fly((30.0, 0.0, -2.0), 4.0);
+    watch.tape.clearance(2.0);
+    watch.tape.hold(0.1);
+    watch.run();
+    assert!(watch.has(cue::TOO_CLOSE));
+    assert_eq!(watch.texts.last().unwrap(), "Too close: 2.0 m");
+}
+
+#[test]
+fn exact_a_drone_that_comes_down_on_its_pad_is_not_too_close() {
+    let mut watch = Watch::airborne();
+    watch.tape.fly((0.0, 0.0, 0.2), 4.0);
+    watch.tape.clearance(0.2);
+    watch.tape.hold(0.1);
+    watch.run();
+    assert!(!watch.has(cue::TOO_CLOSE));
+}
+
+#[test]
+fn exact_a_person_hit_is_told_even_right_after_another_bump() {
+    let mut watch = Watch::airborne();
+    for code in [1, 5] {
+        watch.tape.contact(code);
+        watch.tape.hold(0.1);
+    }
+    watch.run();
+    assert_eq!(watch.texts, ["Crash: fence", "Crash: person"]);
+}
+
+#[test]
+fn exact_texts_go_on_after_the_simulator_starts_anew_on_the_ground() {
+    let mut watch = Watch { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
+    for seconds in [20.0, 0.2] {
+        watch.tape.hold(seconds);
+        watch.tape.battery(60);
+        watch.tape.hold(2.0);
+        watch.run();
+        watch.tape = Tape::new();
+    }
+    assert_eq!(watch.texts, ["Battery 60 %", "Battery 60 %"]);
+}

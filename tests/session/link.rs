@@ -132,3 +132,28 @@ fn exact_an_empty_log_and_one_without_a_flight_are_named() {
     parked.hold(3.0);
     assert_eq!(refused(&parked.log(0)), AssessError::NeverFlown);
 }
+
+#[test]
+fn exact_what_other_systems_say_does_not_touch_the_session() {
+    use spandrel::mav::codec::Encoder;
+    use spandrel::mav::dialect::*;
+    let mut monitor = crate::live::monitor_of(one_task());
+    let tape = clean_flight();
+    let mut stranger = Encoder::new(255, 190);
+    let int = |name: &str, value| MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: 0, value, name: name.into() });
+    let truth = MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
+        attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
+        ..HIL_STATE_QUATERNION_DATA::default()
+    });
+    let words = [int("seed", 99), int("scn_crc", 1), int("contact", 5), truth.clone(), truth.clone(), truth];
+    for (k, datagram) in tape.datagrams.iter().enumerate() {
+        monitor.handle_datagram(datagram);
+        if k == tape.datagrams.len() / 2 {
+            words.iter().for_each(|word| monitor.handle_datagram(&stranger.encode(word)));
+            assert_eq!((monitor.refused(), monitor.cues()), (None, 0));
+        }
+    }
+    let outcome = monitor.finished().expect("landed").clone().expect("scored");
+    assert_eq!(outcome.assessment.end.reason, spandrel::monitor::session::EndReason::Landed);
+    assert_eq!((monitor.link().restarts, outcome.frames.len()), (0, grade(&tape.datagrams).frames.len()));
+}

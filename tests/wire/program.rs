@@ -101,3 +101,69 @@ fn wire_help_of_every_subcommand_has_examples_and_exit_codes() {
         assert!(out.contains("Examples:") && out.contains("Exit codes:"), "{subcommand}");
     }
 }
+
+#[test]
+fn wire_a_vehicle_file_is_read_as_one_whatever_it_lacks() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("drone.toml");
+    std::fs::write(&path, include_str!("../../vehicle-params/phantom2.toml").replace("\nmass_kg", "\nmas_kg")).unwrap();
+    let (code, out, _) = told(&spandrel(&["check", &path.display().to_string()]));
+    assert_eq!(code, Some(2));
+    assert!(out.lines().all(|line| line.contains("mas")) && out.contains("mass_kg: missing"), "{out}");
+}
+
+#[test]
+fn wire_what_does_not_fit_other_keys_is_told_with_its_value() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("job.toml");
+    let limits = "[scoring]\nspeed_limit_mph = 20.0\nmax_speed_mph = 15.0\ntime_best_min = 30.0\n";
+    std::fs::write(&path, format!("{}\n{limits}", include_str!("../../scenarios/drill-hover.toml"))).unwrap();
+    let (code, out, _) = told(&spandrel(&["check", &path.display().to_string()]));
+    assert_eq!(code, Some(2));
+    assert!(out.contains("max_speed_mph = 15") && out.contains("time_max_min = 25"), "{out}");
+}
+
+#[test]
+fn wire_a_demo_keeps_the_scenarios_seed_and_its_folder_stands_without_what_can_be_made_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let job = folder.path().join("job.toml");
+    std::fs::write(&job, format!("seed = 5\n{}", include_str!("../../scenarios/drill-landing.toml"))).unwrap();
+    let (job, sessions) = (job.display().to_string(), folder.path().join("sessions"));
+    let place = sessions.display().to_string();
+    let demo = ["demo", "--scenario", &job, "--speed", "max", "--sessions", &place, "--trainee", "anna-b", "--log", "warn"];
+    let (code, _, err) = told(&spandrel(&demo));
+    assert_eq!(code, Some(0), "{err}");
+    let session = std::fs::read_dir(&sessions).unwrap().next().unwrap().unwrap().path();
+    let described = |key: &str| -> serde_json::Value {
+        let text = std::fs::read_to_string(session.join("session.json")).unwrap();
+        serde_json::from_str::<serde_json::Value>(&text).unwrap()[key].clone()
+    };
+    assert_eq!((described("seed"), described("trainee")), (5.into(), "anna-b".into()));
+
+    // The log and the two TOMLs are the source.
+    let live = std::fs::read_to_string(session.join("assessment.json")).unwrap();
+    let started = described("started_utc");
+    ["session.json", "assessment.json"].iter().for_each(|name| std::fs::remove_file(session.join(name)).unwrap());
+    let at = session.display().to_string();
+    let (code, again, err) = told(&spandrel(&["assess", &at, "--json", "-"]));
+    assert_eq!((code, again == live), (Some(0), true), "{err}");
+
+    // A monitor was killed while it wrote its last event.
+    let events = session.join("events.jsonl");
+    let whole = std::fs::read_to_string(&events).unwrap();
+    std::fs::write(&events, format!("{whole}{{\"t_s\":1")).unwrap();
+    let (code, _, err) = told(&spandrel(&["monitor", "--session", &at, "--port", "0", "--speed", "max"]));
+    assert_eq!(code, Some(0), "{err}");
+    let after = std::fs::read_to_string(&events).unwrap();
+    assert!(
+        after.starts_with(&whole) && after.lines().all(|line| serde_json::from_str::<serde_json::Value>(line).is_ok()),
+        "{after}"
+    );
+    assert_eq!((described("trainee"), described("started_utc")), ("anna-b".into(), started));
+    assert_eq!(std::fs::read_to_string(session.join("assessment.json")).unwrap(), live);
+
+    let log = session.join("telemetry.tlog").display().to_string();
+    let (code, _, err) = told(&spandrel(&["assess", &log, "--scenario", "drill-hover", "--vehicle", "phantom2"]));
+    assert_eq!(code, Some(2), "{err}");
+    assert!(err.contains("another scenario"), "{err}");
+}

@@ -24,6 +24,10 @@ impl Crash {
         let contact = if moment.in_session { moment.contact } else { Contact::None };
         let worse = contact.severity() > self.before.severity();
         self.before = contact;
+        // A person or a vehicle is no chatter of the bump before.
+        if worse && matches!(contact, Contact::Person | Contact::Vehicle) {
+            self.cool_down = CoolDown::default();
+        }
         if contact != Contact::None {
             self.last = Some(moment.time);
         }

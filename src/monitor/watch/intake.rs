@@ -6,7 +6,7 @@ use crate::base::time::SimTime;
 use crate::mav::codec::Received;
 use crate::mav::dialect::MavSeverity;
 use crate::monitor::assessment::{self, AssessError, Graded, Job};
-use crate::monitor::feedback::Feedback;
+use crate::monitor::feedback::{Feedback, texts::Texts};
 use crate::monitor::measures::crash::may_touch_pad;
 use crate::monitor::session::{EndReason, Moment as EndMoment, lift_off_height_m};
 use crate::telemetry::frame::GAP_AFTER;
@@ -43,6 +43,7 @@ impl Monitor {
         }
         self.live = Live::new(&self.config);
         self.feedback = Feedback::new(&self.config.scenario);
+        self.texts = Texts::default();
         self.heartbeat_sim = None;
         self.note(sample, None);
     }

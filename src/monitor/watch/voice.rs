@@ -50,7 +50,7 @@ impl Monitor {
         Moment {
             time: truth.time,
             in_session,
-            airborne: !self.live.on_ground && self.height_m(truth.position_m) > lift_off_height_m(&self.config.vehicle),
+            airborne: !self.live.on_ground && !self.is_down_at_home(truth),
             speed_m_s: truth.velocity_m_s.norm(),
             battery_pct: self.live.battery_pct,
             clearance_m: self.live.clearance_m,
@@ -60,6 +60,13 @@ impl Monitor {
             on: self.live.on,
             last: self.live.last_task,
         }
+    }
+
+    /// Low over the pad. Elsewhere the pad's height says nothing: a job may be flown lower than it lies.
+    fn is_down_at_home(&self, truth: &Truth) -> bool {
+        let team = &self.config.scenario.ground_team;
+        let at_home = (truth.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
+        at_home && self.height_m(truth.position_m) <= lift_off_height_m(&self.config.vehicle)
     }
 
     pub(super) fn answer(&mut self, received: &Received) {
