@@ -1,12 +1,13 @@
-//! The error covariance, 19 by 19, propagated by its few non-zero blocks instead of full products.
+//! The error covariance, 20 by 20, propagated by its few non-zero blocks instead of full products.
 //!
 //! Errors are true minus believed, in this order: position, velocity, attitude (a rotation vector in NED, applied after the
-//! believed attitude), gyroscope bias, accelerometer bias (both body axes), GNSS drift, barometer offset.
+//! believed attitude), gyroscope bias, accelerometer bias (both body axes), GNSS drift, barometer offset,
+//! scale of the optical flow.
 
 use nalgebra::{Matrix3, Vector3};
 
 /// Number of error states.
-pub const STATES: usize = 19;
+pub const STATES: usize = 20;
 /// Index of the position error.
 pub const P: usize = 0;
 /// Index of the velocity error.
@@ -21,6 +22,8 @@ pub const BA: usize = 12;
 pub const DRIFT: usize = 15;
 /// Index of the barometer offset error.
 pub const BARO: usize = 18;
+/// Index of the optical flow's scale error, a share of the velocity; it stays as it is all session.
+pub const FLOW: usize = 19;
 
 /// Spectral densities of the process noise, all in SI per second.
 #[derive(Debug, Clone, Copy, PartialEq)]

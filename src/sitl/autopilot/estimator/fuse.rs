@@ -1,11 +1,11 @@
 //! Fusing one measurement after the other, each as a scalar; outliers are refused, but not for ever.
 
 use super::Estimator;
-use super::covariance::{BA, BARO, BG, Correction, DRIFT, P, THETA, V};
+use super::covariance::{BA, BARO, BG, Correction, DRIFT, FLOW, P, THETA, V};
 use crate::base::frames::{Frd, Ned, Vec3};
 use crate::base::math;
 use crate::base::time::SimTime;
-use crate::sitl::sensors::{FlowReading, GnssReading, flow};
+use crate::sitl::sensors::{FlowReading, GnssReading};
 
 /// Measurements further off than this are refused, standard deviations.
 const GATE: f64 = 5.0;
@@ -95,17 +95,26 @@ impl Estimator {
     }
 
     pub(super) fn fuse_flow(&mut self, reading: &FlowReading, now: SimTime) {
-        let (s, c) = math::sin_cos(self.attitude.yaw_rad());
+        let nose = self.attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
+        let level = nose.horizontal_norm().max(1e-6);
+        let (c, s) = (nose.north() / level, nose.east() / level);
         let v = self.velocity_m_s;
         let (forward, right) = (c * v.north() + s * v.east(), c * v.east() - s * v.north());
-        let scale = 2.0 * flow::SCALE_ERROR * math::hypot(reading.forward_m_s, reading.right_m_s);
-        let variance = self.noise.flow_m_s * self.noise.flow_m_s / reading.quality.clamp(0.1, 1.0) + scale * scale;
-        let a = self.fuse(&[(V, c), (V + 1, s), (THETA + 2, right)], reading.forward_m_s - forward, variance);
-        let b = self.fuse(&[(V, -s), (V + 1, c), (THETA + 2, -forward)], reading.right_m_s - right, variance);
+        let k = self.flow_scale;
+        // A nose that is up or down turns its heading with the tilt error too.
+        let steep = -nose.down() / level;
+        let turns = |share: f64| [(THETA, share * steep * c), (THETA + 1, share * steep * s), (THETA + 2, share)];
+        let variance = self.noise.flow_m_s * self.noise.flow_m_s / reading.quality.clamp(0.1, 1.0);
+        let [n, e, d] = turns(k * right);
+        let slopes = [(V, k * c), (V + 1, k * s), n, e, d, (FLOW, forward)];
+        let a = self.fuse(&slopes, reading.forward_m_s - k * forward, variance);
+        let [n, e, d] = turns(-k * forward);
+        let slopes = [(V, -k * s), (V + 1, k * c), n, e, d, (FLOW, right)];
+        let b = self.fuse(&slopes, reading.right_m_s - k * right, variance);
         if a && b {
             self.trust.velocity = now;
         } else if (now - self.trust.velocity).s() > REFUSED_S {
-            let (f, r) = (reading.forward_m_s, reading.right_m_s);
+            let (f, r) = (reading.forward_m_s / k, reading.right_m_s / k);
             self.velocity_m_s = Vec3::new(c * f - s * r, s * f + c * r, v.down());
             self.covariance.reset(V, 2, 4.0 * variance);
             self.trust.velocity = now;
@@ -130,6 +139,7 @@ impl Estimator {
         self.accel_bias += Vec3::new(d[BA], d[BA + 1], d[BA + 2]);
         self.drift_m += Vec3::new(d[DRIFT], d[DRIFT + 1], d[DRIFT + 2]);
         self.baro_offset_m += d[BARO];
+        self.flow_scale += d[FLOW];
     }
 
     /// Turns the believed attitude by a small rotation vector in NED.

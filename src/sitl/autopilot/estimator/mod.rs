@@ -1,5 +1,6 @@
 //! Error-state Kalman filter: the state at the inertial sensors' rate, the covariance at 100 Hz, position, velocity, attitude, sensor
-//! biases, the receiver's slow drift and the barometer's offset; fused from GNSS, barometer, magnetometer and optical flow.
+//! biases, the receiver's slow drift, the barometer's offset, the optical flow's scale; fused from GNSS, barometer, magnetometer and
+//! optical flow.
 //!
 //! The range finder is left out on purpose: what lies below may be a deck, a truck or water.
 
@@ -12,10 +13,10 @@ use crate::base::frames::{Frd, Ned, Rotation, Vec3};
 use crate::base::geodesy::Geo;
 use crate::base::math;
 use crate::base::time::SimTime;
-use crate::sitl::sensors::{ImuReading, Readings, baro, gnss, imu, magnetometer};
+use crate::sitl::sensors::{ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
 use crate::vehicle;
 use align::{Aligned, Alignment};
-use covariance::{BA, BARO, BG, Covariance, DRIFT, P, ProcessNoise, STATES, THETA, V};
+use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, P, ProcessNoise, STATES, THETA, V};
 use nalgebra::Vector3;
 
 /// The covariance moves on when this much time has gathered, s.
@@ -69,6 +70,7 @@ pub struct Estimator {
     accel_bias: Vec3<Frd>,
     drift_m: Vec3<Ned>,
     baro_offset_m: f64,
+    flow_scale: f64,
     covariance: Covariance,
     gained_m_s: Vec3<Ned>,
     gathered_s: f64,
@@ -120,6 +122,7 @@ impl Estimator {
             accel_bias: Vec3::zero(),
             drift_m: Vec3::zero(),
             baro_offset_m: 0.0,
+            flow_scale: 1.0,
             covariance: Covariance::diagonal(&[0.0; STATES]),
             gained_m_s: Vec3::zero(),
             gathered_s: 0.0,
@@ -207,6 +210,7 @@ impl Estimator {
             d[1],
             d[2],
             height,
+            sq(flow::SCALE_ERROR),
         ]);
         let r = aligned.attitude.matrix();
         for j in 0..3 {
@@ -293,6 +297,7 @@ impl Estimator {
                 variances[DRIFT + i] = d[i];
             }
             variances[BARO] = sq(baro::START_OFFSET_M);
+            variances[FLOW] = sq(flow::SCALE_ERROR);
             self.covariance = Covariance::diagonal(&variances);
         }
         self.covariance.reset(P, 3, 0.25);
