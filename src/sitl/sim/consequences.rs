@@ -14,8 +14,10 @@ const LIFT_OFF_M: f64 = 0.3;
 const SAFE_CLEARANCE_M: f64 = 1.0;
 /// Slower than this it lies still, m/s.
 const STILL_M_S: f64 = 0.3;
-/// Touching the pad more slowly than this is landing, m/s (assessment.md).
+/// Touching the pad or the ground about it more slowly than this is landing, m/s (assessment.md).
 const PAD_TOUCH_M_S: f64 = 1.0;
+/// What has touched nothing for so long flies, s (estimate: a lying body rocks off its contact for a step or two).
+const FLIES_S: f64 = 0.5;
 
 impl Sim {
     /// Lift-off, contact, battery, putting back.
@@ -72,7 +74,8 @@ impl Sim {
         let team = &self.config.scenario.ground_team;
         let here = self.state.rigid.position_m.enu() - team.pad_m;
         let home = here.horizontal_norm() <= team.home_radius_m;
-        surface == Surface::Pad || (surface == Surface::Terrain && home && impact_m_s < PAD_TOUCH_M_S)
+        let place = surface == Surface::Pad || (surface == Surface::Terrain && home);
+        place && impact_m_s < PAD_TOUCH_M_S
     }
 
     /// On its side or back: near home that is gentle contact and no crash, yet it will not fly from there.
@@ -92,9 +95,12 @@ impl Sim {
         let touching = self.scoring.contact != 0 || self.lies_upset();
         let still = rigid.velocity_m_s.norm() < STILL_M_S;
         let wet = self.scoring.contact == contact_code(Surface::Water);
+        if touching {
+            self.touched_at = self.now;
+        }
         if !(touching && (still || wet)) {
-            // A lying body rocks off its contact for a step or two; a flying one is gone for longer.
-            if self.crashed_since.is_some_and(|_| !touching && !still) {
+            let flies = !still || (self.now - self.touched_at).s() > FLIES_S;
+            if !touching && flies {
                 self.crashed_since = None;
             }
             return;
@@ -145,7 +151,8 @@ impl Sim {
     }
 }
 
-/// design.md: 0 none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other.
+/// design.md: 0 none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other; the pad is something else, where it is hit and not
+/// landed on.
 fn contact_code(surface: Surface) -> i32 {
     match surface {
         Surface::Bridge => 1,
@@ -153,7 +160,161 @@ fn contact_code(surface: Surface) -> i32 {
         Surface::Water => 3,
         Surface::Vehicle => 4,
         Surface::Person => 5,
-        Surface::Other => 6,
-        Surface::Pad => 0,
+        Surface::Other | Surface::Pad => 6,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::frames::Enu;
+    use crate::base::time::SimTime;
+    use crate::scenario::Scenario;
+    use crate::site::{ObjectId, Site};
+    use crate::sitl::physics::contact::Report;
+    use crate::sitl::sim::{SimConfig, SimEvent};
+    use std::sync::Arc;
+
+    const MS: SimTime = SimTime::from_ms(1);
+    /// Where these drones last hovered safely, north-east-down, m.
+    const SAFE: (f64, f64, f64) = (3.0, 4.0, -6.0);
+
+    /// A drone that has flown and is now 50 m from the pad, at rest and level.
+    fn flown(change: impl Fn(&mut Scenario)) -> Sim {
+        let text = include_str!("../../../scenarios/drill-hover.toml");
+        let mut scenario = crate::scenario::read("drill-hover.toml", text, &|_| Err("none".into())).expect("shipped");
+        change(&mut scenario);
+        let vehicle = include_str!("../../../vehicle-params/phantom2.toml");
+        let vehicle = Arc::new(crate::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
+        let site = Arc::new(Site::build(&scenario, 1));
+        let mut sim = Sim::new(SimConfig { scenario: Arc::new(scenario), vehicle, seed: 1, instance: 0 }, site);
+        sim.lifted = true;
+        sim.safe = (Vec3::new(SAFE.0, SAFE.1, SAFE.2), 0.3);
+        put(&mut sim, Vec3::new(50.0, 0.0, 0.1));
+        sim
+    }
+
+    fn put(sim: &mut Sim, place: Vec3<Enu>) {
+        sim.state = physics::State::at_rest(place.ned(), 0.0);
+    }
+
+    fn touches(sim: &mut Sim, surface: Option<Surface>, impact_m_s: f64) {
+        sim.state.contact = Report { surface: surface.map(|s| (s, ObjectId(0))), impact_m_s, normal_n: 1.0 };
+    }
+
+    /// What follows from a state that stays as it is; physics stands still.
+    fn pass(sim: &mut Sim, ms: i64) -> Vec<SimEvent> {
+        for _ in 0..ms {
+            sim.now += MS;
+            sim.consequences();
+        }
+        sim.events.drain(..).collect()
+    }
+
+    fn crashes(events: &[SimEvent]) -> usize {
+        events.iter().filter(|e| matches!(e, SimEvent::Crash { .. })).count()
+    }
+
+    #[test]
+    fn exact_what_lies_still_or_touches_water_is_put_back_after_three_seconds() {
+        let going = Vec3::new(1.5, 0.0, 0.0);
+        for (surface, velocity, back) in [
+            (Surface::Bridge, Vec3::zero(), true),
+            (Surface::Terrain, Vec3::zero(), true),
+            (Surface::Water, Vec3::zero(), true),
+            (Surface::Water, going, true),
+            (Surface::Bridge, going, false),
+        ] {
+            let mut sim = flown(|_| ());
+            touches(&mut sim, Some(surface), 2.0);
+            sim.state.rigid.velocity_m_s = velocity;
+            // The first tick is the one at which it begins to lie there.
+            assert_eq!(crashes(&pass(&mut sim, 3_000)), 1, "{surface:?}");
+            assert_eq!(sim.scoring.respawns, 0, "{surface:?}: too early");
+            let events = pass(&mut sim, 1);
+            assert_eq!(events.contains(&SimEvent::Respawn), back, "{surface:?} {events:?}");
+            assert_eq!(sim.scoring.respawns, i32::from(back));
+            if back {
+                assert_eq!(sim.state.rigid.position_m, Vec3::new(SAFE.0, SAFE.1, SAFE.2));
+                assert_eq!(sim.state.rigid.velocity_m_s.norm(), 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn exact_other_rules_leave_it_where_it_lies_or_end_the_session() {
+        let mut sim = flown(|s| s.rules.after_crash = AfterCrash::Continue);
+        touches(&mut sim, Some(Surface::Bridge), 2.0);
+        let events = pass(&mut sim, 20_000);
+        assert!(crashes(&events) == 1 && events.len() == 1 && sim.ended().is_none(), "{events:?}");
+        let mut sim = flown(|s| s.rules.after_crash = AfterCrash::End);
+        touches(&mut sim, Some(Surface::Bridge), 2.0);
+        let events = pass(&mut sim, 1);
+        assert!(sim.ended().is_some_and(|why| why.starts_with("crashed into")), "{events:?}");
+    }
+
+    #[test]
+    fn exact_a_person_or_a_vehicle_ends_the_session_under_every_rule_and_from_any_contact() {
+        for rule in [AfterCrash::Continue, AfterCrash::Respawn, AfterCrash::End] {
+            for surface in [Surface::Person, Surface::Vehicle] {
+                let mut sim = flown(|s| s.rules.after_crash = rule);
+                if rule != AfterCrash::End {
+                    touches(&mut sim, Some(Surface::Bridge), 1.0);
+                    pass(&mut sim, 10);
+                    assert!(sim.ended().is_none());
+                }
+                touches(&mut sim, Some(surface), 0.1);
+                let events = pass(&mut sim, 5_000);
+                assert!(sim.ended().is_some_and(|why| why.starts_with("hit ")), "{rule:?} {surface:?} {events:?}");
+                assert!(!events.contains(&SimEvent::Respawn));
+            }
+        }
+    }
+
+    #[test]
+    fn exact_an_empty_battery_outranks_being_put_back() {
+        // One millisecond before it would be put back, and in that very one.
+        for ms in [2_999, 3_000] {
+            let mut sim = flown(|_| ());
+            touches(&mut sim, Some(Surface::Bridge), 2.0);
+            pass(&mut sim, ms);
+            sim.state.battery.charge = 0.0;
+            let events = pass(&mut sim, 10_000);
+            assert_eq!(sim.ended(), Some("battery empty"), "{events:?}");
+            assert!(events.contains(&SimEvent::BatteryEmpty) && !events.contains(&SimEvent::Respawn), "{events:?}");
+        }
+    }
+
+    #[test]
+    fn exact_who_touched_something_and_hovered_on_does_not_lie_there() {
+        let mut sim = flown(|_| ());
+        touches(&mut sim, Some(Surface::Bridge), 0.2);
+        pass(&mut sim, 100);
+        // Slower than what counts as still, yet in the air.
+        touches(&mut sim, None, 0.0);
+        sim.state.rigid.velocity_m_s = Vec3::new(0.1, 0.0, 0.0);
+        pass(&mut sim, 10_000);
+        touches(&mut sim, Some(Surface::Bridge), 0.2);
+        let events = pass(&mut sim, 100);
+        assert!(crashes(&events) == 1 && !events.contains(&SimEvent::Respawn), "{events:?}");
+    }
+
+    #[test]
+    fn exact_the_pad_is_no_crash_below_a_metre_a_second_and_one_above() {
+        for (impact_m_s, expected) in [(0.99, 0), (1.01, 1), (6.0, 1)] {
+            for surface in [Surface::Pad, Surface::Terrain] {
+                let mut sim = flown(|_| ());
+                let pad = sim.config.scenario.ground_team.pad_m;
+                put(&mut sim, pad + Vec3::new(0.3, 0.0, 0.1));
+                touches(&mut sim, Some(surface), impact_m_s);
+                let mut events = pass(&mut sim, 1);
+                // Then it stands there.
+                touches(&mut sim, Some(surface), 0.0);
+                events.extend(pass(&mut sim, 10_000));
+                assert_eq!(crashes(&events), expected, "{surface:?} at {impact_m_s} m/s: {events:?}");
+                assert!(!events.contains(&SimEvent::Respawn) && sim.ended().is_none(), "{events:?}");
+                assert_eq!(sim.scoring.contact, 0, "standing on the pad is no contact");
+            }
+        }
     }
 }
