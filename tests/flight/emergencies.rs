@@ -121,6 +121,43 @@ fn flight_a_low_battery_returns_only_where_the_job_says_so() {
 }
 
 #[test]
+fn flight_a_critical_battery_lands_only_where_the_job_says_so() {
+    for (returns, mode) in [(false, Mode::Hold), (true, Mode::Land)] {
+        let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = returns);
+        bench.take_off(6.0);
+        bench.autopilot.drain_events();
+        bench.state.battery.charge = 0.01 * (bench.autopilot.tuning.battery_critical_pct - 0.5);
+        bench.run(1.0, |_| ());
+        assert_eq!(bench.autopilot.status().mode, mode);
+        let told = bench
+            .autopilot
+            .drain_events()
+            .iter()
+            .any(|e| e.severity == Severity::Critical && e.text.contains("Critical battery"));
+        assert!(told);
+    }
+}
+
+#[test]
+fn flight_who_takes_off_with_a_low_battery_is_brought_back_once() {
+    let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = true);
+    bench.state.battery.charge = 0.01 * (bench.autopilot.tuning.battery_low_pct - 0.5);
+    bench.run(2.0, |_| ());
+    bench.ask(Request::Arm { force: false });
+    bench.ask(Request::Takeoff { height_m: Some(4.0) });
+    let mut returned = false;
+    for _ in 0..30 {
+        bench.run(0.1, |_| ());
+        returned |= bench.autopilot.status().mode == Mode::Return;
+    }
+    assert!(returned, "{:?}", bench.autopilot.status().mode);
+    // The pilot has the last word.
+    bench.ask(Request::SetMode(Mode::Hold));
+    bench.run(2.0, |_| ());
+    assert_eq!(bench.autopilot.status().mode, Mode::Hold);
+}
+
+#[test]
 fn flight_an_upset_is_mended_in_the_air() {
     // m of height and s of time for a body thrown upside down.
     const FALL_M: f64 = 14.0;

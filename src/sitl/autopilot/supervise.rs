@@ -44,6 +44,9 @@ pub struct Watch {
     blind_since: Option<SimTime>,
     low_warned: bool,
     critical_warned: bool,
+    /// The low and the critical battery's failsafe have acted in this flight: each does so once, the pilot has the last word.
+    low_acted: bool,
+    critical_acted: bool,
 }
 
 impl Default for Watch {
@@ -60,6 +63,8 @@ impl Default for Watch {
             blind_since: None,
             low_warned: false,
             critical_warned: false,
+            low_acted: false,
+            critical_acted: false,
         }
     }
 }
@@ -177,29 +182,39 @@ impl Autopilot {
     fn warn_of_battery(&mut self) {
         let Some(left) = self.seen.battery.map(|b| b.remaining_pct) else { return };
         let (low, critical) = (self.tuning.battery_low_pct, self.tuning.battery_critical_pct);
-        let flying = self.status.armed && self.status.landed != Landed::OnGround;
         if left < low && !self.watch.low_warned {
             self.watch.low_warned = true;
             self.say(Severity::Warning, format!("Low battery: {left:.0} %"));
-            if self.low_battery_return && flying && self.estimate.position_valid {
-                self.say(Severity::Warning, "Failsafe: low battery, returning");
-                self.watch.intended = Mode::Return;
-                self.enter(Mode::Return, self.last_step);
-            }
         }
         if left < critical && !self.watch.critical_warned {
             self.watch.critical_warned = true;
             self.say(Severity::Critical, format!("Critical battery: {left:.0} %"));
-            if self.low_battery_return && flying {
-                self.say(Severity::Critical, "Failsafe: critical battery, landing");
-                self.watch.intended = Mode::Land;
-                self.enter(Mode::Land, self.last_step);
-            }
         }
         // A pack that was changed on the ground warns again.
         if left > low + 5.0 {
             self.watch.low_warned = false;
             self.watch.critical_warned = false;
+        }
+        let flying = self.status.armed && self.status.landed != Landed::OnGround;
+        if !flying {
+            (self.watch.low_acted, self.watch.critical_acted) = (false, false);
+        } else if self.low_battery_return {
+            self.act_on_battery(left);
+        }
+    }
+
+    /// Who took off with a low battery, or lost the position when it became low, is brought back too.
+    fn act_on_battery(&mut self, left_pct: f64) {
+        if left_pct < self.tuning.battery_critical_pct && !self.watch.critical_acted {
+            (self.watch.low_acted, self.watch.critical_acted) = (true, true);
+            self.say(Severity::Critical, "Failsafe: critical battery, landing");
+            self.watch.intended = Mode::Land;
+            self.enter(Mode::Land, self.last_step);
+        } else if left_pct < self.tuning.battery_low_pct && !self.watch.low_acted && self.estimate.position_valid {
+            self.watch.low_acted = true;
+            self.say(Severity::Warning, "Failsafe: low battery, returning");
+            self.watch.intended = Mode::Return;
+            self.enter(Mode::Return, self.last_step);
         }
     }
 
