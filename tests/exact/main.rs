@@ -6,6 +6,7 @@ mod contact;
 mod export;
 mod free_flight;
 mod ground;
+mod movers;
 mod on_bridges;
 mod score;
 mod site;

@@ -43,8 +43,9 @@ pub struct Actuators {
 
 /// Sea-level air density, kg/m³ (ISA, 15 °C, 1013.25 hPa).
 pub const AIR_DENSITY_KG_M3: f64 = 1.225;
-/// Nothing at the site moves faster, m/s (estimate: a car at 80 mph); bounds how long a clearance may be trusted.
-const FASTEST_OBJECT_M_S: f64 = 36.0;
+/// Nothing at the site moves faster, m/s: cars go at 35 m/s at most, the lane's speed differs by a tenth. Bounds how long a clearance may
+/// be trusted.
+pub const FASTEST_OBJECT_M_S: f64 = 38.5;
 /// Distance up to which the surroundings are asked for clearance, m.
 const CLEARANCE_REACH_M: f64 = 4.0;
 /// Surface effects are looked up this often, s.
