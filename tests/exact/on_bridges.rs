@@ -69,6 +69,12 @@ fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> V
     from + down * distance
 }
 
+/// How far the lowest part of a level aircraft lies under its centre, m.
+fn lowest_m(vehicle: &Vehicle) -> f64 {
+    let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + FOOT_M;
+    if vehicle.hull.caged { feet.max(0.5 * vehicle.hull.tip_to_tip_m) } else { feet }
+}
+
 #[test]
 fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
     // m in 5 s, after a second to settle from a finger's breadth.
@@ -79,8 +85,7 @@ fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
     let site = Site::build(&scenario, 3);
     for vehicle in vehicles() {
         let model = Model::new(&vehicle, BatteryModel::Paper);
-        let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
-        let low = if vehicle.hull.caged { feet.max(0.5 * vehicle.hull.tip_to_tip_m - FOOT_M) } else { feet };
+        let low = lowest_m(&vehicle);
         for (member, place) in [
             ("arch/slab/08", [3.0, 1.2]),
             ("arch/rib-left/14", [1.75, 2.9]),
@@ -92,7 +97,7 @@ fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
             ("suspension/tower-start/portal-top", [-70.0, 0.0]),
             ("suspension/anchorage-end/left", [116.0, 5.3]),
         ] {
-            let mut s = state(on_top(&scenario, &site, member, place) + Vec3::new(0.0, 0.0, low + FOOT_M + 0.01));
+            let mut s = state(on_top(&scenario, &site, member, place) + Vec3::new(0.0, 0.0, low + 0.01));
             run(&model, &site, &mut s, 1000, |_| ());
             let (start, mut force) = (s.rigid.position_m, 0.0);
             let mut worst: f64 = 0.0;
@@ -106,6 +111,29 @@ fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
             let least = if member.contains("rib") { 0.9 } else { 1.0 - FORCE };
             assert!((least..1.0 + FORCE).contains(&share), "{} on {member}: {share} of its weight", vehicle.id);
         }
+    }
+}
+
+#[test]
+fn exact_standing_on_the_pad_an_aircraft_stays_where_it_stands() {
+    // m in 60 s; relative for the mean normal force.
+    const DRIFT_M: f64 = 1e-6;
+    const FORCE: f64 = 1e-6;
+    let scenario = scenario();
+    let site = Site::build(&scenario, 3);
+    for vehicle in vehicles() {
+        let model = Model::new(&vehicle, BatteryModel::Paper);
+        let low = lowest_m(&vehicle);
+        let mut s = State::at_rest((scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, low + 0.01)).ned(), 0.6);
+        run(&model, &site, &mut s, 2000, |_| ());
+        let (start, mut worst, mut force): (_, f64, f64) = (s.rigid.position_m, 0.0, 0.0);
+        run_from(2000, &model, &site, &mut s, 60_000, |s| {
+            worst = worst.max((s.rigid.position_m - start).norm());
+            force += s.contact.normal_n;
+        });
+        let share = force / 60_000.0 / (vehicle.mass_kg * GRAVITY_M_S2);
+        assert!(worst < DRIFT_M, "{}: {worst} m", vehicle.id);
+        assert!((share - 1.0).abs() < FORCE, "{}: {share} of its weight", vehicle.id);
     }
 }
 

@@ -57,6 +57,8 @@ pub fn factors(model: &Model, rigid: &RigidState, obstacles: &impl Obstacles, at
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::frames::Enu;
+    use crate::site::{ObjectId, RayHit, Surface};
 
     /// The printed values carry three decimals.
     const PRINTED: f64 = 6e-4;
@@ -75,5 +77,55 @@ mod tests {
             assert!((ceiling_gamma(d) - expected).abs() < PRINTED, "{d}");
         }
         assert_eq!(ceiling_gamma(0.1), ceiling_gamma(0.25));
+        // domain.md 4a: thrust at constant power, two decimals.
+        for (d, expected) in [(0.25, 1.23), (0.5, 1.07), (1.0, 1.02)] {
+            assert!((ceiling_factor(d) - expected).abs() < 5e-3, "{d}: {}", ceiling_factor(d));
+        }
+    }
+
+    /// A floor and a ceiling, m up, over half of the plane each (north of the origin).
+    struct Slabs(f64, f64);
+
+    impl Obstacles for Slabs {
+        fn contacts(&self, _: &crate::site::Probe, _: f64, _: SimTime, _: &mut Vec<crate::site::Contact>) {}
+        fn clearance(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<f64> {
+            Some(0.0)
+        }
+        fn ray(&self, from: Vec3<Enu>, along: Vec3<Enu>, max_m: f64, _: SimTime) -> Option<RayHit> {
+            let height = if along.up() < 0.0 { self.0 } else { self.1 };
+            let distance_m = (height - from.up()) / along.up();
+            let hit = distance_m >= 0.0 && distance_m <= max_m && (from + along * distance_m).north() > 0.0;
+            let normal = Vec3::new(0.0, 0.0, -along.up().signum());
+            hit.then_some(RayHit { distance_m, normal, surface: Surface::Bridge, object: ObjectId(0) })
+        }
+    }
+
+    #[test]
+    fn exact_each_rotor_feels_what_stands_over_and_under_it() {
+        let text = include_str!("../../../vehicle-params/phantom2.toml");
+        let vehicle = crate::vehicle::read("phantom2.toml", text).expect("shipped");
+        let model = Model::new(&vehicle, crate::scenario::BatteryModel::Paper);
+        let radius = vehicle.rotor.radius_m;
+        // The hubs lie 3 cm over the centre; ceiling and floor a radius and two away from them.
+        let slabs = Slabs(0.03 - 2.0 * radius, 0.03 + radius);
+        let state = crate::sitl::physics::State::at_rest(Vec3::zero(), 0.0);
+        let got = factors(&model, &state.rigid, &slabs, SimTime::ZERO);
+        let beside = ground_factor(2.0) * ceiling_factor(1.0);
+        for (i, rotor) in vehicle.rotors.iter().enumerate() {
+            let expected = if rotor.position_m.forward() > 0.0 { beside } else { 1.0 };
+            // Rounding.
+            assert!((got[i] - expected).abs() < 1e-12, "rotor {i}: {}, not {expected}", got[i]);
+        }
+    }
+
+    #[test]
+    fn exact_thrust_and_only_thrust_grows_by_the_factor() {
+        let text = include_str!("../../../vehicle-params/phantom2.toml");
+        let vehicle = crate::vehicle::read("phantom2.toml", text).expect("shipped");
+        let model = Model::new(&vehicle, crate::scenario::BatteryModel::Paper);
+        let wrench = |effect| model.rotor_wrench(0, Vec3::zero(), 500.0, 0.0, effect);
+        let (open, near) = (wrench(1.0), wrench(1.25));
+        assert!((near.force_n - open.force_n * 1.25).norm() < 1e-12);
+        assert!((near.torque_n_m.down() - open.torque_n_m.down()).abs() < 1e-12);
     }
 }
