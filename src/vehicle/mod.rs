@@ -168,10 +168,14 @@ pub struct Sensors {
     pub mag_rate_hz: f64,
     /// Magnetometer noise, gauss.
     pub mag_noise_gauss: f64,
+    /// Magnetometer bias in each body axis: what calibration leaves of the aircraft's own field, gauss.
+    pub mag_bias_gauss: f64,
     /// Range finder rate, Hz.
     pub range_rate_hz: f64,
     /// Range finder noise, m.
     pub range_noise_m: f64,
+    /// Bias of each range finder, m.
+    pub range_bias_m: f64,
     /// Range finder reach, m.
     pub range_max_m: f64,
     /// Optical-flow horizontal velocity noise, m/s, where light and texture suffice; 0 means that none is fitted.

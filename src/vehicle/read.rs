@@ -184,8 +184,10 @@ fn sensors(r: &mut Reader, root: &mut Section) -> Sensors {
         baro_drift_m_sqrt_s: n("baro_drift_m_sqrt_s", (0.0, 1.0), 0.005),
         mag_rate_hz: n("mag_rate_hz", (5.0, 200.0), 50.0),
         mag_noise_gauss: n("mag_noise_gauss", (0.0, 0.2), 0.003),
+        mag_bias_gauss: n("mag_bias_gauss", (0.0, 0.1), 0.001),
         range_rate_hz: n("range_rate_hz", (1.0, 50.0), 20.0),
         range_noise_m: n("range_noise_m", (0.0, 1.0), 0.02),
+        range_bias_m: n("range_bias_m", (0.0, 1.0), 0.01),
         range_max_m: n("range_max_m", (1.0, 100.0), 10.0),
         flow_velocity_m_s: n("flow_velocity_m_s", (0.0, 2.0), 0.0),
     };

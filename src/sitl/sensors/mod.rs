@@ -296,8 +296,10 @@ pub(crate) mod tests {
             baro_drift_m_sqrt_s: 0.0,
             mag_rate_hz: 50.0,
             mag_noise_gauss: 0.0,
+            mag_bias_gauss: 0.0,
             range_rate_hz: 10.0,
             range_noise_m: 0.0,
+            range_bias_m: 0.0,
             range_max_m: 40.0,
             flow_velocity_m_s: 0.05,
         }
@@ -319,6 +321,26 @@ pub(crate) mod tests {
         let mut finders = rangefinder::RangeFinders::new(&perfect(), 1);
         let ranges = finders.read(&still(), &Plain { up_m: 2.0 }, SimTime::ZERO);
         assert!(ranges.is_some_and(|r| (r.down_m - 8.0).abs() < 1e-12 && r.up_m.is_infinite()), "{ranges:?}");
+    }
+
+    #[test]
+    fn exact_each_range_finder_has_a_bias_of_its_own_that_stays() {
+        let biased = vehicle::Sensors { range_bias_m: 0.05, ..perfect() };
+        let mut finders = rangefinder::RangeFinders::new(&biased, 1);
+        let mut off = |ms| finders.read(&still(), &Plain { up_m: 2.0 }, SimTime::from_ms(ms)).expect("due").down_m - 8.0;
+        let (first, later) = (off(0), off(100));
+        assert!(first != 0.0 && first.abs() < 0.25 && first == later, "{first} {later}");
+        let mut all: Vec<f64> = (0..40)
+            .map(|seed| {
+                rangefinder::RangeFinders::new(&biased, seed)
+                    .read(&still(), &Plain { up_m: 2.0 }, SimTime::ZERO)
+                    .expect("due")
+                    .down_m
+            })
+            .collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        assert_eq!(all.len(), 40, "every session has another");
     }
 
     #[test]

@@ -33,6 +33,8 @@ pub struct RangeFinders {
     stream: RandomStream,
     due: Schedule,
     noise_m: f64,
+    /// Of each: down, up, around.
+    bias_m: [f64; 10],
     max_m: f64,
     around: [Vec3<Frd>; 8],
 }
@@ -46,8 +48,10 @@ impl RangeFinders {
             let (s, c) = math::sin_cos(i as f64 * math::PI / 4.0);
             *direction = Vec3::new(c, s, 0.0);
         }
+        let mut stream = RandomStream::new(seed, "range");
         Self {
-            stream: RandomStream::new(seed, "range"),
+            bias_m: std::array::from_fn(|_| sensors.range_bias_m * stream.normal()),
+            stream,
             due: Schedule::new(SimTime::ZERO, sensors.range_rate_hz),
             noise_m: sensors.range_noise_m,
             max_m: sensors.range_max_m,
@@ -64,17 +68,19 @@ impl RangeFinders {
             let far = f64::INFINITY;
             return Some(Ranges { down_m: far, up_m: far, around_m: [far; 8] });
         }
-        let down_m = self.one(rigid, Vec3::new(0.0, 0.0, 1.0), site, now);
-        let up_m = self.one(rigid, Vec3::new(0.0, 0.0, -1.0), site, now);
+        let [down, up, beside @ ..] = self.bias_m;
+        let down_m = self.one(rigid, (Vec3::new(0.0, 0.0, 1.0), down), site, now);
+        let up_m = self.one(rigid, (Vec3::new(0.0, 0.0, -1.0), up), site, now);
         let mut around_m = [0.0; 8];
-        for (range, direction) in around_m.iter_mut().zip(self.around) {
-            *range = self.one(rigid, direction, site, now);
+        for (range, looks) in around_m.iter_mut().zip(self.around.into_iter().zip(beside)) {
+            *range = self.one(rigid, looks, site, now);
         }
         Some(Ranges { down_m, up_m, around_m })
     }
 
-    fn one<S: Surroundings>(&mut self, rigid: &RigidState, direction: Vec3<Frd>, site: &S, now: SimTime) -> f64 {
+    /// One range along a direction, with its finder's bias.
+    fn one<S: Surroundings>(&mut self, rigid: &RigidState, (direction, bias_m): (Vec3<Frd>, f64), site: &S, now: SimTime) -> f64 {
         let hit = site.ray_m(rigid.position_m.enu(), (rigid.attitude * direction).enu(), self.max_m, now);
-        hit.map_or(f64::INFINITY, |d| (d + self.noise_m * self.stream.normal()).max(0.0))
+        hit.map_or(f64::INFINITY, |d| (d + bias_m + self.noise_m * self.stream.normal()).max(0.0))
     }
 }

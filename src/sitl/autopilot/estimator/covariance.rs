@@ -1,13 +1,13 @@
-//! The error covariance, 20 by 20, propagated by its few non-zero blocks instead of full products.
+//! The error covariance, 23 by 23, propagated by its few non-zero blocks instead of full products.
 //!
 //! Errors are true minus believed, in this order: position, velocity, attitude (a rotation vector in NED, applied after the
 //! believed attitude), gyroscope bias, accelerometer bias (both body axes), GNSS drift, barometer offset,
-//! scale of the optical flow.
+//! scale of the optical flow, magnetometer bias (body axes).
 
 use nalgebra::{Matrix3, Vector3};
 
 /// Number of error states.
-pub const STATES: usize = 20;
+pub const STATES: usize = 23;
 /// Index of the position error.
 pub const P: usize = 0;
 /// Index of the velocity error.
@@ -24,6 +24,8 @@ pub const DRIFT: usize = 15;
 pub const BARO: usize = 18;
 /// Index of the optical flow's scale error, a share of the velocity; it stays as it is all session.
 pub const FLOW: usize = 19;
+/// Index of the magnetometer bias error; it stays as it is all session.
+pub const MAG: usize = 20;
 
 /// Spectral densities of the process noise, all in SI per second.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Fusing one measurement after the other, each as a scalar; outliers are refused, but not for ever.
 
 use super::Estimator;
-use super::covariance::{BA, BARO, BG, Correction, DRIFT, FLOW, P, THETA, V};
+use super::covariance::{BA, BARO, BG, Correction, DRIFT, FLOW, MAG, P, THETA, V};
 use crate::base::frames::{Frd, Ned, Vec3};
 use crate::base::math;
 use crate::base::time::SimTime;
@@ -79,9 +79,18 @@ impl Estimator {
     pub(super) fn fuse_mag(&mut self, gauss: Vec3<Frd>, share: f64, now: SimTime) {
         let field = self.field_gauss;
         let across = Vec3::<Ned>::new(-field.east(), field.north(), 0.0).unit();
+        let gauss = gauss - self.mag_bias;
         let innovation = (self.attitude * gauss - field).dot(across);
         let lever = across.cross(field);
-        let slopes = [(THETA, lever.north()), (THETA + 1, lever.east()), (THETA + 2, lever.down())];
+        let bias = self.attitude.inverse() * across;
+        let slopes = [
+            (THETA, lever.north()),
+            (THETA + 1, lever.east()),
+            (THETA + 2, lever.down()),
+            (MAG, bias.forward()),
+            (MAG + 1, bias.right()),
+            (MAG + 2, bias.down()),
+        ];
         let variance = self.noise.mag_gauss * self.noise.mag_gauss * share;
         if self.fuse(&slopes, innovation, variance) {
             self.trust.heading = now;
@@ -140,6 +149,7 @@ impl Estimator {
         self.drift_m += Vec3::new(d[DRIFT], d[DRIFT + 1], d[DRIFT + 2]);
         self.baro_offset_m += d[BARO];
         self.flow_scale += d[FLOW];
+        self.mag_bias += Vec3::new(d[MAG], d[MAG + 1], d[MAG + 2]);
     }
 
     /// Turns the believed attitude by a small rotation vector in NED.

@@ -1,5 +1,5 @@
 //! Error-state Kalman filter: the state at the inertial sensors' rate, the covariance at 100 Hz, position, velocity, attitude, sensor
-//! biases, the receiver's slow drift, the barometer's offset, the optical flow's scale; fused from GNSS, barometer, magnetometer and
+//! biases, the receiver's slow drift, the barometer's offset, the optical flow's scale, the compass's bias; fused from GNSS, barometer, magnetometer and
 //! optical flow.
 //!
 //! The range finder is left out on purpose: what lies below may be a deck, a truck or water.
@@ -16,7 +16,7 @@ use crate::base::time::SimTime;
 use crate::sitl::sensors::{ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
 use crate::vehicle;
 use align::{Aligned, Alignment};
-use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, P, ProcessNoise, STATES, THETA, V};
+use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATES, THETA, V};
 use nalgebra::Vector3;
 
 /// The covariance moves on when this much time has gathered, s.
@@ -38,6 +38,7 @@ struct MeasurementNoise {
     gnss_drift_m: [f64; 2],
     baro_m: f64,
     mag_gauss: f64,
+    mag_bias_gauss: f64,
     flow_m_s: f64,
     accel_bias_m_s2: f64,
     gyro_bias_rad_s: f64,
@@ -71,6 +72,7 @@ pub struct Estimator {
     drift_m: Vec3<Ned>,
     baro_offset_m: f64,
     flow_scale: f64,
+    mag_bias: Vec3<Frd>,
     covariance: Covariance,
     gained_m_s: Vec3<Ned>,
     gathered_s: f64,
@@ -105,6 +107,7 @@ impl Estimator {
                 gnss_drift_m: drift,
                 baro_m: sensors.baro_noise_m,
                 mag_gauss: sensors.mag_noise_gauss,
+                mag_bias_gauss: sensors.mag_bias_gauss,
                 flow_m_s: sensors.flow_velocity_m_s,
                 accel_bias_m_s2: sensors.accel_bias_m_s2,
                 gyro_bias_rad_s: sensors.gyro_bias_rad_s,
@@ -123,6 +126,7 @@ impl Estimator {
             drift_m: Vec3::zero(),
             baro_offset_m: 0.0,
             flow_scale: 1.0,
+            mag_bias: Vec3::zero(),
             covariance: Covariance::diagonal(&[0.0; STATES]),
             gained_m_s: Vec3::zero(),
             gathered_s: 0.0,
@@ -211,6 +215,9 @@ impl Estimator {
             d[2],
             height,
             sq(flow::SCALE_ERROR),
+            sq(n.mag_bias_gauss),
+            sq(n.mag_bias_gauss),
+            sq(n.mag_bias_gauss),
         ]);
         let r = aligned.attitude.matrix();
         for j in 0..3 {
@@ -295,6 +302,7 @@ impl Estimator {
                 variances[BG + i] = g;
                 variances[BA + i] = a;
                 variances[DRIFT + i] = d[i];
+                variances[MAG + i] = sq(n.mag_bias_gauss);
             }
             variances[BARO] = sq(baro::START_OFFSET_M);
             variances[FLOW] = sq(flow::SCALE_ERROR);
