@@ -81,21 +81,35 @@ struct Case {
     /// Largest median, in floors.
     limit: f64,
     start: State,
+    /// The instant that the state is of.
+    since: SimTime,
     actuators: Actuators,
+    /// It touches the deck in every step.
+    touches: bool,
     samples: Vec<f64>,
 }
 
 impl Case {
     fn new(name: &'static str, limit: f64, start: State, actuators: Actuators) -> Self {
-        Self { name, limit, start, actuators, samples: Vec::new() }
+        Self { name, limit, start, since: SimTime::ZERO, actuators, touches: false, samples: Vec::new() }
+    }
+
+    /// On the deck, from a state of [`SETTLED`] on.
+    fn on_deck(name: &'static str, limit: f64, start: State) -> Self {
+        Self { since: SETTLED, touches: true, ..Self::new(name, limit, start, Actuators::default()) }
     }
 
     fn fly(&self, model: &Model, site: &Site) -> State {
-        let mut state = self.start.clone();
+        let (mut state, mut now) = (self.start.clone(), self.since);
         let load = Load { lamp_on: true, airborne: true };
-        for k in 0..STEPS {
-            model.advance(&mut state, &self.actuators, &Air::STILL, site, load, SimTime::from_ms(k), STEP);
+        let mut touched = 0;
+        for _ in 0..STEPS {
+            model.advance(&mut state, &self.actuators, &Air::STILL, site, load, now, STEP);
+            now += STEP;
+            touched += i64::from(state.contact.touching());
         }
+        let wanted = if self.touches { STEPS * 9 / 10..=STEPS } else { 0..=0 };
+        assert!(wanted.contains(&touched), "{}: touches in {touched} steps of {STEPS}", self.name);
         state
     }
 }
@@ -135,12 +149,17 @@ fn hovering(model: &Model, place: Vec3<Enu>) -> State {
     state
 }
 
-/// Settled on its feet.
+/// When an aircraft that was set down has settled.
+const SETTLED: SimTime = SimTime::from_ms(2000);
+
+/// Settled on its feet at [`SETTLED`].
 fn standing(model: &Model, site: &Site, vehicle: &Vehicle, deck: Vec3<Enu>) -> State {
     let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
     let mut state = at(deck + Vec3::new(0.0, 0.0, feet + 0.03));
-    for k in 0..2000 {
-        model.advance(&mut state, &Actuators::default(), &Air::STILL, site, Load::default(), SimTime::from_ms(k), STEP);
+    let mut now = SimTime::ZERO;
+    while now < SETTLED {
+        model.advance(&mut state, &Actuators::default(), &Air::STILL, site, Load::default(), now, STEP);
+        now += STEP;
     }
     assert!(state.contact.touching(), "it stands");
     state
@@ -157,8 +176,8 @@ fn cases(model: &Model, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
         Case::new("free, 60 m over the deck", FREE, hovering(model, deck + up(60.0)), hover),
         Case::new("near, 2 m over the deck", NEAR, hovering(model, deck + up(2.0)), hover),
         Case::new("close, 0.5 m over the deck", CLOSE, hovering(model, deck + up(0.5)), hover),
-        Case::new("standing on the deck, motors off", STANDING, stand, Actuators::default()),
-        Case::new("scraping along the deck", SCRAPING, scrape, Actuators::default()),
+        Case::on_deck("standing on the deck, motors off", STANDING, stand),
+        Case::on_deck("scraping along the deck", SCRAPING, scrape),
     ]
 }
 
