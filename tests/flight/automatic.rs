@@ -107,7 +107,7 @@ fn flight_a_mission_is_flown_in_order_and_ends_on_the_ground() {
     let mut bench = Bench::new(&vehicle("phantom2"), 7);
     bench.autopilot.set_mission(vec![
         MissionStep::Takeoff { up_m: 5.0 },
-        MissionStep::Speed(4.0),
+        MissionStep::Speed(Some(4.0)),
         point(15.0, 0.0, 5.0),
         MissionStep::Payload,
         MissionStep::Delay(2.0),

@@ -94,6 +94,36 @@ fn wire_what_leads_out_of_the_fence_is_refused() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
 }
 
+/// Both ends of a way are allowed, its middle is not.
+#[test]
+fn wire_a_way_through_a_forbidden_area_is_refused_and_so_is_one_that_is_too_high() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let home = home_north(&station);
+    assert_eq!(upload(&mut station, &[area(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION, home + 30.0, 5.0)]), ACCEPTED);
+    let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 5.0, 6.0), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 60.0, 6.0)];
+    assert_eq!(upload(&mut station, &plan), ACCEPTED);
+    let start = |s: &mut Station| s.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]);
+    assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
+    assert!(said(&station, "The way to mission item 1 leaves the geofence"), "{:?}", texts(&station));
+    let round = MISSION_ITEM_INT_DATA { param1: 1.0, param3: 26.0, ..item(0, MavCmd::MAV_CMD_NAV_LOITER_TURNS, home, 6.0) };
+    assert_eq!(upload(&mut station, &[round]), ACCEPTED);
+    assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
+    assert!(said(&station, "Mission item 0 lies outside the geofence"), "{:?}", texts(&station));
+    let max = PARAM_SET_DATA {
+        param_value: 20.0,
+        target_system: 1,
+        target_component: 1,
+        param_id: "GF_MAX_VER_DIST".into(),
+        param_type: MavParamType::MAV_PARAM_TYPE_REAL32,
+    };
+    station.ask(&MavMessage::PARAM_SET(max), |m| matches!(m, MavMessage::PARAM_VALUE(_)).then_some(()));
+    assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, home, 30.0)]), ACCEPTED);
+    assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
+    let amsl = super::station::scenario("drill-hover").origin.altitude_m as f32 + 50.0;
+    let up = [0.0, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN, amsl];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, up), MavResult::MAV_RESULT_DENIED);
+}
+
 #[test]
 fn wire_outside_the_fence_it_does_not_arm() {
     let mut station = ready(7);

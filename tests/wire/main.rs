@@ -7,6 +7,7 @@ mod fence;
 mod flights;
 mod impaired;
 mod inspection;
+mod items;
 mod manual;
 mod network;
 mod noise;

@@ -294,7 +294,7 @@ fn merged(evidence: &Evidence<'_>) -> Vec<MergedCrash> {
         .collect()
 }
 
-/// Frames closer than the scenario's clearance, or than the task's own smaller distance while on its path.
+/// Frames closer than the scenario's clearance, or than the smaller distance of the task last entered, as the feedback has it.
 fn exposure_s(evidence: &Evidence<'_>) -> f64 {
     let scenario = evidence.scenario;
     let mut current: Option<usize> = None;

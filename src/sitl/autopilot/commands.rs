@@ -90,9 +90,9 @@ impl Autopilot {
             return Some(Outcome::Denied("No mission to fly".into()));
         }
         if mode == Mode::Mission
-            && let Some(step) = self.step_outside_fence()
+            && let Some(why) = self.mission_leaves_fence()
         {
-            return Some(Outcome::Denied(format!("Mission item {step} lies outside the geofence")));
+            return Some(Outcome::Denied(why));
         }
         if mode == Mode::Orbit && self.orbit.is_none() {
             return Some(Outcome::Denied("Nothing to circle: DO_ORBIT says what".into()));
@@ -111,7 +111,7 @@ impl Autopilot {
 
     fn restart_finished_mission(&mut self) {
         if self.mission.step().is_none() {
-            self.mission.jump(0);
+            self.mission.restart();
         }
         self.status.mission_finished = false;
         self.status.mission_current = self.mission.current;
@@ -121,9 +121,16 @@ impl Autopilot {
         if height_m.is_some_and(|h| !h.is_finite() || h.abs() > FAR_M) {
             return Outcome::Denied("Take-off height out of range".into());
         }
+        let here = self.estimate.position_m;
         let home_up = self.status.home_m.map_or(0.0, |h| -h.down());
-        let before = self.course.takeoff_up_m.replace(home_up + height_m.unwrap_or(self.tuning.takeoff_height_m));
-        let up = -self.estimate.position_m.down();
+        let wanted_up = home_up + height_m.unwrap_or(self.tuning.takeoff_height_m);
+        let up = -here.down();
+        if wanted_up > up
+            && let Some(refusal) = self.fence_refusal(Vec3::new(here.north(), here.east(), -wanted_up))
+        {
+            return refusal;
+        }
+        let before = self.course.takeoff_up_m.replace(wanted_up);
         let in_air = self.status.armed && self.status.landed != Landed::OnGround;
         if in_air && self.course.takeoff_up_m.is_some_and(|wanted| up >= wanted) {
             self.say(Severity::Info, "Already higher than takeoff altitude");
@@ -182,6 +189,7 @@ impl Autopilot {
         if !self.status.armed || self.status.landed == Landed::OnGround || !automatic {
             return Outcome::TemporarilyRejected("Not flying by itself".into());
         }
+        self.look_at_m = None;
         self.course.target_yaw_rad = Some(yaw_rad);
         Outcome::Accepted
     }
@@ -217,7 +225,11 @@ impl Autopilot {
 
     pub(super) fn move_home(&mut self, home_m: Vec3<Ned>) {
         let before_down_m = self.status.home_m.map_or(0.0, |h| h.down());
-        self.mission.raise_home(before_down_m - home_m.down());
+        let up_m = before_down_m - home_m.down();
+        self.mission.raise_home(up_m);
+        for refuge in self.refuges.iter_mut().filter(|refuge| refuge.over_home) {
+            refuge.place_m -= Vec3::new(0.0, 0.0, up_m);
+        }
         self.status.home_m = Some(home_m);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::attitude::{AttitudeLoop, within_limits};
 use super::estimator::Estimator;
-use super::fence::{Fence, FenceState};
+use super::fence::{Fence, FenceState, Refuge};
 use super::gains::Gains;
 use super::landed::GroundContact;
 use super::link::Links;
@@ -102,8 +102,8 @@ pub struct Autopilot {
     pub(super) orbit: Option<Orbit>,
     /// Automatic modes turn towards this place, m.
     pub(super) look_at_m: Option<Vec3<Ned>>,
-    /// Places to return to beside home, m.
-    pub(super) refuges_m: Vec<Vec3<Ned>>,
+    /// Places to return to beside home.
+    pub(super) refuges: Vec<Refuge>,
     pub(super) links: Links,
     pub(super) seen: Seen,
     pub(super) watch: Watch,
@@ -144,7 +144,7 @@ impl Autopilot {
             fence: Fence::default(),
             orbit: None,
             look_at_m: None,
-            refuges_m: Vec::new(),
+            refuges: Vec::new(),
             links: Links::default(),
             seen: Seen::default(),
             watch: Watch::default(),
@@ -182,15 +182,16 @@ impl Autopilot {
         self.mission = Mission::new(steps);
         self.status.mission_current = 0;
         self.status.mission_finished = false;
+        self.status.mission_paused = false;
         if self.status.mode == Mode::Mission {
             self.enter(Mode::Hold, self.last_step);
             self.watch.intended = Mode::Hold;
         }
     }
 
-    /// Replaces the rally points: a return goes to the nearest of them and home. m about the origin.
-    pub fn set_refuges(&mut self, places_m: Vec<Vec3<Ned>>) {
-        self.refuges_m = places_m;
+    /// Replaces the rally points: a return goes to the nearest of them and home.
+    pub fn set_refuges(&mut self, refuges: Vec<Refuge>) {
+        self.refuges = refuges;
     }
 
     /// Names the mission's steps whose heights count from home; given right after the mission, with the home of that moment in them.
@@ -204,6 +205,7 @@ impl Autopilot {
         if known {
             self.status.mission_current = index;
             self.status.mission_finished = false;
+            self.status.mission_paused = false;
         }
         known
     }

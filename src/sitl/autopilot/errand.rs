@@ -5,23 +5,25 @@ use super::core::{Autopilot, Severity};
 use super::modes::{ReturnPhase, Wanted};
 use super::{Landed, MissionStep, Mode};
 use crate::base::frames::{Ned, Vec3};
+use crate::base::math;
 use crate::base::time::SimTime;
 
 /// A mission goes on once this near to where it was left, m (estimate: less than the narrowest task's threshold).
 const BACK_WITHIN_M: f64 = 0.8;
+/// A turn is done within this much of its heading, rad (3 degrees, estimate).
+const TURNED_RAD: f64 = 0.052;
 /// A landing step descends once this near over its place, m.
 const OVER_PLACE_M: f64 = 0.7;
 
 impl Autopilot {
     pub(super) fn fly_mission(&mut self, now: SimTime, dt_s: f64) -> Wanted {
-        let Some(step) = self.mission.step() else {
+        let going = self.mission.skip(now);
+        self.carry_out_orders();
+        let Some(step) = self.mission.step().filter(|_| going) else {
             self.end_mission(now);
             return self.go(None, dt_s);
         };
         self.status.mission_current = self.mission.current;
-        if let Some(place) = self.mission.look_at_m.take() {
-            self.look_at_m = place;
-        }
         if let Some(place) = self.mission.left_at {
             return self.go_back_to(place, dt_s);
         }
@@ -31,6 +33,7 @@ impl Autopilot {
         if let MissionStep::Land { .. } | MissionStep::Return = step {
             return self.fly_down(&step, dt_s);
         }
+        let circle = matches!(step, MissionStep::Circle { .. }).then(|| self.circle(dt_s)).flatten();
         if self.step_done(&step, now) {
             self.status.mission_reached = Some(self.mission.current);
             if !self.mission.advance(now) {
@@ -38,7 +41,44 @@ impl Autopilot {
             }
         }
         let speed = self.mission.speed_m_s.or(Some(self.tuning.cruise_m_s));
-        self.go(speed, dt_s)
+        circle.unwrap_or_else(|| self.go(speed, dt_s))
+    }
+
+    /// What passed steps order of the autopilot.
+    fn carry_out_orders(&mut self) {
+        for order in std::mem::take(&mut self.mission.orders) {
+            match order {
+                MissionStep::LookAt(place) => self.look_at_m = place,
+                MissionStep::Home(place) => self.move_home(place.unwrap_or(self.estimate.position_m)),
+                MissionStep::Fence(on) => {
+                    self.enable_fence(on);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// On the ground a mission waits, and passes over what needs no flight.
+    pub(super) fn wait_on_ground(&mut self, now: SimTime) {
+        let going = self.mission.skip(now);
+        self.carry_out_orders();
+        if !going {
+            return;
+        }
+        self.status.mission_current = self.mission.current;
+        match self.mission.step() {
+            Some(MissionStep::Delay(_)) => {
+                // Waiting is no forgotten take-off.
+                self.watch.standing_since = now;
+                if self.mission.wait_until.is_some_and(|until| now >= until) {
+                    self.mission.advance(now);
+                }
+            }
+            Some(MissionStep::Turn { .. }) => {
+                self.mission.advance(now);
+            }
+            _ => {}
+        }
     }
 
     /// To where the mission was left, then on.
@@ -53,6 +93,7 @@ impl Autopilot {
 
     pub(super) fn begin_step(&mut self, step: &MissionStep) {
         self.mission.begun = true;
+        (self.orbit, self.status.orbit) = (None, None);
         let here = self.estimate.position_m;
         match *step {
             MissionStep::Waypoint { position_m, yaw_rad, .. } => {
@@ -69,6 +110,16 @@ impl Autopilot {
                 self.course.phase = ReturnPhase::Cruise;
             }
             MissionStep::Return => self.begin_return(),
+            MissionStep::Circle { centre_m, radius_m, turns } => self.begin_circle(centre_m, radius_m, turns),
+            MissionStep::Turn { yaw_rad, relative } => {
+                let from = if relative { self.estimate.attitude.yaw_rad() } else { 0.0 };
+                self.look_at_m = None;
+                self.course.target_yaw_rad = Some(math::wrap_pi(from + yaw_rad));
+            }
+            MissionStep::Near(_) => {
+                self.course.target_m = self.mission.next_place().unwrap_or(self.course.target_m);
+                self.course.target_yaw_rad = None;
+            }
             _ => {}
         }
     }
@@ -97,6 +148,12 @@ impl Autopilot {
             }
             MissionStep::Takeoff { .. } => self.status.landed == Landed::InAir && left.down() > -HEIGHT_REACHED_M,
             MissionStep::Delay(_) => self.mission.wait_until.is_some_and(|until| now >= until),
+            MissionStep::Circle { .. } => self.orbit.is_none_or(|orbit| orbit.left_rad <= 0.0),
+            MissionStep::Near(within_m) => left.norm() < within_m || self.mission.next_place().is_none(),
+            MissionStep::Turn { .. } => {
+                let yaw = self.estimate.attitude.yaw_rad();
+                self.course.target_yaw_rad.is_none_or(|wanted| math::wrap_pi(wanted - yaw).abs() < TURNED_RAD)
+            }
             _ => false,
         }
     }

@@ -60,6 +60,9 @@ impl Autopilot {
     }
 
     fn stand(&mut self, now: SimTime) {
+        if self.status.mode == Mode::Mission {
+            self.wait_on_ground(now);
+        }
         if self.wants_to_fly(now) {
             self.leave_ground(now);
             return;

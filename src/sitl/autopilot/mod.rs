@@ -251,8 +251,8 @@ pub enum MissionStep {
     },
     /// Return to home and land.
     Return,
-    /// Change the cruise speed, m/s.
-    Speed(f64),
+    /// Change the cruise speed, m/s; `None`: back to the parameter's.
+    Speed(Option<f64>),
     /// Wait, s.
     Delay(f64),
     /// Go to another item a number of times.
@@ -264,6 +264,28 @@ pub enum MissionStep {
     },
     /// Turn towards a place from here on, m; `None`: no more.
     LookAt(Option<Vec3<Ned>>),
+    /// Fly round a place, the nose to it.
+    Circle {
+        /// Its middle about the origin, m.
+        centre_m: Vec3<Ned>,
+        /// Its radius, m; counter-clockwise from above where negative.
+        radius_m: f64,
+        /// How often.
+        turns: f64,
+    },
+    /// Turn to a heading, rad.
+    Turn {
+        /// The heading, or the way to turn from the present one (clockwise positive).
+        yaw_rad: f64,
+        /// From the present heading.
+        relative: bool,
+    },
+    /// Fly on towards the next place until this near to it, m: what follows is done on the way.
+    Near(f64),
+    /// Home is at a place from here on, m; `None`: where the vehicle is then.
+    Home(Option<Vec3<Ned>>),
+    /// The geofence on or off from here on.
+    Fence(bool),
     /// Something for the payload that the endpoint does when this item becomes current.
     Payload,
 }

@@ -1,6 +1,7 @@
 //! What each mode wants of the velocity and attitude loops.
 
 use super::core::Autopilot;
+use super::fence::Refuge;
 use super::shaper::stopping_point;
 use super::velocity::{Motion, Pull};
 use super::{Landed, MissionStep, Mode, OffboardSetpoint};
@@ -149,10 +150,11 @@ impl Autopilot {
     fn nearest_refuge(&self) -> Vec3<Ned> {
         let here = self.estimate.position_m;
         let home = self.status.home_m.unwrap_or(here);
-        let nearer = |best: Vec3<Ned>, place: &Vec3<Ned>| {
-            if (*place - here).horizontal_norm() < (best - here).horizontal_norm() { *place } else { best }
+        let nearer = |best: Vec3<Ned>, refuge: &Refuge| {
+            let place = refuge.place_m;
+            if (place - here).horizontal_norm() < (best - here).horizontal_norm() { place } else { best }
         };
-        self.refuges_m.iter().fold(home, nearer)
+        self.refuges.iter().fold(home, nearer)
     }
 
     pub(super) fn begin_return(&mut self) {
@@ -175,7 +177,8 @@ impl Autopilot {
             }
             Mode::Takeoff => true,
             Mode::Mission => {
-                matches!(self.mission.step(), Some(MissionStep::Takeoff { .. } | MissionStep::Waypoint { .. }))
+                use MissionStep as S;
+                matches!(self.mission.step(), Some(S::Takeoff { .. } | S::Waypoint { .. } | S::Circle { .. } | S::Near(_)))
             }
             Mode::Offboard => self.links.offboard.is_some_and(|(s, _)| rises(&s, self.estimate.position_m.down())),
             Mode::Hold | Mode::Land | Mode::Return | Mode::Orbit => false,

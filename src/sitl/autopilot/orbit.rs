@@ -9,6 +9,9 @@ use crate::base::time::SimTime;
 
 /// The circle is closed in on at this rate, 1/s (estimate: slower than the velocity loop by far).
 const CLOSE_IN_PER_S: f64 = 0.6;
+/// What stays of the error is trimmed away at this rate, 1/s² (estimate: damping ratio 0.8 with the above), up to so much, m/s.
+const TRIM_PER_S2: f64 = 0.14;
+const TRIM_MAX_M_S: f64 = 2.0;
 /// Share of the acceleration that the circle may take.
 const TURN_SHARE: f64 = 0.5;
 /// Radii that can be flown, m.
@@ -54,6 +57,8 @@ pub struct Orbit {
     pub yaw: OrbitYaw,
     /// What is left to fly, rad; without end at infinity.
     pub left_rad: f64,
+    /// Inward speed that keeps it on the circle, learned on the way, m/s.
+    pub trim_m_s: f64,
 }
 
 /// A circle as a command asks for it.
@@ -94,12 +99,12 @@ impl Autopilot {
         }
         let (n, e) = wish.centre_m.unwrap_or((here.north(), here.east()));
         let centre_m = Vec3::new(n, e, wish.up_m.map_or(here.down(), |up| -up));
-        if let Some(refusal) = self.fence_refusal(centre_m) {
+        if let Some(refusal) = self.ring_refusal(centre_m, radius.abs()) {
             return refusal;
         }
         let signed = speed.abs().min(top) * radius.signum() * speed.signum();
         let left_rad = if wish.arc_rad > 0.0 { wish.arc_rad } else { f64::INFINITY };
-        self.orbit = Some(Orbit { centre_m, radius_m: radius.abs(), speed_m_s: signed, yaw: wish.yaw, left_rad });
+        self.orbit = Some(Orbit { centre_m, radius_m: radius.abs(), speed_m_s: signed, yaw: wish.yaw, left_rad, trim_m_s: 0.0 });
         self.watch.intended = Mode::Orbit;
         self.watch.overridden = false;
         self.enter(Mode::Orbit, now);
@@ -112,7 +117,28 @@ impl Autopilot {
     }
 
     pub(super) fn fly_orbit(&mut self, now: SimTime, dt_s: f64) -> Wanted {
-        let Some(mut orbit) = self.orbit else { return self.go(None, dt_s) };
+        let Some(wanted) = self.circle(dt_s) else { return self.go(None, dt_s) };
+        if self.orbit.is_some_and(|orbit| orbit.left_rad <= 0.0) {
+            self.say(Severity::Info, "Orbit finished");
+            self.watch.intended = Mode::Hold;
+            self.enter(Mode::Hold, now);
+        }
+        wanted
+    }
+
+    /// Sets up a circle of a mission: as fast as the mission flies, the nose to the middle or to what is looked at.
+    pub(super) fn begin_circle(&mut self, centre_m: Vec3<Ned>, radius_m: f64, turns: f64) {
+        let speed = self.mission.speed_m_s.unwrap_or(self.tuning.cruise_m_s).min(self.fastest_on(radius_m.abs()));
+        let speed_m_s = speed * radius_m.signum();
+        let left_rad = turns * 2.0 * math::PI;
+        self.orbit =
+            Some(Orbit { centre_m, radius_m: radius_m.abs(), speed_m_s, yaw: OrbitYaw::Centre, left_rad, trim_m_s: 0.0 });
+        self.course.target_m = centre_m;
+    }
+
+    /// Flies round; `None` where there is nothing to circle.
+    pub(super) fn circle(&mut self, dt_s: f64) -> Option<Wanted> {
+        let mut orbit = self.orbit?;
         let here = self.estimate.position_m;
         let out = Vec3::<Ned>::new(here.north() - orbit.centre_m.north(), here.east() - orbit.centre_m.east(), 0.0);
         let distance = out.norm();
@@ -122,11 +148,11 @@ impl Autopilot {
         let cruise = self.tuning.cruise_m_s.min(self.airframe.limits.forward_m_s);
         // Far from the circle the way is towards it; on it, around.
         let on_it = (1.0 - error.abs() / orbit.radius_m.max(2.0)).clamp(0.0, 1.0);
-        let flat = along * (orbit.speed_m_s * on_it) - away * (CLOSE_IN_PER_S * error).clamp(-cruise, cruise);
+        let flat = along * (orbit.speed_m_s * on_it) - away * (CLOSE_IN_PER_S * error + orbit.trim_m_s).clamp(-cruise, cruise);
         let climb = CLOSE_IN_PER_S * (orbit.centre_m.down() - here.down());
         let wish = Vec3::new(flat.north(), flat.east(), climb.clamp(-self.tuning.climb_m_s, self.tuning.descend_m_s));
         match orbit.yaw {
-            OrbitYaw::Centre => self.turn_to(heading(away * -1.0), dt_s),
+            OrbitYaw::Centre => self.turn_to(self.look_rad().or(heading(away * -1.0)), dt_s),
             OrbitYaw::Tangent => self.turn_to(heading(along * orbit.speed_m_s.signum()), dt_s),
             OrbitYaw::Keep => self.turn_to(None, dt_s),
             OrbitYaw::Stick => self.stick_yaw(dt_s),
@@ -135,15 +161,11 @@ impl Autopilot {
         self.status.target_m = Some(orbit.centre_m);
         self.status.orbit = Some(orbit);
         if error.abs() < 0.3 * orbit.radius_m {
+            orbit.trim_m_s = (orbit.trim_m_s + TRIM_PER_S2 * error * dt_s).clamp(-TRIM_MAX_M_S, TRIM_MAX_M_S);
             orbit.left_rad -= orbit.speed_m_s.abs() * dt_s / orbit.radius_m;
             self.orbit = Some(orbit);
         }
-        if orbit.left_rad <= 0.0 {
-            self.say(Severity::Info, "Orbit finished");
-            self.watch.intended = Mode::Hold;
-            self.enter(Mode::Hold, now);
-        }
-        Wanted::Fly(self.motion(self.shaper.velocity_m_s))
+        Some(Wanted::Fly(self.motion(self.shaper.velocity_m_s)))
     }
 
     /// Heading towards the place that is looked at, if there is one and it is not underneath, rad.

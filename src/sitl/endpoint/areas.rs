@@ -1,10 +1,9 @@
 //! Geofence and rally points of a plan, as the autopilot takes them.
 
-use super::places::{flyable, place};
-use crate::base::frames::{Ned, Vec3};
+use super::places::{flyable, place, relative};
 use crate::base::geodesy::LocalPlane;
-use crate::mav::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavMissionResult};
-use crate::sitl::autopilot::fence::{Outline, Zone};
+use crate::mav::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavMissionResult, MavMissionType};
+use crate::sitl::autopilot::fence::{Outline, Refuge, Zone};
 
 /// A polygon's corners.
 const CORNERS: std::ops::RangeInclusive<f32> = 3.0..=70.0;
@@ -13,12 +12,14 @@ const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=100_000.0;
 
 /// Whether an item of a fence or of rally points can be part of one; names the parameter that is wrong.
 pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
+    let rally = item.mission_type == MavMissionType::MAV_MISSION_TYPE_RALLY;
     let first = match item.command {
+        MavCmd::MAV_CMD_NAV_RALLY_POINT if rally => true,
+        _ if rally => return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED),
         MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_EXCLUSION => {
             CORNERS.contains(&item.param1) && item.param1.fract() == 0.0
         }
         MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION => RADII_M.contains(&item.param1),
-        MavCmd::MAV_CMD_NAV_RALLY_POINT => true,
         _ => return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED),
     };
     if !first {
@@ -74,7 +75,10 @@ pub(super) fn zones(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane) -> Vec<
     out
 }
 
-/// The places of rally points, m about the origin.
-pub(super) fn refuges(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane, home_up_m: f64) -> Vec<Vec3<Ned>> {
-    items.iter().filter_map(|item| place(item, plane, home_up_m)).collect()
+/// The rally points.
+pub(super) fn refuges(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane, home_up_m: f64) -> Vec<Refuge> {
+    let refuge = |item: &MISSION_ITEM_INT_DATA| {
+        Some(Refuge { place_m: place(item, plane, home_up_m)?, over_home: relative(item.frame) == Some(true) })
+    };
+    items.iter().filter_map(refuge).collect()
 }

@@ -186,15 +186,15 @@ pub(super) fn mission_set_current(e: &mut Endpoint, c: &MISSION_SET_CURRENT_DATA
     }
 }
 
-/// Parts of plans are neither given nor taken.
+/// MAVLink does not say how a part would be answered, and no autopilot does.
 pub(super) fn mission_request_partial(e: &mut Endpoint, r: &MISSION_REQUEST_PARTIAL_LIST_DATA, a: &mut Arrival) {
     let refusal = ack(a.from, r.mission_type, MavMissionResult::MAV_MISSION_UNSUPPORTED);
     e.answer(a.link, &refusal);
 }
 
 pub(super) fn mission_write_partial(e: &mut Endpoint, w: &MISSION_WRITE_PARTIAL_LIST_DATA, a: &mut Arrival) {
-    let refusal = ack(a.from, w.mission_type, MavMissionResult::MAV_MISSION_UNSUPPORTED);
-    e.answer(a.link, &refusal);
+    let reply = e.plans.begin_part(a.from, w.mission_type, (w.start_index, w.end_index), a.view.now);
+    carry_out(e, reply, a);
 }
 
 /// An item with a command, frame or plan type that MAVLink does not know ends the upload.

@@ -1,26 +1,21 @@
-//! Plans: upload and download of missions, fences and rally points, and what of a mission the autopilot can fly.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+//! Plans: upload, whole or in part, and download of missions, fences and rally points.
 
-use super::areas;
-use super::commands::payload;
-use super::places::{HIGHEST_M, flyable, place, placeless, relative};
+use super::places::relative;
 use super::view::PlanSummary;
-use crate::base::frames::{Ned, Vec3};
+use super::{areas, items};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::mav::dialect::{
-    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MavCmd, MavFrame, MavMessage,
-    MavMissionResult, MavMissionType,
+    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MavMessage, MavMissionResult,
+    MavMissionType,
 };
 use crate::sitl::autopilot::MissionStep;
-use crate::sitl::autopilot::fence::Zone;
+use crate::sitl::autopilot::fence::{Refuge, Zone};
 
 /// Items that a plan may have.
 const MOST_ITEMS: u16 = 2_000;
 /// A stalled upload is given up after this long, s (clients retry for less).
 const STALL_S: f64 = 10.0;
-/// Longest stay of an item, s.
-const LONGEST_S: f32 = 86_400.0;
 /// A silent uploader is asked again after this long, s.
 const ASK_AGAIN_S: f64 = 0.5;
 
@@ -33,8 +28,8 @@ pub struct Plans {
     kept: [Vec<MISSION_ITEM_INT_DATA>; 3],
     ids: [u32; 3],
     upload: Option<Upload>,
-    /// Who finished an upload last: the acknowledgement may have been lost.
-    done: Option<(Peer, MavMissionType)>,
+    /// Who finished an upload last, with which item: the acknowledgement may have been lost.
+    done: Option<(Peer, MavMissionType, u16)>,
     /// Seconds of simulation time in a second of the uploader's.
     pace: f64,
 }
@@ -50,6 +45,9 @@ struct Upload {
     from: Peer,
     kind: MavMissionType,
     items: Vec<MISSION_ITEM_INT_DATA>,
+    /// The items replace a part of the plan, from this place on.
+    part: bool,
+    first: u16,
     count: u16,
     heard: SimTime,
     asked: SimTime,
@@ -125,9 +123,9 @@ impl Plans {
         areas::zones(&self.kept[1], plane)
     }
 
-    /// The rally points, m about the origin.
+    /// The rally points.
     #[must_use]
-    pub fn refuges(&self, plane: &LocalPlane, home_up_m: f64) -> Vec<Vec3<Ned>> {
+    pub fn refuges(&self, plane: &LocalPlane, home_up_m: f64) -> Vec<Refuge> {
         areas::refuges(&self.kept[2], plane, home_up_m)
     }
 
@@ -167,7 +165,7 @@ impl Plans {
     /// Somebody begins an upload. A second station in the middle of one is refused.
     pub fn begin(&mut self, from: Peer, kind: MavMissionType, count: u16, now: SimTime) -> Reply {
         let refuse = |result| Reply::Say(ack(from, kind, result));
-        if self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.heard).s() < STALL_S * self.pace) {
+        if self.is_busy(from, now) {
             return refuse(MavMissionResult::MAV_MISSION_DENIED);
         }
         let Some(slot) = slot(kind) else { return refuse(MavMissionResult::MAV_MISSION_UNSUPPORTED) };
@@ -182,8 +180,33 @@ impl Plans {
             let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
             return Reply::New(kind, done);
         }
-        self.upload = Some(Upload { from, kind, items: Vec::new(), count, heard: now, asked: now });
+        self.upload = Some(Upload { from, kind, items: Vec::new(), part: false, first: 0, count, heard: now, asked: now });
         Reply::Say(ask(from, kind, 0))
+    }
+
+    /// Somebody replaces the items from `first` to `last`, which are there.
+    pub fn begin_part(&mut self, from: Peer, kind: MavMissionType, (first, last): (i16, i16), now: SimTime) -> Reply {
+        let refuse = |result| Reply::Say(ack(from, kind, result));
+        if self.is_busy(from, now) {
+            return refuse(MavMissionResult::MAV_MISSION_DENIED);
+        }
+        let Some(slot) = slot(kind) else { return refuse(MavMissionResult::MAV_MISSION_UNSUPPORTED) };
+        let known = self.kept[slot].len();
+        let (Ok(first), Ok(last)) = (u16::try_from(first), u16::try_from(last)) else {
+            return refuse(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE);
+        };
+        if first > last || usize::from(last) >= known {
+            return refuse(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE);
+        }
+        self.done = None;
+        self.upload =
+            Some(Upload { from, kind, items: Vec::new(), part: true, first, count: last - first + 1, heard: now, asked: now });
+        Reply::Say(ask(from, kind, first))
+    }
+
+    /// Somebody else is in the middle of an upload.
+    fn is_busy(&self, from: Peer, now: SimTime) -> bool {
+        self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.heard).s() < STALL_S * self.pace)
     }
 
     /// An item of an upload.
@@ -197,14 +220,16 @@ impl Plans {
             return Reply::Say(ack(from, item.mission_type, result));
         };
         upload.heard = now;
-        let wanted = upload.items.len() as u16;
+        let wanted = upload.first + upload.items.len() as u16;
         if item.seq != wanted {
             // Heard before or out of turn. The one that is missing has been asked for; asking at every echo would double all that follows,
             // and clients that count repetitions give up. Its time comes in `remind`.
             return Reply::Nothing;
         }
         upload.asked = now;
-        if let Err(result) = legal(item, upload.count, plane) {
+        let kept = slot(upload.kind).map_or(0, |slot| self.kept[slot].len());
+        let total = if upload.part { kept as u16 } else { upload.count };
+        if let Err(result) = items::legal(item, total, plane) {
             let kind = upload.kind;
             self.upload = None;
             return Reply::Say(ack(from, kind, result));
@@ -215,26 +240,36 @@ impl Plans {
         if (upload.items.len() as u16) < upload.count {
             return Reply::Say(ask(from, upload.kind, wanted + 1));
         }
-        let Some(upload) = self.upload.take() else { return Reply::Nothing };
-        if let Err(result) = areas::whole(&upload.items) {
-            return Reply::Say(ack(from, upload.kind, result));
+        self.upload.take().map_or(Reply::Nothing, |upload| self.complete(upload))
+    }
+
+    /// All items have come.
+    fn complete(&mut self, upload: Upload) -> Reply {
+        let Upload { from, kind, items, first, part, .. } = upload;
+        let Some(slot) = slot(kind) else { return Reply::Nothing };
+        let mut whole = if part { self.kept[slot].clone() } else { Vec::new() };
+        let last = first + items.len().saturating_sub(1) as u16;
+        let first = usize::from(first);
+        let until = (first + items.len()).min(whole.len());
+        whole.splice(first.min(until)..until, items);
+        if let Err(result) = areas::whole(&whole).and_then(|()| items::whole(&whole)) {
+            return Reply::Say(ack(from, kind, result));
         }
-        let slot = slot(upload.kind).unwrap_or(0);
-        self.ids[slot] = id_of(&upload.items);
-        self.kept[slot] = upload.items;
-        self.done = Some((from, upload.kind));
-        let done = ack_with(from, upload.kind, MavMissionResult::MAV_MISSION_ACCEPTED, self.ids[slot]);
-        Reply::New(upload.kind, done)
+        self.ids[slot] = id_of(&whole);
+        self.kept[slot] = whole;
+        self.done = Some((from, kind, last));
+        let done = ack_with(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED, self.ids[slot]);
+        Reply::New(kind, done)
     }
 
     /// The last item of a finished upload once more: its sender has not heard the acknowledgement.
     fn is_last_again(&self, from: Peer, item: &MISSION_ITEM_INT_DATA) -> bool {
-        let kept = slot(item.mission_type).and_then(|slot| self.kept[slot].last());
+        let kept = slot(item.mission_type).and_then(|slot| self.kept[slot].get(usize::from(item.seq)));
         // Not-a-number fields differ from themselves: the place and the command tell.
         let same = |last: &MISSION_ITEM_INT_DATA| {
             (last.seq, last.command, last.frame, last.x, last.y) == (item.seq, item.command, item.frame, item.x, item.y)
         };
-        self.done == Some((from, item.mission_type)) && kept.is_some_and(same)
+        self.done == Some((from, item.mission_type, item.seq)) && kept.is_some_and(same)
     }
 
     /// An item that the dialect cannot hold (unknown command or frame) ends the upload.
@@ -278,7 +313,7 @@ impl Plans {
         }
         if (now - upload.asked).s() > ASK_AGAIN_S * self.pace {
             upload.asked = now;
-            return Some((from, ask(from, kind, upload.items.len() as u16)));
+            return Some((from, ask(from, kind, upload.first + upload.items.len() as u16)));
         }
         None
     }
@@ -286,7 +321,7 @@ impl Plans {
     /// The mission as the autopilot flies it. `home_up_m` is home's height about the origin.
     #[must_use]
     pub fn steps(&self, plane: &LocalPlane, home_up_m: f64, accept_m: f64) -> Vec<MissionStep> {
-        self.kept[0].iter().map(|item| step(item, plane, home_up_m, accept_m)).collect()
+        self.kept[0].iter().map(|item| items::step(item, plane, home_up_m, accept_m)).collect()
     }
 
     /// Which items of the mission give their height over home.
@@ -303,82 +338,4 @@ fn ask(to: Peer, kind: MavMissionType, seq: u16) -> MavMessage {
         target_component: to.1,
         mission_type: kind,
     })
-}
-
-/// Refuses what could never be flown, naming the parameter that is wrong.
-fn legal(item: &MISSION_ITEM_INT_DATA, count: u16, plane: &LocalPlane) -> Result<(), MavMissionResult> {
-    use MavMissionResult as R;
-    if item.mission_type != MavMissionType::MAV_MISSION_TYPE_MISSION {
-        return areas::legal(item, plane);
-    }
-    let span = |value: f32, low: f32, high: f32, wrong: R| {
-        if value.is_nan() || (low..=high).contains(&value) { Ok(()) } else { Err(wrong) }
-    };
-    match item.command {
-        MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM => {
-            span(item.param1, 0.0, LONGEST_S, R::MAV_MISSION_INVALID_PARAM1)?;
-            flyable(item, plane)
-        }
-        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND if placeless(item) => {
-            if relative(item.frame).is_none() && item.frame != MavFrame::MAV_FRAME_MISSION {
-                return Err(R::MAV_MISSION_UNSUPPORTED_FRAME);
-            }
-            span(item.z, -HIGHEST_M, HIGHEST_M, R::MAV_MISSION_INVALID_PARAM7)
-        }
-        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND => flyable(item, plane),
-        MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY => {
-            span(item.param1, -1.0, LONGEST_S, R::MAV_MISSION_INVALID_PARAM1)
-        }
-        MavCmd::MAV_CMD_DO_JUMP => {
-            let inside = (0.0..f32::from(count)).contains(&item.param1);
-            if inside { span(item.param2, -1.0, 1e6, R::MAV_MISSION_INVALID_PARAM2) } else { Err(R::MAV_MISSION_INVALID_PARAM1) }
-        }
-        MavCmd::MAV_CMD_DO_CHANGE_SPEED => span(item.param2, -2.0, 100.0, R::MAV_MISSION_INVALID_PARAM2),
-        MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH | MavCmd::MAV_CMD_DO_LAND_START => Ok(()),
-        command if payload::knows(command) => Ok(()),
-        _ => Err(R::MAV_MISSION_UNSUPPORTED),
-    }
-}
-
-fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64, accept_m: f64) -> MissionStep {
-    let number = |x: f32, or: f64| if x.is_finite() { f64::from(x) } else { or };
-    match item.command {
-        MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM => {
-            let Some(position_m) = place(item, plane, home_up_m) else { return MissionStep::Payload };
-            let radius = number(item.param2, 0.0);
-            MissionStep::Waypoint {
-                position_m,
-                accept_m: if item.command == MavCmd::MAV_CMD_NAV_WAYPOINT && radius > 0.0 { radius } else { accept_m },
-                hold_s: if item.command == MavCmd::MAV_CMD_NAV_LOITER_UNLIM {
-                    f64::INFINITY
-                } else {
-                    number(item.param1, 0.0).max(0.0)
-                },
-                yaw_rad: (item.command == MavCmd::MAV_CMD_NAV_WAYPOINT && item.param4.is_finite())
-                    .then(|| f64::from(item.param4).to_radians()),
-            }
-        }
-        MavCmd::MAV_CMD_NAV_TAKEOFF => {
-            let over_sea = relative(item.frame) == Some(false);
-            let base = if over_sea { -plane.origin().altitude_m } else { home_up_m };
-            MissionStep::Takeoff { up_m: if item.z.is_nan() { home_up_m + 2.5 } else { base + f64::from(item.z) } }
-        }
-        MavCmd::MAV_CMD_NAV_LAND => {
-            MissionStep::Land { position_m: if placeless(item) { None } else { place(item, plane, home_up_m) } }
-        }
-        MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH => MissionStep::Return,
-        MavCmd::MAV_CMD_DO_CHANGE_SPEED if item.param2 > 0.0 => MissionStep::Speed(number(item.param2, 5.0)),
-        MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY => MissionStep::Delay(number(item.param1, 0.0).max(0.0)),
-        MavCmd::MAV_CMD_DO_SET_ROI_NONE => MissionStep::LookAt(None),
-        MavCmd::MAV_CMD_DO_SET_ROI_LOCATION | MavCmd::MAV_CMD_DO_SET_ROI => {
-            place(item, plane, home_up_m).map_or(MissionStep::Payload, |place| MissionStep::LookAt(Some(place)))
-        }
-        MavCmd::MAV_CMD_DO_JUMP => {
-            let times = number(item.param2, 0.0);
-            // -1 repeats for ever (MAVLink common).
-            let times = if times < 0.0 { u32::MAX } else { times as u32 };
-            MissionStep::Jump { to: number(item.param1, 0.0).max(0.0) as usize, times }
-        }
-        _ => MissionStep::Payload,
-    }
 }

@@ -12,6 +12,7 @@ pub mod files;
 mod ftp;
 pub mod gimbal;
 pub mod guard;
+mod items;
 pub mod lamp;
 pub mod link;
 pub mod logs;

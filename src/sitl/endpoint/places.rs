@@ -9,14 +9,12 @@ use crate::mav::units;
 /// Heights beyond this are mistakes, m.
 pub(super) const HIGHEST_M: f32 = 10_000.0;
 
-/// Whether a frame counts heights from home; `None` for a frame that is no place over the ground.
+/// Whether a frame counts heights from home; `None` for a frame that is no place over the ground, and for heights over the terrain: the
+/// vehicle has no map of it, and deck and water are none.
 pub(super) fn relative(frame: MavFrame) -> Option<bool> {
     match frame {
         MavFrame::MAV_FRAME_GLOBAL | MavFrame::MAV_FRAME_GLOBAL_INT => Some(false),
-        MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT
-        | MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT
-        | MavFrame::MAV_FRAME_GLOBAL_TERRAIN_ALT
-        | MavFrame::MAV_FRAME_GLOBAL_TERRAIN_ALT_INT => Some(true),
+        MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT | MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT => Some(true),
         _ => None,
     }
 }

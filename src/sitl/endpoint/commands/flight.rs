@@ -42,6 +42,8 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         n if n == M::MAV_CMD_MISSION_START as u16 => {
             Request::StartMission { first: c.given(0).filter(|f| *f > 0.0).map(|f| f as usize) }
         }
+        // Climbing and sinking have parameters of their own.
+        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.given(0).is_some_and(|kind| kind > 1.0) => return Some(DENIED),
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.given(1) {
             // -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
             Some(-1.0) => return Some(MavResult::MAV_RESULT_ACCEPTED),
