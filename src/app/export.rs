@@ -1,36 +1,45 @@
-//! `spandrel export`: frames, scenario, flight plan and geometry for other programs.
+//! `spandrel export`: frames, scenario, flight plan, geometry and recordings for other programs.
 
 use super::args;
 use super::assess;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
+use super::mcap::{self, Recording};
 use super::progress::Progress;
 use super::session_folder::Stored;
+use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
+use crate::monitor::assessment::scored_flight;
 use crate::monitor::export::{ScenarioExport, frames_csv, json_text};
+use crate::monitor::recording;
 use crate::pilot::flight_plan;
 use crate::pilot::job::Map;
 use crate::site::Site;
 use crate::site::gltf;
+use crate::telemetry::{Timeline, foxglove};
+use std::io::Cursor;
 use std::path::Path;
 
-/// Write frames, scenario, flight plan or geometry for other programs
+/// Write frames, scenario, flight plan, geometry or a recording for other programs
 ///
 /// Frames (one line per scored frame, CSV) need a session; the scored part of the scenario (JSON: paths, defects, limits) and the
-/// geometry that collides (binary glTF, every member named with its element number) work for a session or a scenario.
+/// geometry that collides (binary glTF, every member named with its element number) work for a session or a scenario. A recording (MCAP,
+/// for Foxglove) needs a session, or a recording that broke off, which is recovered up to its last whole chunk.
 #[derive(Debug, clap::Args)]
-#[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb", "plan"])))]
+#[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb", "plan", "mcap"])))]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel export sessions/20260801T... --frames frames.csv
   spandrel export two-bridges --seed 7 --scenario -          paths and the defects that seed 7 places
   spandrel export two-bridges --plan tasks.plan              open it in QGroundControl, upload, start
   spandrel export two-bridges --glb bridges.glb              open it in any 3D viewer
+  spandrel export sessions/20260801T... --mcap flight.mcap   open it in Foxglove
+  spandrel export broken.mcap --mcap whole.mcap              recover a recording that broke off
 
 {EXIT_CODES}"))]
 pub struct Args {
-    /// Session folder, scenario file, or the name of a shipped scenario
-    #[arg(value_name = "SESSION|SCENARIO")]
+    /// Session folder, scenario file, or the name of a shipped scenario; with --mcap also a recording
+    #[arg(value_name = "SESSION|SCENARIO|MCAP")]
     from: String,
     /// Frames as CSV; '-' for standard output
     #[arg(long, value_name = "FILE")]
@@ -48,6 +57,9 @@ pub struct Args {
     /// Geometry as binary glTF 2.0, metres, y up; '-' for standard output
     #[arg(long, value_name = "FILE")]
     glb: Option<String>,
+    /// The flight as MCAP: drone, camera and site, battery, clearance, contacts; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    mcap: Option<String>,
     /// Seed that places the defects of a scenario without a seed of its own
     #[arg(long, value_name = "N", value_parser = args::seed)]
     seed: Option<u64>,
@@ -59,6 +71,11 @@ pub struct Args {
 /// When files are wrong, there is nothing to export, or the target cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let path = Path::new(&args.from);
+    if let Some(target) = &args.mcap
+        && path.extension().is_some_and(|ending| ending == "mcap")
+    {
+        return recover(path, target);
+    }
     let stored = if path.is_dir() { Some(Stored::read(path)?) } else { None };
     if let Some(target) = &args.frames {
         let Some(stored) = &stored else {
@@ -66,6 +83,15 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         };
         let graded = assess::grade(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle)?;
         files::write(target, frames_csv(&graded.frames).as_bytes())?;
+    }
+    if let Some(target) = &args.mcap {
+        let Some(stored) = &stored else {
+            return Err(AppError::wrong(format!(
+                "--mcap needs a session folder or a recording (.mcap), and '{}' is neither",
+                args.from
+            )));
+        };
+        files::write(target, &recorded(stored)?)?;
     }
     if args.scenario.is_none() && args.glb.is_none() && args.plan.is_none() {
         return Ok(());
@@ -100,4 +126,35 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         files::write(target, &gltf::glb(&site))?;
     }
     Ok(())
+}
+
+/// A session's flight as a recording.
+fn recorded(stored: &Stored) -> Result<Vec<u8>, AppError> {
+    let (scenario, vehicle) = (&stored.scenario.scenario, &stored.vehicle.vehicle);
+    let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
+    timeline.push_log(&stored.log);
+    let flight = scored_flight(&timeline, scenario, vehicle);
+    let messages = recording::messages(&flight, scenario, vehicle);
+    let Some(first) = messages.first() else {
+        return Err(AppError::failed("the session holds no flight to record"));
+    };
+    // No seed moves the geometry.
+    let glb = gltf::glb(&Site::build(scenario, 0));
+    let write = || {
+        let mut out = Recording::begin(Cursor::new(Vec::new()))?;
+        out.write(&foxglove::site(first.unix_ns, &mcap::base64(&glb)))?;
+        messages.iter().try_for_each(|message| out.write(message))?;
+        out.end().map(Cursor::into_inner)
+    };
+    write().map_err(|error: ::mcap::McapError| AppError::failed(format!("the recording cannot be made: {error}")))
+}
+
+/// Writes anew what a recording that broke off still holds.
+fn recover(path: &Path, target: &str) -> Result<(), AppError> {
+    let shown = path.display();
+    let file = std::fs::read(path).map_err(|error| AppError::wrong(format!("{shown}: {error}")))?;
+    let recovered = mcap::recover(&file).map_err(|error| AppError::wrong(format!("{shown} is no recording (MCAP): {error}")))?;
+    let why = recovered.broken.as_deref().unwrap_or("it was whole");
+    tracing::info!("{shown}: {} messages ({why})", recovered.messages);
+    files::write(target, &recovered.bytes)
 }

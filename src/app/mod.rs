@@ -13,6 +13,7 @@ mod files;
 mod key;
 mod links;
 mod logging;
+pub mod mcap;
 mod monitor;
 mod net;
 mod pace;

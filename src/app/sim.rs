@@ -13,7 +13,7 @@ use super::shell::{Kept, Shell, Signing};
 use super::stop::Stop;
 use super::store::Store;
 use crate::base::time::SimTime;
-use crate::site::Site;
+use crate::site::{Site, gltf};
 use crate::sitl::endpoint::LinkKind;
 use crate::sitl::sim::{Sim, SimConfig};
 use std::net::SocketAddr;
@@ -52,7 +52,7 @@ pub struct Args {
     /// --instance and from every port that is given
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
     instances: u8,
-    /// Folder that is served over MAVLink FTP; the flights' logs (ULog) are written to its folder log. With several vehicles each has a
+    /// Folder that is served over MAVLink FTP; the flights' logs (ULog, and MCAP for Foxglove) are written to its folder log. With several vehicles each has a
     /// folder in it, named by its system id [default: none is served or written]
     #[arg(long, value_name = "DIR")]
     files: Option<PathBuf>,
@@ -130,7 +130,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let mut doors = (0..args.instances).map(|more| Door::open(args, more)).collect::<Result<Vec<_>, _>>()?;
     let progress = Progress::start("building the site");
     let site = Arc::new(Site::build(&scenario, seed));
+    let glb = args.files.is_some().then(|| gltf::glb(&site));
     for door in &mut doors {
+        if let (Some(store), Some(glb)) = (&mut door.kept.store, &glb) {
+            store.show_site(glb);
+        }
         door.links.bound["seed"] = seed.into();
         if args.announce {
             println!("{}", door.links.bound);

@@ -2,10 +2,12 @@
 //! links and names that lead out of it are refused by the operating system's own look-up, not by comparing text.
 
 use super::errors::AppError;
+use super::mcap::{Recording, base64};
 use crate::mav::ftp::checksum;
 use crate::sitl::endpoint::files::job::{Action, Done, Entry, FileError};
 use crate::sitl::endpoint::files::path::FilePath;
 use crate::sitl::log::Piece;
+use crate::telemetry::foxglove;
 use cap_std::ambient_authority;
 use cap_std::fs::{Dir, File, OpenOptions};
 use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
@@ -22,7 +24,10 @@ const LOGS: &str = "log";
 #[derive(Debug)]
 pub struct Store {
     root: Dir,
+    /// The site as binary glTF in base64: every recording begins with it.
+    site: Option<String>,
     log: Option<File>,
+    recording: Option<Recording<std::fs::File>>,
 }
 
 impl Store {
@@ -35,7 +40,12 @@ impl Store {
         std::fs::create_dir_all(path).map_err(failed)?;
         let root = Dir::open_ambient_dir(path, ambient_authority()).map_err(failed)?;
         root.create_dir_all(LOGS).map_err(failed)?;
-        Ok(Self { root, log: None })
+        Ok(Self { root, site: None, log: None, recording: None })
+    }
+
+    /// Recordings show this site from now on, binary glTF.
+    pub fn show_site(&mut self, glb: &[u8]) {
+        self.site = Some(base64(glb));
     }
 
     /// Does what a client asked.
@@ -127,7 +137,7 @@ impl Store {
         }
     }
 
-    /// Writes a piece of the vehicle's log to `log/<date>/<time>.ulg`.
+    /// Writes a piece of the vehicle's log to `log/<date>/<time>.ulg`, and of the recording beside it to the same name with `.mcap`.
     ///
     /// # Errors
     /// When the disk does not take it.
@@ -139,25 +149,47 @@ impl Store {
                 let folder = format!("{LOGS}/{date}");
                 self.root.create_dir_all(&folder)?;
                 let stem = time.trim_matches(|c: char| !c.is_ascii_digit()).replace(':', "_");
-                self.log = Some(self.new_log(&format!("{folder}/{stem}"))?);
+                self.begin_log(&format!("{folder}/{stem}"), *unix_us)?;
             }
             Piece::Bytes(bytes) => {
                 if let Some(file) = &mut self.log {
                     file.write_all(bytes)?;
                 }
             }
-            Piece::End => self.log = None,
+            Piece::Message(message) => {
+                if let Some(recording) = &mut self.recording {
+                    recording.write(message).map_err(std::io::Error::other)?;
+                }
+            }
+            Piece::End => {
+                self.log = None;
+                if let Some(recording) = self.recording.take() {
+                    recording.end().map_err(std::io::Error::other)?;
+                }
+            }
         }
         Ok(())
     }
 
+    fn begin_log(&mut self, stem: &str, unix_us: u64) -> std::io::Result<()> {
+        let (log, name) = self.new_log(stem)?;
+        self.log = Some(log);
+        let file = self.root.open_with(name, OpenOptions::new().write(true).create(true).truncate(true))?;
+        let mut recording = Recording::begin(file.into_std()).map_err(std::io::Error::other)?;
+        if let Some(site) = &self.site {
+            recording.write(&foxglove::site(unix_us * 1_000, site)).map_err(std::io::Error::other)?;
+        }
+        self.recording = Some(recording);
+        Ok(())
+    }
+
     /// Two flights that begin in the same second of simulated UTC have logs of their own.
-    fn new_log(&self, stem: &str) -> std::io::Result<File> {
-        let mut name = format!("{stem}.ulg");
+    fn new_log(&self, stem: &str) -> std::io::Result<(File, String)> {
+        let mut name = stem.to_owned();
         for number in 1.. {
-            match self.root.open_with(&name, OpenOptions::new().write(true).create_new(true)) {
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => name = format!("{stem}-{number}.ulg"),
-                other => return other,
+            match self.root.open_with(format!("{name}.ulg"), OpenOptions::new().write(true).create_new(true)) {
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => name = format!("{stem}-{number}"),
+                other => return other.map(|file| (file, format!("{name}.mcap"))),
             }
         }
         Err(ErrorKind::AlreadyExists.into())
@@ -241,7 +273,12 @@ mod tests {
         }
         let day = path("log/2026-09-21");
         let Done::Entries(entries) = store.work(&Action::List(day)).unwrap() else { panic!("no list") };
-        assert_eq!(entries, [Entry::File("14_13_20-1.ulg".into(), 3), Entry::File("14_13_20.ulg".into(), 3)]);
+        let logs: Vec<_> = entries.iter().filter(|e| matches!(e, Entry::File(name, _) if name.ends_with(".ulg"))).collect();
+        assert_eq!(logs, [&Entry::File("14_13_20-1.ulg".into(), 3), &Entry::File("14_13_20.ulg".into(), 3)]);
+        for name in ["14_13_20.mcap", "14_13_20-1.mcap"] {
+            let file = std::fs::read(base.join("root/log/2026-09-21").join(name)).unwrap();
+            assert_eq!(super::super::mcap::recover(&file).unwrap().broken, None, "{name}");
+        }
         std::fs::remove_dir_all(base).unwrap();
     }
 }

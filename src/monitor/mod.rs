@@ -8,6 +8,7 @@ pub mod export;
 pub mod feedback;
 pub mod folder;
 pub mod measures;
+pub mod recording;
 pub mod score;
 pub mod session;
 pub mod watch;

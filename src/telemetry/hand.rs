@@ -26,6 +26,17 @@ impl Hand {
         if autopilot == ARDUPILOT { Self::of_copter(custom_mode) } else { Self::of_px4(custom_mode) }
     }
 
+    /// The word of the records.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pilot => "pilot",
+            Self::Mission => "mission",
+            Self::Script => "script",
+            Self::Autopilot => "autopilot",
+        }
+    }
+
     /// Main mode in the third byte, sub-mode of the automatic modes in the fourth (PX4: `px4_custom_mode.h`).
     fn of_px4(custom_mode: u32) -> Self {
         match custom_mode.to_le_bytes() {

@@ -1,7 +1,11 @@
 """MAVSDK's FTP against the vehicle's folder, and the flight's log read by PX4's own library."""
 
+import base64
+import json
 import math
+import pathlib
 import signal
+import subprocess
 import time
 
 import pytest
@@ -10,6 +14,9 @@ from mavsdk.plugins.action import Action
 from mavsdk.plugins.ftp import Ftp, FtpResult
 from mavsdk.plugins.log_files import LogFiles, LogFilesResult
 from mavsdk.plugins.telemetry import Telemetry
+from mcap.exceptions import McapError
+from mcap.reader import make_reader
+from mcap.stream_reader import StreamReader
 from pyulog import ULog
 
 import spandrel
@@ -100,6 +107,58 @@ def test_val_pyulog_reads_the_flights_log(vehicle):
     assert max(abs(norm - 1) for norm in norms) < QUATERNION_TOLERANCE
     assert log.initial_parameters["MAV_SYS_ID"] == 1
     assert not log.dropouts and not log.file_corruption
+    check_recording(logs[0].with_suffix(".mcap"), height)
+
+
+def read_recording(path):
+    """Messages of an MCAP file by topic, read by its index."""
+    found = {}
+    with path.open("rb") as file:
+        for schema, channel, message in make_reader(file).iter_messages():
+            assert channel.message_encoding == "json" and schema.encoding == "jsonschema"
+            found.setdefault((channel.topic, schema.name), []).append(json.loads(message.data))
+    return found
+
+
+def check_recording(path, height):
+    """What Foxglove's own library reads of the flight: the drone's frame climbs as high, the site is a glTF, texts are there."""
+    found = read_recording(path)
+    frames = found["/tf", "foxglove.FrameTransforms"]
+    ups = [t["translation"]["z"] for f in frames for t in f["transforms"] if t["child_frame_id"] == "drone"]
+    assert abs(max(ups) - ups[0] - height) < HEIGHT_TOLERANCE_M
+    for turn in (t["rotation"] for t in frames[-1]["transforms"]):
+        assert abs(math.sqrt(sum(turn[k] ** 2 for k in "xyzw")) - 1) < QUATERNION_TOLERANCE
+    (site,) = found["/site", "foxglove.SceneUpdate"]
+    assert base64.b64decode(site["entities"][0]["models"][0]["data"]).startswith(b"glTF")
+    assert "Armed" in [log["message"] for log in found["/log", "foxglove.Log"]]
+    assert {("/fix", "foxglove.LocationFix"), ("/camera", "foxglove.CameraCalibration"), ("/battery", "spandrel.Battery")} <= set(found)
+
+
+@pytest.mark.timeout(600)
+def test_val_a_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
+    """Killed in flight: the reader by index gives up, `export --mcap` writes all but the last second anew."""
+    process, port, folder = vehicle
+    mavsdk, system = connect(port)
+    action, telemetry = Action(system), Telemetry(system)
+    wait_for("health_all_ok", telemetry.health_all_ok)
+    action.arm()
+    action.takeoff()
+    wait_for("take-off done", lambda: telemetry.position().relative_altitude_m > 2.0)
+    mavsdk.destroy()
+    process.kill()
+    process.wait(timeout=60)
+    (broken,) = folder.glob("log/*/*.mcap")
+    with pytest.raises(McapError), broken.open("rb") as file:
+        list(make_reader(file).iter_messages())
+    whole = tmp_path / "whole.mcap"
+    subprocess.run([spandrel.PROGRAM, "export", str(broken), "--mcap", str(whole)], check=True, timeout=60)
+    with whole.open("rb") as file:
+        assert len(list(StreamReader(file, validate_crcs=True).records)) > 0
+    frames = read_recording(whole)["/tf", "foxglove.FrameTransforms"]
+    ups = [t["translation"]["z"] for f in frames for t in f["transforms"] if t["child_frame_id"] == "drone"]
+    # Two metres up when it was killed, climbing at 1.5 m/s: a second is lost at most.
+    assert max(ups) - ups[0] > 0.4
+    assert pathlib.Path(broken).stat().st_size > 0
 
 
 @pytest.mark.timeout(600)

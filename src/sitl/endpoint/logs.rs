@@ -12,6 +12,8 @@ const FIRST_TICKET: u64 = 1 << 63;
 /// Where the logs lie, in a folder for each day.
 const FOLDER: &str = "log";
 const ENDING: &str = ".ulg";
+/// Recordings beside the logs, which are erased with them.
+const BESIDE: &str = ".mcap";
 /// Bytes of one LOG_DATA.
 const PIECE: usize = 90;
 /// Bytes read at once.
@@ -209,7 +211,9 @@ impl Logs {
         for entry in entries {
             match entry {
                 Entry::Directory(name) => listing.folders.extend(inside(&name)),
-                Entry::File(name, size) if name.ends_with(ENDING) => {
+                Entry::File(name, size)
+                    if name.ends_with(ENDING) || (listing.purpose == Purpose::Erase && name.ends_with(BESIDE)) =>
+                {
                     listing.found.extend(inside(&name).map(|path| Log { path, size }));
                 }
                 Entry::File(..) => {}

@@ -1,13 +1,17 @@
-//! The vehicle's own log as ULog, with PX4's topic names: PX4's tools (pyulog, Flight Review, PlotJuggler) open it.
+//! The vehicle's own log: as ULog, with PX4's topic names, which PX4's tools open (pyulog, Flight Review, PlotJuggler), and beside it
+//! what Foxglove shows.
 
 mod row;
+mod scene;
 mod topics;
 pub mod ulog;
 
 use super::endpoint::params;
 use super::endpoint::view::View;
 use crate::base::time::{Schedule, SimTime};
+use crate::telemetry::foxglove::Message;
 use row::Row;
+use scene::Scene;
 use std::collections::VecDeque;
 use topics::TOPICS;
 use ulog::{Value, Writer};
@@ -86,8 +90,10 @@ impl From<params::Value> for Value<'_> {
 pub enum Piece {
     /// A new log begins; it is named after this UTC, microseconds since the Unix epoch.
     Begin(u64),
-    /// Bytes for its end.
+    /// Bytes for the end of the ULog.
     Bytes(Vec<u8>),
+    /// A message of the recording beside it.
+    Message(Message),
     /// It is whole.
     End,
 }
@@ -96,7 +102,7 @@ pub enum Piece {
 #[derive(Debug, Clone, Default)]
 pub struct Recorder {
     on: bool,
-    log: Option<Log>,
+    log: Option<(Log, Scene)>,
     out: VecDeque<Piece>,
 }
 
@@ -119,11 +125,16 @@ impl Recorder {
         }
         if self.log.is_none() && view.status.armed {
             self.out.push_back(Piece::Begin(view.unix_us()));
-            self.log = Some(Log::begin(view, env!("CARGO_PKG_VERSION"), parameters()));
+            let log = Log::begin(view, env!("CARGO_PKG_VERSION"), parameters());
+            self.log = Some((log, Scene::begin(view)));
         }
-        let Some(log) = &mut self.log else { return };
-        texts.iter().for_each(|(severity, text)| log.text(*severity, view.now, text));
+        let Some((log, scene)) = &mut self.log else { return };
+        for (severity, text) in texts {
+            log.text(*severity, view.now, text);
+            self.out.push_back(Piece::Message(scene.text(*severity, view.now, text)));
+        }
         log.observe(view, !view.status.armed);
+        self.out.extend(scene.observe(view).into_iter().map(Piece::Message));
         if log.gathered() >= PIECE || !view.status.armed {
             self.out.push_back(Piece::Bytes(log.take()));
         }
@@ -136,7 +147,7 @@ impl Recorder {
     /// What is left goes out although the motors still turn: the program ends.
     pub fn stop(&mut self) {
         self.on = false;
-        if let Some(mut log) = self.log.take() {
+        if let Some((mut log, _)) = self.log.take() {
             self.out.extend([Piece::Bytes(log.take()), Piece::End]);
         }
     }

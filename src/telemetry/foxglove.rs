@@ -1,0 +1,466 @@
+//! What is logged for Foxglove: its well-known messages as JSON, by the names that it looks for (Frame transforms, location fix, log,
+//! camera calibration, scene update; <https://docs.foxglove.dev/docs/sdk/schemas>), and two of our own.
+//!
+//! Frames: `site` is east, north, up about the scenario's origin, m; `drone` forward, left, up; `camera` right, down, ahead.
+
+use super::sample::Contact;
+use crate::base::frames::{Frd, Ned, Rotation, Vec3};
+use crate::base::geodesy::Geo;
+use crate::vehicle::Camera;
+use nalgebra::{Quaternion, UnitQuaternion};
+use serde_json::{Value, json};
+
+/// Where the drone is believed to be.
+pub const BELIEVED: &str = "drone_estimate";
+/// Where it is.
+pub const DRONE: &str = "drone";
+/// Its camera.
+pub const CAMERA: &str = "camera";
+/// East, north, up.
+pub const SITE: &str = "site";
+
+/// What a message is about; the number is its place in [`CHANNELS`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Topic {
+    /// Frames of drone and camera.
+    Transforms = 0,
+    /// Where the vehicle believes to be on the globe.
+    Fix,
+    /// Texts.
+    Log,
+    /// Lens.
+    Camera,
+    /// The site's geometry.
+    Site,
+    /// Battery.
+    Battery,
+    /// Clearance, light, contact.
+    Scoring,
+}
+
+/// A channel: topic, name of its schema, and the schema.
+#[derive(Debug, Clone, Copy)]
+pub struct Channel {
+    /// Name of the topic.
+    pub topic: &'static str,
+    /// Name of the schema.
+    pub schema: &'static str,
+    fields: fn() -> Value,
+}
+
+impl Channel {
+    /// JSON schema of its messages.
+    #[must_use]
+    pub fn json_schema(&self) -> String {
+        let mut schema = (self.fields)();
+        schema["title"] = self.schema.into();
+        schema.to_string()
+    }
+}
+
+/// All channels, in the order of [`Topic`].
+pub const CHANNELS: [Channel; 7] = [
+    Channel { topic: "/tf", schema: "foxglove.FrameTransforms", fields: transforms_schema },
+    Channel { topic: "/fix", schema: "foxglove.LocationFix", fields: fix_schema },
+    Channel { topic: "/log", schema: "foxglove.Log", fields: log_schema },
+    Channel { topic: "/camera", schema: "foxglove.CameraCalibration", fields: camera_schema },
+    Channel { topic: "/site", schema: "foxglove.SceneUpdate", fields: site_schema },
+    Channel { topic: "/battery", schema: "spandrel.Battery", fields: battery_schema },
+    Channel { topic: "/scoring", schema: "spandrel.Scoring", fields: scoring_schema },
+];
+
+/// One message.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Message {
+    /// What it is about.
+    pub topic: Topic,
+    /// UTC, nanoseconds since the Unix epoch.
+    pub unix_ns: u64,
+    /// The message.
+    pub json: String,
+}
+
+impl Message {
+    fn new(topic: Topic, unix_ns: u64, value: &Value) -> Self {
+        Self { topic, unix_ns, json: value.to_string() }
+    }
+}
+
+/// A pose of a frame in `site`: position, m, and orientation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    position_m: [f64; 3],
+    rotation: UnitQuaternion<f64>,
+}
+
+fn enu_from_ned() -> UnitQuaternion<f64> {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    UnitQuaternion::new_unchecked(Quaternion::new(0.0, half, half, 0.0))
+}
+
+impl Pose {
+    /// Of a drone.
+    #[must_use]
+    pub fn drone(position_m: Vec3<Ned>, attitude: Rotation<Frd, Ned>) -> Self {
+        // Half a turn about the nose.
+        let frd_from_flu = UnitQuaternion::new_unchecked(Quaternion::new(0.0, 1.0, 0.0, 0.0));
+        let rotation = enu_from_ned() * attitude.raw() * frd_from_flu;
+        Self { position_m: position_m.enu().array(), rotation }
+    }
+
+    /// Of a level camera at `pitch_rad` about the horizon, whose lens sits at `lens_m` of the drone.
+    #[must_use]
+    pub fn camera(position_m: Vec3<Ned>, attitude: Rotation<Frd, Ned>, lens_m: Vec3<Frd>, pitch_rad: f64) -> Self {
+        // Right, down, ahead of what points ahead, right, down.
+        let frd_from_optical = UnitQuaternion::new_unchecked(Quaternion::new(0.5, 0.5, 0.5, 0.5));
+        let looks = Rotation::from_euler(0.0, pitch_rad, attitude.yaw_rad());
+        let rotation = enu_from_ned() * looks.raw() * frd_from_optical;
+        Self { position_m: (position_m + attitude * lens_m).enu().array(), rotation }
+    }
+}
+
+fn time(unix_ns: u64) -> Value {
+    json!({ "sec": unix_ns / 1_000_000_000, "nsec": unix_ns % 1_000_000_000 })
+}
+
+fn xyz([x, y, z]: [f64; 3]) -> Value {
+    json!({ "x": x, "y": y, "z": z })
+}
+
+/// Frames in `site`.
+#[must_use]
+pub fn transforms(unix_ns: u64, frames: &[(&str, Pose)]) -> Message {
+    let one = |(name, pose): &(&str, Pose)| {
+        let q = pose.rotation.coords;
+        json!({
+            "timestamp": time(unix_ns),
+            "parent_frame_id": SITE,
+            "child_frame_id": name,
+            "translation": xyz(pose.position_m),
+            "rotation": { "x": q.x, "y": q.y, "z": q.z, "w": q.w },
+        })
+    };
+    Message::new(Topic::Transforms, unix_ns, &json!({ "transforms": frames.iter().map(one).collect::<Vec<_>>() }))
+}
+
+/// A place on the globe with its accuracy, m (1 sigma).
+#[must_use]
+pub fn fix(unix_ns: u64, geo: Geo, horizontal_m: f64, vertical_m: f64) -> Message {
+    let (h, v) = (horizontal_m * horizontal_m, vertical_m * vertical_m);
+    let value = json!({
+        "timestamp": time(unix_ns),
+        "frame_id": SITE,
+        "latitude": geo.latitude_deg,
+        "longitude": geo.longitude_deg,
+        "altitude": geo.altitude_m,
+        "position_covariance": [h, 0.0, 0.0, 0.0, h, 0.0, 0.0, 0.0, v],
+        // DIAGONAL_KNOWN
+        "position_covariance_type": 2,
+    });
+    Message::new(Topic::Fix, unix_ns, &value)
+}
+
+/// A text with MAVLink's severity (0 emergency to 7 debug).
+#[must_use]
+pub fn log(unix_ns: u64, severity: u8, text: &str) -> Message {
+    // FATAL 5, ERROR 4, WARNING 3, INFO 2, DEBUG 1
+    let level = match severity {
+        0 | 1 => 5,
+        2 | 3 => 4,
+        4 => 3,
+        5 | 6 => 2,
+        _ => 1,
+    };
+    let value = json!({ "timestamp": time(unix_ns), "level": level, "message": text, "name": "vehicle", "file": "", "line": 0 });
+    Message::new(Topic::Log, unix_ns, &value)
+}
+
+/// An ideal pinhole.
+#[must_use]
+pub fn camera(unix_ns: u64, camera: &Camera) -> Message {
+    let (f, w, h) = (camera.focal_px(), camera.width_px, camera.height_px);
+    let (cx, cy) = (0.5 * f64::from(w), 0.5 * f64::from(h));
+    let value = json!({
+        "timestamp": time(unix_ns),
+        "frame_id": CAMERA,
+        "width": w,
+        "height": h,
+        "distortion_model": "plumb_bob",
+        "D": [0.0, 0.0, 0.0, 0.0, 0.0],
+        "K": [f, 0.0, cx, 0.0, f, cy, 0.0, 0.0, 1.0],
+        "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        "P": [f, 0.0, cx, 0.0, 0.0, f, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
+    });
+    Message::new(Topic::Camera, unix_ns, &value)
+}
+
+/// The site as a model that is shown for good; `glb_base64` is binary glTF.
+#[must_use]
+pub fn site(unix_ns: u64, glb_base64: &str) -> Message {
+    let none: [Value; 0] = [];
+    let value = json!({
+        "deletions": none,
+        "entities": [{
+            "timestamp": time(unix_ns),
+            "frame_id": SITE,
+            "id": "site",
+            "lifetime": { "sec": 0, "nsec": 0 },
+            "frame_locked": true,
+            "metadata": none,
+            "arrows": none, "cubes": none, "spheres": none, "cylinders": none, "lines": none, "triangles": none, "texts": none,
+            "models": [{
+                "pose": { "position": xyz([0.0; 3]), "orientation": { "x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0 } },
+                "scale": xyz([1.0; 3]),
+                "color": { "r": 0.7, "g": 0.7, "b": 0.7, "a": 1.0 },
+                "override_color": false,
+                "url": "",
+                "media_type": "model/gltf-binary",
+                "data": glb_base64,
+            }],
+        }],
+    });
+    Message::new(Topic::Site, unix_ns, &value)
+}
+
+/// Battery: V and A where they are known, and what is left, %.
+#[must_use]
+pub fn battery(unix_ns: u64, volts_amperes: Option<(f64, f64)>, remaining_pct: f64) -> Message {
+    let value = json!({
+        "timestamp": time(unix_ns),
+        "voltage_v": volts_amperes.map(|(v, _)| v),
+        "current_a": volts_amperes.map(|(_, a)| a),
+        "remaining_pct": remaining_pct,
+    });
+    Message::new(Topic::Battery, unix_ns, &value)
+}
+
+/// What the scores are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Scoring {
+    /// Nearest surface to the drone's centre, m.
+    pub clearance_m: f64,
+    /// Light at the drone, lux, if known.
+    pub lux: Option<f64>,
+    /// What it touches.
+    pub contact: Contact,
+    /// Contacts so far.
+    pub hits: i32,
+    /// Times put back.
+    pub respawns: i32,
+    /// The lamp is on.
+    pub lamp_on: bool,
+    /// Speed, m/s.
+    pub speed_m_s: f64,
+}
+
+/// What the scores are made of, as a message.
+#[must_use]
+pub fn scoring(unix_ns: u64, s: &Scoring) -> Message {
+    // JSON has no infinity; nothing within reach is no distance.
+    let clearance = if s.clearance_m.is_finite() { json!(s.clearance_m) } else { Value::Null };
+    let value = json!({
+        "timestamp": time(unix_ns),
+        "clearance_m": clearance,
+        "lux": s.lux,
+        "contact": s.contact.word(),
+        "hits": s.hits,
+        "respawns": s.respawns,
+        "lamp_on": s.lamp_on,
+        "speed_m_s": s.speed_m_s,
+    });
+    Message::new(Topic::Scoring, unix_ns, &value)
+}
+
+fn object(fields: &[(&str, Value)]) -> Value {
+    let fields: serde_json::Map<_, _> = fields.iter().map(|(name, kind)| ((*name).to_owned(), kind.clone())).collect();
+    json!({ "type": "object", "properties": fields })
+}
+
+fn list(of: &Value) -> Value {
+    json!({ "type": "array", "items": of })
+}
+
+fn kind(name: &str) -> Value {
+    json!({ "type": name })
+}
+
+fn number() -> Value {
+    kind("number")
+}
+
+fn numbers(names: &[&str]) -> Value {
+    object(&names.iter().map(|name| (*name, number())).collect::<Vec<_>>())
+}
+
+fn time_schema() -> Value {
+    object(&[("sec", kind("integer")), ("nsec", kind("integer"))])
+}
+
+fn transforms_schema() -> Value {
+    let one = object(&[
+        ("timestamp", time_schema()),
+        ("parent_frame_id", kind("string")),
+        ("child_frame_id", kind("string")),
+        ("translation", numbers(&["x", "y", "z"])),
+        ("rotation", numbers(&["x", "y", "z", "w"])),
+    ]);
+    object(&[("transforms", list(&one))])
+}
+
+fn fix_schema() -> Value {
+    object(&[
+        ("timestamp", time_schema()),
+        ("frame_id", kind("string")),
+        ("latitude", number()),
+        ("longitude", number()),
+        ("altitude", number()),
+        ("position_covariance", list(&number())),
+        ("position_covariance_type", kind("integer")),
+    ])
+}
+
+fn log_schema() -> Value {
+    object(&[
+        ("timestamp", time_schema()),
+        ("level", kind("integer")),
+        ("message", kind("string")),
+        ("name", kind("string")),
+        ("file", kind("string")),
+        ("line", kind("integer")),
+    ])
+}
+
+fn camera_schema() -> Value {
+    object(&[
+        ("timestamp", time_schema()),
+        ("frame_id", kind("string")),
+        ("width", kind("integer")),
+        ("height", kind("integer")),
+        ("distortion_model", kind("string")),
+        ("D", list(&number())),
+        ("K", list(&number())),
+        ("R", list(&number())),
+        ("P", list(&number())),
+    ])
+}
+
+fn site_schema() -> Value {
+    let pose = object(&[("position", numbers(&["x", "y", "z"])), ("orientation", numbers(&["x", "y", "z", "w"]))]);
+    let model = object(&[
+        ("pose", pose),
+        ("scale", numbers(&["x", "y", "z"])),
+        ("color", numbers(&["r", "g", "b", "a"])),
+        ("override_color", kind("boolean")),
+        ("url", kind("string")),
+        ("media_type", kind("string")),
+        ("data", json!({ "type": "string", "contentEncoding": "base64" })),
+    ]);
+    let pair = object(&[("key", kind("string")), ("value", kind("string"))]);
+    let mut fields = vec![
+        ("timestamp", time_schema()),
+        ("frame_id", kind("string")),
+        ("id", kind("string")),
+        ("lifetime", time_schema()),
+        ("frame_locked", kind("boolean")),
+        ("metadata", list(&pair)),
+    ];
+    // Foxglove wants every list of shapes named; none but models is used.
+    let shapes = ["arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts"];
+    fields.extend(shapes.map(|name| (name, list(&object(&[])))));
+    fields.push(("models", list(&model)));
+    let deletion = object(&[("timestamp", time_schema()), ("type", kind("integer")), ("id", kind("string"))]);
+    object(&[("deletions", list(&deletion)), ("entities", list(&object(&fields)))])
+}
+
+fn battery_schema() -> Value {
+    object(&[("timestamp", time_schema()), ("voltage_v", number()), ("current_a", number()), ("remaining_pct", number())])
+}
+
+fn scoring_schema() -> Value {
+    object(&[
+        ("timestamp", time_schema()),
+        ("clearance_m", number()),
+        ("lux", number()),
+        ("contact", kind("string")),
+        ("hits", kind("integer")),
+        ("respawns", kind("integer")),
+        ("lamp_on", kind("boolean")),
+        ("speed_m_s", number()),
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    /// Rounding of unit quaternions.
+    const ROUNDING: f64 = 1e-12;
+
+    fn turned(pose: &Pose, axis: [f64; 3]) -> [f64; 3] {
+        (pose.rotation * Vector3::from(axis)).into()
+    }
+
+    fn same(a: [f64; 3], b: [f64; 3]) {
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < ROUNDING), "{a:?} {b:?}");
+    }
+
+    #[test]
+    fn exact_frames_point_where_they_say() {
+        let east = Rotation::from_euler(0.0, 0.0, std::f64::consts::FRAC_PI_2);
+        let drone = Pose::drone(Vec3::new(1.0, 2.0, -3.0), east);
+        assert_eq!(drone.position_m, [2.0, 1.0, 3.0]);
+        same(turned(&drone, [1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
+        same(turned(&drone, [0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]);
+        same(turned(&drone, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
+        // Straight up at a soffit: ahead is up, the picture's top is behind.
+        let up = Pose::camera(Vec3::zero(), east, Vec3::new(0.1, 0.0, 0.0), std::f64::consts::FRAC_PI_2);
+        same(up.position_m, [0.1, 0.0, 0.0]);
+        same(turned(&up, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
+        same(turned(&up, [1.0, 0.0, 0.0]), [0.0, -1.0, 0.0]);
+        let level = Pose::camera(Vec3::zero(), east, Vec3::zero(), 0.0);
+        same(turned(&level, [0.0, 0.0, 1.0]), [1.0, 0.0, 0.0]);
+        same(turned(&level, [0.0, 1.0, 0.0]), [0.0, 0.0, -1.0]);
+    }
+
+    /// Every field of a message is in its schema, with its type, and the other way round.
+    fn fits(value: &Value, schema: &Value, at: &str) {
+        match (schema["type"].as_str().expect("typed"), value) {
+            ("object", Value::Object(fields)) => {
+                let known = schema["properties"].as_object().expect("fields");
+                assert_eq!(known.keys().collect::<Vec<_>>(), fields.keys().collect::<Vec<_>>(), "{at}");
+                known.iter().for_each(|(name, kind)| fits(&fields[name], kind, &format!("{at}.{name}")));
+            }
+            ("array", Value::Array(items)) => items.iter().for_each(|item| fits(item, &schema["items"], at)),
+            ("integer", Value::Number(n)) => assert!(n.is_i64() || n.is_u64(), "{at}"),
+            ("number", Value::Number(_)) | ("string", Value::String(_)) | ("boolean", Value::Bool(_)) => {}
+            (kind, other) => panic!("{at}: {kind} {other}"),
+        }
+    }
+
+    #[test]
+    fn exact_messages_have_the_fields_of_their_schemas() {
+        let lens = crate::vehicle::read("v.toml", include_str!("../../vehicle-params/phantom2.toml")).unwrap().camera;
+        let pose = Pose::drone(Vec3::zero(), Rotation::identity());
+        let geo = Geo { latitude_deg: 1.0, longitude_deg: 2.0, altitude_m: 3.0 };
+        let at = 1_700_000_000_123_456_789;
+        let all = [
+            transforms(at, &[(DRONE, pose), (CAMERA, pose)]),
+            fix(at, geo, 1.0, 2.0),
+            log(at, 4, "a \"text\""),
+            camera(at, &lens),
+            site(at, "AAAA"),
+            battery(at, Some((11.1, 5.0)), 88.0),
+            scoring(at, &Scoring { lux: Some(9.0), ..Scoring::default() }),
+        ];
+        for (number, message) in all.iter().enumerate() {
+            assert_eq!(message.topic as usize, number);
+            let schema: Value = serde_json::from_str(&CHANNELS[number].json_schema()).unwrap();
+            fits(&serde_json::from_str(&message.json).unwrap(), &schema, CHANNELS[number].topic);
+        }
+        assert!(all[2].json.contains(r#""sec":1700000000,"nsec":123456789"#));
+        assert!(
+            scoring(at, &Scoring { clearance_m: f64::INFINITY, ..Scoring::default() }).json.contains(r#""clearance_m":null"#)
+        );
+    }
+}
