@@ -22,6 +22,7 @@ pub const REFERENCE_CAMERA: Camera = Camera {
     width_px: 3000,
     height_px: 2250,
     hfov_rad: 100.0 * math::PI / 180.0,
+    zoom_max: 1.0,
     f_number: 2.8,
     iso_max: 1600.0,
     exposure_max_s: 0.01,

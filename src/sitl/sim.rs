@@ -130,7 +130,7 @@ macro_rules! view {
             sticks: $sim.endpoint.sticks($sim.now),
             gimbal: $sim.endpoint.payload.gimbal,
             lamp: $sim.endpoint.payload.lamp,
-            camera: $sim.endpoint.payload.camera.summary(),
+            camera: $sim.endpoint.payload.camera.summary($sim.now),
             plans: $sim.endpoint.plans(),
         }
     };
@@ -416,7 +416,7 @@ impl Sim {
         self.readings.keep(&fresh);
         let camera = self.config.vehicle.camera;
         let position = self.state.rigid.position_m.enu();
-        self.endpoint.payload.gimbal.step(&camera, position, 1.0 / CONTROL_HZ);
+        self.endpoint.payload.step(&camera, position, now, 1.0 / CONTROL_HZ);
     }
 
     fn speak(&mut self) {

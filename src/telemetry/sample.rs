@@ -4,11 +4,12 @@
 use super::hand::Hand;
 use crate::base::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use crate::base::geodesy::{Geo, LocalPlane};
+use crate::base::math;
 use crate::base::time::SimTime;
 use crate::mav::dialect::{
-    BATTERY_STATUS_DATA, CAMERA_IMAGE_CAPTURED_DATA, EXTENDED_SYS_STATE_DATA, GIMBAL_DEVICE_ATTITUDE_STATUS_DATA, HEARTBEAT_DATA,
-    HIL_STATE_QUATERNION_DATA, ILLUMINATOR_STATUS_DATA, MavLandedState, MavMessage, MavModeFlag, NAMED_VALUE_FLOAT_DATA,
-    NAMED_VALUE_INT_DATA, RC_CHANNELS_DATA,
+    BATTERY_STATUS_DATA, CAMERA_FOV_STATUS_DATA, CAMERA_IMAGE_CAPTURED_DATA, EXTENDED_SYS_STATE_DATA,
+    GIMBAL_DEVICE_ATTITUDE_STATUS_DATA, HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, ILLUMINATOR_STATUS_DATA, MavLandedState,
+    MavMessage, MavModeFlag, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA, RC_CHANNELS_DATA,
 };
 use mavlink::{MavlinkVersion, Message, MessageData};
 use serde::Serialize;
@@ -122,6 +123,8 @@ pub enum Said {
     Clearance(f64),
     /// Gimbal pitch over the horizon, rad, up positive.
     GimbalPitch(f64),
+    /// Horizontal field of view of the camera, rad.
+    FieldOfView(f64),
     /// Motors are armed.
     Beat {
         /// Motors may turn.
@@ -226,6 +229,7 @@ fn kept(message_id: u32) -> bool {
             | GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::ID
             | EXTENDED_SYS_STATE_DATA::ID
             | CAMERA_IMAGE_CAPTURED_DATA::ID
+            | CAMERA_FOV_STATUS_DATA::ID
     )
 }
 
@@ -304,6 +308,11 @@ fn decode(header: &Header, payload: &[u8], plane: &LocalPlane) -> Option<(Option
         CAMERA_IMAGE_CAPTURED_DATA::ID => {
             let image: CAMERA_IMAGE_CAPTURED_DATA = body(payload)?;
             (image.capture_result.bits() == 1).then(|| (boot(image.time_boot_ms), Said::Snapshot(image.image_index)))
+        }
+        CAMERA_FOV_STATUS_DATA::ID => {
+            let camera: CAMERA_FOV_STATUS_DATA = body(payload)?;
+            let hfov_rad = f64::from(camera.hfov).to_radians();
+            (hfov_rad > 0.0 && hfov_rad < math::PI).then(|| (boot(camera.time_boot_ms), Said::FieldOfView(hfov_rad)))
         }
         NAMED_VALUE_INT_DATA::ID => named_int(&body(payload)?),
         NAMED_VALUE_FLOAT_DATA::ID => {

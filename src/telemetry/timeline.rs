@@ -307,14 +307,16 @@ pub struct Flight {
     pub clearance: Signal<f64>,
     /// Gimbal pitch, rad.
     pub gimbal: Signal<f64>,
+    /// The camera's horizontal field of view, rad.
+    pub field_of_view: Signal<f64>,
     /// Armed.
     pub armed: Signal<bool>,
     /// Who flies, to the second of the heartbeat.
     pub flown_by: Signal<Hand>,
     /// Autopilot says on the ground.
     pub on_ground: Signal<bool>,
-    /// Pictures taken, once each.
-    pub snapshots: Signal<i32>,
+    /// Pictures taken, once each: number, and when by the camera's own clock.
+    pub snapshots: Signal<(i32, Option<SimTime>)>,
     /// Seeds announced.
     pub seeds: Signal<u64>,
     /// Scenario CRCs announced.
@@ -338,16 +340,18 @@ impl Flight {
             Said::ScenarioCrc(v) => self.scenario_crcs.push(time, order, v),
             Said::Clearance(v) => self.clearance.push(time, order, v),
             Said::GimbalPitch(v) => self.gimbal.push(time, order, v),
+            Said::FieldOfView(v) => self.field_of_view.push(time, order, v),
             Said::Beat { armed, by } => {
                 self.armed.push(time, order, armed);
                 self.flown_by.push(time, order, by);
             }
             Said::OnGround(v) => self.on_ground.push(time, order, v),
             Said::Snapshot(v) => {
-                // A picture sent again keeps its number; the earliest report of it stands.
-                match self.snapshots.all_mut().iter_mut().find(|known| known.2 == v) {
+                // A picture sent again keeps its number and its time; the earliest report of it stands. On a formatted card numbers begin again.
+                let picture = (v, entry.own_time);
+                match self.snapshots.all_mut().iter_mut().find(|known| known.2 == picture) {
                     Some(known) => known.0 = known.0.min(time),
-                    None => self.snapshots.push(time, order, v),
+                    None => self.snapshots.push(time, order, picture),
                 }
             }
         }
@@ -362,6 +366,7 @@ impl Flight {
         self.respawns.sort();
         self.clearance.sort();
         self.gimbal.sort();
+        self.field_of_view.sort();
         self.armed.sort();
         self.flown_by.sort();
         self.on_ground.sort();

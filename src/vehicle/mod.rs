@@ -7,6 +7,7 @@ mod read;
 pub use read::{FORMAT, read, read_asked};
 
 use crate::base::frames::{Frd, Vec3};
+use crate::base::math;
 
 /// A validated aircraft. Body frame: forward, right, down from the centre of mass.
 #[derive(Debug, Clone, PartialEq)]
@@ -191,8 +192,10 @@ pub struct Camera {
     pub width_px: u32,
     /// Image height, px.
     pub height_px: u32,
-    /// Horizontal field of view, rad.
+    /// Horizontal field of view, rad; of a zoom lens at its wide end.
     pub hfov_rad: f64,
+    /// Longest focal length of the lens over its shortest; 1 for a lens that does not zoom.
+    pub zoom_max: f64,
     /// f-number.
     pub f_number: f64,
     /// Largest ISO sensitivity.
@@ -211,7 +214,22 @@ impl Camera {
     /// Focal length in pixels of the ideal pinhole.
     #[must_use]
     pub fn focal_px(&self) -> f64 {
-        0.5 * f64::from(self.width_px) / crate::base::math::tan(0.5 * self.hfov_rad)
+        0.5 * f64::from(self.width_px) / math::tan(0.5 * self.hfov_rad)
+    }
+
+    /// Vertical field of view, rad.
+    #[must_use]
+    pub fn vfov_rad(&self) -> f64 {
+        2.0 * math::atan2(0.5 * f64::from(self.height_px), self.focal_px())
+    }
+
+    /// The camera at `ratio` times its shortest focal length; at the wide end it is the same to the bit.
+    #[must_use]
+    pub fn zoomed(&self, ratio: f64) -> Self {
+        if ratio <= 1.0 {
+            return *self;
+        }
+        Self { hfov_rad: 2.0 * math::atan2(math::tan(0.5 * self.hfov_rad), ratio), ..*self }
     }
 }
 

@@ -203,6 +203,7 @@ fn camera(r: &mut Reader, root: &mut Section) -> Camera {
         width_px: r.whole(&mut s, "width_px", (160, 20_000), None) as u32,
         height_px: r.whole(&mut s, "height_px", (120, 20_000), None) as u32,
         hfov_rad: r.number(&mut s, "hfov_deg", (5.0, 150.0), None).to_radians(),
+        zoom_max: r.number(&mut s, "zoom_max", (1.0, 30.0), Some(1.0)),
         f_number: r.number(&mut s, "f_number", (0.9, 22.0), None),
         iso_max: r.number(&mut s, "iso_max", (50.0, 409_600.0), None),
         exposure_max_s: r.number(&mut s, "exposure_max_s", (1e-4, 1.0), None),

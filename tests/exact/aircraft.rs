@@ -80,6 +80,7 @@ pub fn quad() -> Vehicle {
             width_px: 4000,
             height_px: 3000,
             hfov_rad: 1.2,
+            zoom_max: 1.0,
             f_number: 2.8,
             iso_max: 1600.0,
             exposure_max_s: 0.02,

@@ -1,11 +1,16 @@
 //! From datagrams to frames and scores: gaps, respawns, contacts, windows, ends.
 
 use crate::job::*;
+use spandrel::base::frames::{Enu, Vec3};
 use spandrel::base::geodesy::LocalPlane;
+use spandrel::base::time::SimTime;
 use spandrel::monitor::assessment::{Graded, assess_log};
+use spandrel::monitor::measures::attention::Survey;
 use spandrel::monitor::session::EndReason;
-use spandrel::scenario::Scenario;
+use spandrel::scenario::{PlacedDefect, Scenario};
+use spandrel::site::{CameraPose, DefectView};
 use spandrel::telemetry::{Contact, Timeline};
+use spandrel::vehicle::{Camera, Lamp};
 
 pub fn grade(tape: &Tape, scenario: &Scenario) -> Graded {
     assess_log(&tape.log(1_000_000), scenario, &vehicle(), fence_of_ten).unwrap()
@@ -304,4 +309,85 @@ fn exact_a_simulator_started_anew_in_flight_ends_the_session_and_keeps_what_was_
     assert_eq!(graded.assessment.end.reason, EndReason::Restart);
     assert_eq!(graded.frames.last().unwrap().time.ms() / 40, i64::from(flown) / 40);
     assert_eq!(graded.assessment.tasks[0].on_path, 1.0);
+}
+
+/// Shows its defects to narrow cameras only.
+#[derive(Debug)]
+struct Small(Fence);
+
+impl Survey for Small {
+    fn defects(&self) -> &[PlacedDefect] {
+        &self.0.defects
+    }
+    fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView> {
+        let narrow = camera.hfov_rad < 0.5;
+        self.0.look(pose, camera, lamp, at).into_iter().map(|view| DefectView { hit: view.hit && narrow, ..view }).collect()
+    }
+    fn name_near(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<String> {
+        None
+    }
+}
+
+#[test]
+fn exact_a_picture_is_judged_by_the_field_of_view_that_the_camera_tells() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.lamp(true);
+    tape.fly((10.0, 0.0, 10.0), 4.0);
+    tape.snapshot(0);
+    tape.hold(1.0);
+    tape.field_of_view(20.0);
+    tape.snapshot(1);
+    tape.fly((20.0, 0.0, 10.0), 4.0);
+    tape.hold(1.0);
+    // Numbers that are no field of view change nothing.
+    tape.field_of_view(f32::NAN);
+    tape.field_of_view(0.0);
+    tape.snapshot(2);
+    tape.hold(1.0);
+    tape.field_of_view(vehicle().camera.hfov_rad.to_degrees() as f32);
+    tape.fly((30.0, 0.0, 10.0), 4.0);
+    tape.snapshot(3);
+    tape.land();
+    let build = |_: &Scenario, _: u64| -> std::sync::Arc<dyn Survey> { std::sync::Arc::new(Small(Fence::of(10))) };
+    let graded = assess_log(&tape.log(1_000_000), &one_task(), &vehicle(), build).unwrap();
+    let hits: Vec<bool> = graded.assessment.snapshots.each.iter().map(|snapshot| snapshot.hit).collect();
+    assert_eq!(hits, [false, true, true, false]);
+}
+
+#[test]
+fn exact_a_field_of_view_that_is_the_aircrafts_own_changes_no_bit_of_its_camera() {
+    use spandrel::monitor::measures::attention::camera;
+    let own = vehicle().camera;
+    let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.field_of_view(own.hfov_rad.to_degrees() as f32);
+    tape.hold(0.5);
+    tape.datagrams.iter().for_each(|datagram| {
+        timeline.push(datagram);
+    });
+    let flight = timeline.flight(0);
+    let end = SimTime::from_ms(i64::from(tape.now_ms));
+    assert!(flight.field_of_view.at(end).is_some(), "it was told");
+    assert_eq!(camera(&flight, end, &own), own);
+    assert_eq!(camera(&flight, SimTime::ZERO, &own), own);
+}
+
+#[test]
+fn exact_pictures_on_a_formatted_card_have_old_numbers_and_are_new() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.lamp(true);
+    tape.fly((10.0, 0.0, 10.0), 4.0);
+    tape.snapshot(0);
+    let taken_ms = tape.now_ms;
+    tape.fly((20.0, 0.0, 10.0), 4.0);
+    // Formatted: numbers begin again.
+    tape.snapshot(0);
+    tape.hold(1.0);
+    tape.snapshot_at(0, taken_ms);
+    tape.land();
+    let snapshots = grade(&tape, &one_task()).assessment.snapshots;
+    assert_eq!((snapshots.taken, snapshots.hits), (2, 2));
 }

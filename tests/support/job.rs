@@ -178,6 +178,7 @@ pub fn vehicle() -> Vehicle {
             width_px: 4000,
             height_px: 3000,
             hfov_rad: 1.2,
+            zoom_max: 1.0,
             f_number: 2.8,
             iso_max: 1600.0,
             exposure_max_s: 0.01,
@@ -343,6 +344,11 @@ impl Tape {
             q: quaternion(pitch_rad, 0.0),
             ..GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::default()
         }));
+    }
+
+    pub fn field_of_view(&mut self, hfov_deg: f32) {
+        let time_boot_ms = self.now_ms;
+        self.send(&MavMessage::CAMERA_FOV_STATUS(CAMERA_FOV_STATUS_DATA { time_boot_ms, hfov: hfov_deg, ..Default::default() }));
     }
 
     pub fn snapshot(&mut self, index: i32) {

@@ -1,6 +1,7 @@
 //! The program as a user meets it: processes, sockets, files, exit codes.
 
 mod answers;
+mod camera;
 mod circles;
 mod failures;
 mod fence;
@@ -9,6 +10,7 @@ mod impaired;
 mod inspection;
 mod items;
 mod manual;
+mod mount;
 mod network;
 mod noise;
 mod offboard;

@@ -44,6 +44,7 @@ fn wire_the_gimbal_follows_the_managers_messages() {
             pitch,
             pitch_rate,
             gimbal_device_id,
+            flags: GimbalManagerFlags::empty(),
             target_system: 1,
             target_component: 1,
             ..Default::default()
@@ -52,6 +53,7 @@ fn wire_the_gimbal_follows_the_managers_messages() {
     let manual = |pitch| {
         MavMessage::GIMBAL_MANAGER_SET_MANUAL_CONTROL(GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA {
             pitch,
+            flags: GimbalManagerFlags::empty(),
             target_system: 1,
             target_component: 1,
             ..Default::default()
@@ -60,6 +62,7 @@ fn wire_the_gimbal_follows_the_managers_messages() {
     let attitude = |angle: f32| {
         MavMessage::GIMBAL_MANAGER_SET_ATTITUDE(GIMBAL_MANAGER_SET_ATTITUDE_DATA {
             q: [(angle / 2.0).cos(), 0.0, (angle / 2.0).sin(), 0.0],
+            flags: GimbalManagerFlags::empty(),
             target_system: 1,
             target_component: 1,
             ..Default::default()

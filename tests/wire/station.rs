@@ -30,9 +30,14 @@ pub struct Station {
 
 impl Station {
     pub fn new(scenario_name: &str, seed: u64) -> Self {
-        let scenario = Arc::new(scenario(scenario_name));
-        let file = "vehicle-params/phantom2.toml";
-        let vehicle = Arc::new(spandrel::vehicle::read(file, &shipped(file)).unwrap());
+        Self::of(scenario(scenario_name), "phantom2", seed)
+    }
+
+    /// On a job and with an aircraft of one's own.
+    pub fn of(scenario: Scenario, vehicle: &str, seed: u64) -> Self {
+        let scenario = Arc::new(scenario);
+        let file = format!("vehicle-params/{vehicle}.toml");
+        let vehicle = Arc::new(spandrel::vehicle::read(&file, &shipped(&file)).unwrap());
         let site = Arc::new(Site::build(&scenario, seed));
         let mut sim = Sim::new(SimConfig { scenario, vehicle, seed, instance: 0 }, site);
         sim.open_link(GCS, LinkKind::GroundStation, false);

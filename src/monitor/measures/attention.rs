@@ -31,6 +31,9 @@ impl Survey for Site {
     }
 }
 
+/// Fields of view that differ by less are the same, rad: the wire tells degrees in 24 bits.
+const SAME_RAD: f64 = 1e-6;
+
 /// One picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Snapshot {
@@ -81,8 +84,17 @@ pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &
 
 fn views(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn Survey) -> Vec<View> {
     let Some(pose) = pose(flight, time, vehicle) else { return Vec::new() };
-    let looks = survey.look(&pose, &vehicle.camera, &vehicle.lamp, time);
+    let looks = survey.look(&pose, &camera(flight, time, &vehicle.camera), &vehicle.lamp, time);
     looks.iter().filter(|look| look.in_frame || look.hit).map(view).collect()
+}
+
+/// The camera with the field of view that it had; who says none has a fixed lens.
+#[must_use]
+pub fn camera(flight: &Flight, time: SimTime, camera: &Camera) -> Camera {
+    match flight.field_of_view.at(time) {
+        Some(hfov_rad) if (hfov_rad - camera.hfov_rad).abs() > SAME_RAD => Camera { hfov_rad, ..*camera },
+        _ => *camera,
+    }
 }
 
 /// Where the camera was: attitude gives the heading, the gimbal holds roll level and its pitch over the horizon.

@@ -51,7 +51,7 @@ impl Monitor {
     fn note(&mut self, sample: Sample, before: Option<SimTime>) {
         match sample.said {
             Said::Truth(truth) if before.is_none_or(|before| truth.time > before) => self.truth(truth, before),
-            Said::Truth(_) | Said::Sticks(_) | Said::Hits(_) | Said::GimbalPitch(_) | Said::Light(_) => {}
+            Said::Truth(_) | Said::Sticks(_) | Said::Hits(_) | Said::GimbalPitch(_) | Said::FieldOfView(_) | Said::Light(_) => {}
             Said::Battery(pct) => self.live.battery_pct = Some(pct),
             Said::Contact(contact) => self.contact(contact),
             Said::Respawns(count) => self.respawns(count),

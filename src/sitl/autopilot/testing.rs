@@ -63,6 +63,7 @@ pub fn vehicle_with(sensors: Sensors) -> Vehicle {
             width_px: 4384,
             height_px: 3288,
             hfov_rad: 1.9,
+            zoom_max: 1.0,
             f_number: 2.8,
             iso_max: 1600.0,
             exposure_max_s: 0.02,

@@ -95,7 +95,8 @@ impl Press<'_, '_> {
     /// As a command with these first parameters.
     fn act(&mut self, number: MavCmd, [a, b, c]: [f64; 3]) -> Option<String> {
         let p = [a, b, c, 0.0, 0.0, 0.0, 0.0];
-        let command = Command { number: number as u16, p, frame: 0, component: AUTOPILOT, system: 0, from: self.from };
+        let command =
+            Command { number: number as u16, p, frame: 0, component: AUTOPILOT, system: 0, from: self.from, whole: false };
         let done = payload::handle(&command, self.view, self.payload);
         (done != Some(MavResult::MAV_RESULT_ACCEPTED)).then(|| "Button: the payload refuses".to_owned())
     }

@@ -6,11 +6,11 @@ use super::buttons::{self, Press};
 use super::gimbal::{Aim, DEVICE, Gimbal};
 use super::offboard::{self, Reading};
 use super::{Endpoint, px4};
-use crate::base::frames::Rotation;
+use crate::base::frames::{Frd, Ned, Rotation};
 use crate::mav::dialect::{
-    GIMBAL_MANAGER_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA, GIMBAL_MANAGER_SET_PITCHYAW_DATA, HEARTBEAT_DATA,
-    MANUAL_CONTROL_DATA, MavSeverity, MavType, RC_CHANNELS_OVERRIDE_DATA, SET_ATTITUDE_TARGET_DATA, SET_MODE_DATA,
-    SET_POSITION_TARGET_GLOBAL_INT_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA,
+    GIMBAL_DEVICE_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA,
+    GIMBAL_MANAGER_SET_PITCHYAW_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavSeverity, MavType, RC_CHANNELS_OVERRIDE_DATA,
+    SET_ATTITUDE_TARGET_DATA, SET_MODE_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
 use crate::sitl::autopilot::{Outcome, Request};
 
@@ -107,34 +107,52 @@ fn gimbal<'e>(e: &'e mut Endpoint, device: u8, a: &Arrival) -> Option<&'e mut Gi
     (matches!(device, 0 | DEVICE) && gimbal.obeys(a.from)).then_some(gimbal)
 }
 
-/// An angle where one is given, else a rate; aims out of reach go to the stop, as a stick does.
-fn move_gimbal(gimbal: &mut Gimbal, pitch_rad: f32, rate_rad_s: f32, a: &Arrival) {
+/// Flags of the manager and of the device that have the same numbers: RETRACT and NEUTRAL (MAVLink common).
+const RETRACT: u32 = 1;
+const NEUTRAL: u32 = 2;
+
+/// An angle, at a rate or as fast as can be, or a rate alone, radians. Aims out of reach go to the stop, as a stick does; this gimbal does
+/// not retract.
+fn move_gimbal(gimbal: &mut Gimbal, flags: u32, (pitch_rad, rate_rad_s): (f32, f32), a: &Arrival) {
     let camera = &a.view.vehicle.camera;
-    if pitch_rad.is_finite() {
-        let pitch = f64::from(pitch_rad).clamp(camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad);
-        gimbal.set(Aim::Angle(pitch), camera);
-    } else if rate_rad_s.is_finite() {
-        gimbal.set(Aim::Rate(f64::from(rate_rad_s)), camera);
+    let number = |value: f32| Some(f64::from(value)).filter(|value| value.is_finite());
+    let pitch = number(pitch_rad).map(|pitch| pitch.clamp(camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad));
+    let aim = if flags & NEUTRAL != 0 { Some(Aim::Neutral) } else { Aim::of(pitch, number(rate_rad_s)) };
+    if let Some(aim) = aim.filter(|_| flags & RETRACT == 0) {
+        gimbal.set(aim, camera);
     }
 }
 
+/// Pitch of a quaternion that is given, NaN where none is.
+fn pitch_of(q: [f32; 4]) -> f32 {
+    Rotation::<Frd, Ned>::from_wxyz(q.map(f64::from)).map_or(f32::NAN, |attitude| attitude.euler().1 as f32)
+}
+
 pub(super) fn gimbal_attitude(e: &mut Endpoint, m: &GIMBAL_MANAGER_SET_ATTITUDE_DATA, a: &mut Arrival) {
-    let Some(gimbal) = gimbal(e, m.gimbal_device_id, a) else { return };
-    let pitch = Rotation::<crate::base::frames::Frd, crate::base::frames::Ned>::from_wxyz(m.q.map(f64::from))
-        .map_or(f32::NAN, |attitude| attitude.euler().1 as f32);
-    move_gimbal(gimbal, pitch, m.angular_velocity_y, a);
+    if let Some(gimbal) = gimbal(e, m.gimbal_device_id, a) {
+        move_gimbal(gimbal, m.flags.bits(), (pitch_of(m.q), m.angular_velocity_y), a);
+    }
+}
+
+/// The device's own message, from whom the manager would obey.
+pub(super) fn gimbal_device(e: &mut Endpoint, m: &GIMBAL_DEVICE_SET_ATTITUDE_DATA, a: &mut Arrival) {
+    if let Some(gimbal) = gimbal(e, DEVICE, a) {
+        move_gimbal(gimbal, u32::from(m.flags.bits()), (pitch_of(m.q), m.angular_velocity_y), a);
+    }
 }
 
 pub(super) fn gimbal_pitch_yaw(e: &mut Endpoint, m: &GIMBAL_MANAGER_SET_PITCHYAW_DATA, a: &mut Arrival) {
     if let Some(gimbal) = gimbal(e, m.gimbal_device_id, a) {
-        move_gimbal(gimbal, m.pitch, m.pitch_rate, a);
+        move_gimbal(gimbal, m.flags.bits(), (m.pitch, m.pitch_rate), a);
     }
 }
 
 pub(super) fn gimbal_manual(e: &mut Endpoint, m: &GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA, a: &mut Arrival) {
     let camera = &a.view.vehicle.camera;
     let Some(gimbal) = gimbal(e, m.gimbal_device_id, a) else { return };
-    if m.pitch.is_finite() {
+    if m.flags.bits() & (RETRACT | NEUTRAL) != 0 {
+        move_gimbal(gimbal, m.flags.bits(), (f32::NAN, f32::NAN), a);
+    } else if m.pitch.is_finite() {
         gimbal.set(Gimbal::deflected(camera, f64::from(m.pitch)), camera);
     } else if m.pitch_rate.is_finite() {
         let rate = f64::from(m.pitch_rate).clamp(-1.0, 1.0) * camera.gimbal_rate_rad_s;

@@ -44,6 +44,8 @@ pub struct Link {
     signing: Option<Signing>,
     /// The signing timestamp of now.
     pub stamp: u64,
+    /// Numbers of pictures that are to be told again.
+    pub pictures: std::ops::Range<usize>,
 }
 
 impl Link {
@@ -68,6 +70,7 @@ impl Link {
             budget: None,
             signing: None,
             stamp: 0,
+            pictures: 0..0,
         }
     }
 

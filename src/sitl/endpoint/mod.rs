@@ -20,6 +20,7 @@ pub mod manual;
 pub mod mission;
 mod offboard;
 pub mod params;
+pub mod payload;
 mod persistence;
 mod places;
 pub mod px4;
@@ -36,14 +37,13 @@ use crate::mav::router::Router;
 use crate::mav::signing::Key;
 use crate::sitl::autopilot::{Autopilot, Event, Severity};
 use crate::sitl::faults::{Kind, Unit};
-use camera::{CameraState, Shot};
-use gimbal::Gimbal;
+use camera::Shot;
 use guard::Guard;
-use lamp::LampState;
 use link::Link;
 use manual::Manual;
 use mission::Plans;
 use params::{Params, Thresholds};
+pub use payload::Payload;
 pub use receive::HANDLED;
 use scoring::TruthRates;
 use std::collections::{BTreeMap, VecDeque};
@@ -78,17 +78,6 @@ pub struct Transmit {
     pub link: LinkId,
     /// Whole frames.
     pub bytes: Vec<u8>,
-}
-
-/// What the payload does: it belongs to the endpoint, the simulation reads it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Payload {
-    /// Camera.
-    pub camera: CameraState,
-    /// Gimbal.
-    pub gimbal: Gimbal,
-    /// Lamp.
-    pub lamp: LampState,
 }
 
 /// What a command works on.
@@ -197,7 +186,7 @@ impl Endpoint {
             params,
             plans: Plans::default(),
             manual: Manual::default(),
-            payload: Payload { camera: CameraState::default(), gimbal: Gimbal::new(), lamp: LampState::OFF },
+            payload: Payload::new(),
             texts: Vec::new(),
             text_id: 0,
             param_lists: BTreeMap::new(),
@@ -382,12 +371,15 @@ impl Endpoint {
             let message = MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq: seq as u16 });
             self.broadcast(AUTOPILOT, &message);
         }
+        let view = &view.with(&self.payload);
+        self.tell_news(view);
         self.streams(view);
         self.truth(view);
         self.say_texts();
         self.send_params();
         ftp::speak(self);
         self.tell_logs();
+        self.send_pictures();
         if let Some((peer, message)) = self.plans.remind(view.now) {
             self.send_to(peer, &message);
         }
@@ -395,11 +387,39 @@ impl Endpoint {
 
     fn take_picture(&mut self, view: &View) {
         let here = view.estimate.position_m.enu();
-        if self.payload.camera.due(view.now, here) {
-            let message = self.payload.camera.take(Shot::of(view), view.now, here);
-            self.broadcast(CAMERA, &message);
-            if self.payload.camera.full() {
-                self.tell(MavSeverity::MAV_SEVERITY_WARNING, "Memory card full");
+        if !self.payload.camera.due(view.now, here) {
+            return;
+        }
+        let view = &view.with(&self.payload);
+        // The scoring judges what a picture shows: the field of view goes before it.
+        if view.vehicle.camera.zoom_max > 1.0 {
+            self.broadcast(CAMERA, &streams::field_of_view(view));
+        }
+        let message = self.payload.camera.take(Shot::of(view), view.now, here);
+        self.broadcast(CAMERA, &message);
+        if self.payload.camera.full(view.now) {
+            self.payload.news.warn("Memory card full");
+        }
+    }
+
+    /// What has changed in the payload is told to everybody.
+    fn tell_news(&mut self, view: &View) {
+        let (messages, warnings) = self.payload.news.take();
+        for (_, row) in messages.into_iter().flat_map(streams::rows_of) {
+            if let Some(message) = (row.build)(view) {
+                self.broadcast(row.component, &message);
+            }
+        }
+        for warning in warnings {
+            self.tell(MavSeverity::MAV_SEVERITY_WARNING, warning);
+        }
+    }
+
+    /// Pictures that were asked for again, one in a tick on each link that has room.
+    fn send_pictures(&mut self) {
+        for link in self.links.values_mut().filter(|link| !link.is_busy()) {
+            if let Some(message) = link.pictures.next().and_then(|index| self.payload.camera.again(index)) {
+                link.send(CAMERA, &message);
             }
         }
     }

@@ -40,6 +40,7 @@ handlers! {
     SET_ATTITUDE_TARGET SET_ATTITUDE_TARGET_DATA control::attitude_target,
     GIMBAL_MANAGER_SET_ATTITUDE GIMBAL_MANAGER_SET_ATTITUDE_DATA control::gimbal_attitude,
     GIMBAL_MANAGER_SET_PITCHYAW GIMBAL_MANAGER_SET_PITCHYAW_DATA control::gimbal_pitch_yaw,
+    GIMBAL_DEVICE_SET_ATTITUDE GIMBAL_DEVICE_SET_ATTITUDE_DATA control::gimbal_device,
     GIMBAL_MANAGER_SET_MANUAL_CONTROL GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA control::gimbal_manual,
     TIMESYNC TIMESYNC_DATA exchange::timesync,
     PING PING_DATA exchange::ping,
@@ -135,7 +136,7 @@ impl Endpoint {
     fn command(&mut self, command: &Command, a: &mut Arrival) {
         let Some(link) = self.links.get_mut(&a.link) else { return };
         let mut context = Context {
-            view: *a.view,
+            view: a.view.with(&self.payload),
             autopilot: &mut *a.autopilot,
             payload: &mut self.payload,
             link,

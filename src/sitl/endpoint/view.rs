@@ -1,14 +1,16 @@
 //! What the endpoint may look at when it speaks: one instant of the vehicle.
 
+use super::camera::Mode;
 use super::gimbal::Gimbal;
 use super::lamp::LampState;
-use crate::base::frames::Vec3;
+use super::payload::Payload;
+use crate::base::frames::{Frd, Ned, Rotation, Vec3};
 use crate::base::geodesy::{Geo, LocalPlane};
 use crate::base::time::SimTime;
 use crate::sitl::autopilot::{Estimate, Status, Sticks};
 use crate::sitl::physics::{Actuators, RigidState, battery};
 use crate::sitl::sensors::Readings;
-use crate::vehicle::Vehicle;
+use crate::vehicle::{Camera, Vehicle};
 
 /// Truth and estimate, set-points and counters at one instant.
 #[derive(Debug, Clone, Copy)]
@@ -30,13 +32,13 @@ pub struct View<'a> {
     /// The truth.
     pub truth: &'a RigidState,
     /// Specific force, m/s², body axes.
-    pub specific_force_m_s2: Vec3<crate::base::frames::Frd>,
+    pub specific_force_m_s2: Vec3<Frd>,
     /// Battery.
     pub battery: &'a battery::State,
     /// Motor commands.
     pub actuators: &'a Actuators,
     /// Wind at the aircraft, m/s.
-    pub wind_m_s: Vec3<crate::base::frames::Ned>,
+    pub wind_m_s: Vec3<Ned>,
     /// Counters and truths for the scoring.
     pub scoring: &'a Scoring,
     /// Sticks as received, when they are fresh.
@@ -54,12 +56,22 @@ pub struct View<'a> {
 /// The camera's counters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraSummary {
-    /// Pictures taken.
+    /// Pictures in the image log.
     pub pictures: usize,
     /// Seconds between pictures of a running series.
     pub interval_s: Option<f64>,
     /// A series by distance runs.
     pub series: bool,
+    /// Mode.
+    pub mode: Mode,
+    /// How long the running recording has run.
+    pub recording: Option<SimTime>,
+    /// What is on the card, MiB.
+    pub used_mib: f64,
+    /// Place in the zoom's range, 0 wide to 1 tele.
+    pub zoom: f64,
+    /// Rate of recordings, Mbit/s.
+    pub video_mbit_s: u32,
 }
 
 /// What is kept of plans.
@@ -119,6 +131,26 @@ impl View<'_> {
     #[must_use]
     pub fn true_geo(&self) -> Geo {
         self.plane.geo_from_enu(self.truth.position_m.enu())
+    }
+
+    /// The same instant with the payload as it is now.
+    #[must_use]
+    pub fn with(&self, payload: &Payload) -> Self {
+        Self { gimbal: payload.gimbal, lamp: payload.lamp, camera: payload.camera.summary(self.now), ..*self }
+    }
+
+    /// The camera at its present focal length.
+    #[must_use]
+    pub fn camera_now(&self) -> Camera {
+        let camera = &self.vehicle.camera;
+        camera.zoomed(1.0 + self.camera.zoom * (camera.zoom_max - 1.0))
+    }
+
+    /// Where the camera looks, body to north-east-down, w first: the gimbal keeps roll level and follows the heading.
+    #[must_use]
+    pub fn camera_attitude(&self) -> [f64; 4] {
+        let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, self.gimbal.pitch_rad, self.estimate.attitude.yaw_rad());
+        looking.wxyz()
     }
 
     /// Height over home, m.

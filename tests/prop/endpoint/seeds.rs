@@ -118,17 +118,30 @@ fn set_points() -> Vec<MavMessage> {
 fn gimbal() -> Vec<MavMessage> {
     vec![
         MavMessage::GIMBAL_MANAGER_SET_ATTITUDE(GIMBAL_MANAGER_SET_ATTITUDE_DATA {
+            flags: GimbalManagerFlags::empty(),
             q: [0.9, 0.0, 0.3, 0.0],
             angular_velocity_y: NAN,
             ..Default::default()
         }),
-        MavMessage::GIMBAL_MANAGER_SET_PITCHYAW(GIMBAL_MANAGER_SET_PITCHYAW_DATA { pitch: -0.5, ..Default::default() }),
         MavMessage::GIMBAL_MANAGER_SET_PITCHYAW(GIMBAL_MANAGER_SET_PITCHYAW_DATA {
+            flags: GimbalManagerFlags::empty(),
+            pitch: -0.5,
+            ..Default::default()
+        }),
+        MavMessage::GIMBAL_MANAGER_SET_PITCHYAW(GIMBAL_MANAGER_SET_PITCHYAW_DATA {
+            flags: GimbalManagerFlags::empty(),
             pitch: NAN,
             pitch_rate: 0.3,
             ..Default::default()
         }),
+        MavMessage::GIMBAL_DEVICE_SET_ATTITUDE(GIMBAL_DEVICE_SET_ATTITUDE_DATA {
+            flags: GimbalDeviceFlags::empty(),
+            q: [0.9, 0.0, -0.3, 0.0],
+            angular_velocity_y: 0.2,
+            ..Default::default()
+        }),
         MavMessage::GIMBAL_MANAGER_SET_MANUAL_CONTROL(GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA {
+            flags: GimbalManagerFlags::empty(),
             pitch: NAN,
             pitch_rate: -0.5,
             ..Default::default()
@@ -259,6 +272,12 @@ fn commands() -> Vec<MavMessage> {
         long(MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 4.0, 0.0, 0.0, 0.0, 0.0]),
         long(MavCmd::MAV_CMD_NAV_TAKEOFF, [-1.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
         long(MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        long(MavCmd::MAV_CMD_SET_CAMERA_MODE, [0.0, 1.0, NAN, NAN, NAN, NAN, NAN]),
+        long(MavCmd::MAV_CMD_VIDEO_START_CAPTURE, [0.0, 1.0, 0.0, NAN, NAN, NAN, NAN]),
+        long(MavCmd::MAV_CMD_STORAGE_FORMAT, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0]),
+        long(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE, [-2.0, -2.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
+        long(MavCmd::MAV_CMD_DO_MOUNT_CONTROL, [-30.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0]),
+        long(MavCmd::MAV_CMD_DO_REPEAT_RELAY, [0.0, 3.0, 0.5, 0.0, 0.0, 0.0, 0.0]),
         long(MavCmd::MAV_CMD_REQUEST_MESSAGE, [435.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         MavMessage::COMMAND_INT(COMMAND_INT_DATA {
             command: MavCmd::MAV_CMD_DO_REPOSITION,

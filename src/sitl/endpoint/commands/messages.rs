@@ -9,6 +9,10 @@ use crate::sitl::endpoint::Context;
 
 const AVAILABLE_MODES: u32 = 435;
 const IMAGE_CAPTURED: u32 = 263;
+const STREAM_INFORMATION: u32 = 269;
+const STREAM_STATUS: u32 = 270;
+/// Messages of which there is one for each card or stream, and that are asked for by its number.
+const COUNTED: [u32; 3] = [261, STREAM_INFORMATION, STREAM_STATUS];
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
@@ -26,13 +30,20 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         n if n == M::MAV_CMD_REQUEST_CAMERA_CAPTURE_STATUS as u16 => Some(262),
         n if n == M::MAV_CMD_REQUEST_FLIGHT_INFORMATION as u16 => Some(264),
         n if n == M::MAV_CMD_GET_HOME_POSITION as u16 => Some(242),
+        n if n == M::MAV_CMD_REQUEST_VIDEO_STREAM_INFORMATION as u16 => Some(STREAM_INFORMATION),
+        n if n == M::MAV_CMD_REQUEST_VIDEO_STREAM_STATUS as u16 => Some(STREAM_STATUS),
+        n if n == M::MAV_CMD_REQUEST_CAMERA_IMAGE_CAPTURE as u16 => Some(IMAGE_CAPTURED),
         _ => None,
     };
     if let Some(message) = legacy {
-        return Some(request(message, 0.0, c.component, x));
+        // Of those with a number in it, it is their first parameter.
+        let index = if COUNTED.contains(&message) || message == IMAGE_CAPTURED { c.p[0] } else { 0.0 };
+        return Some(request(message, (index, 0.0), c.component, x));
     }
     match c.number {
-        n if n == M::MAV_CMD_REQUEST_MESSAGE as u16 => Some(id(0).map_or(DENIED, |m| request(m, c.p[1], c.component, x))),
+        n if n == M::MAV_CMD_REQUEST_MESSAGE as u16 => {
+            Some(id(0).map_or(DENIED, |m| request(m, (c.p[1], c.p[2]), c.component, x)))
+        }
         n if n == M::MAV_CMD_SET_MESSAGE_INTERVAL as u16 => {
             Some(id(0).map_or(DENIED, |m| set_interval(m, c.p[1], c.component, x)))
         }
@@ -48,13 +59,17 @@ fn addressed(id: u32, component: u8) -> impl Iterator<Item = usize> {
     streams::rows_of(id).map(|(row, _)| row).filter(mine)
 }
 
-fn request(id: u32, index: f64, component: u8, x: &mut Context) -> MavResult {
+/// Parameters 2 and 3 of the request are `index` and `last`; what they mean depends on the message.
+fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut Context) -> MavResult {
     if id == AVAILABLE_MODES {
         return modes(index, x);
     }
     if id == IMAGE_CAPTURED {
-        let again = index.is_finite().then(|| x.payload.camera.again(index as i64)).flatten();
-        return again.map_or(DENIED, |message| x.answer(CAMERA, &message));
+        return pictures(index, last, x);
+    }
+    // One card, one stream: 0 is all of them.
+    if COUNTED.contains(&id) && index.is_finite() && !matches!(index, 0.0 | 1.0) {
+        return DENIED;
     }
     let rows: Vec<usize> = addressed(id, component).collect();
     let mut said = false;
@@ -65,6 +80,30 @@ fn request(id: u32, index: f64, component: u8, x: &mut Context) -> MavResult {
         }
     }
     if said { ACCEPTED } else { DENIED }
+}
+
+/// Pictures again: from number `first` (-1: from 0 to the newest) to `last` (0: that one alone, -1: to the newest). The first at once, the
+/// others as the link has room.
+fn pictures(first: f64, last: f64, x: &mut Context) -> MavResult {
+    let count = x.view.camera.pictures;
+    let (first, last) = match (first, last) {
+        (-1.0, _) => (0.0, -1.0),
+        (first, last) => (first, if last.is_finite() { last } else { 0.0 }),
+    };
+    if !(first >= 0.0 && first < count as f64) || last < -1.0 {
+        return DENIED;
+    }
+    let first = first as usize;
+    let end = match last {
+        -1.0 => count,
+        0.0 => first + 1,
+        last => count.min(last as usize + 1),
+    };
+    let Some(message) = x.payload.camera.again(first) else { return DENIED };
+    if end > first + 1 {
+        x.link.pictures = first + 1..end;
+    }
+    x.answer(CAMERA, &message)
 }
 
 /// One mode, or with index 0 all of them.

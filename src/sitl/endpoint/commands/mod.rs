@@ -1,6 +1,9 @@
 //! Commands: COMMAND_LONG and COMMAND_INT in one shape, one file for each family, every one answered at once.
 
+mod camera;
 mod flight;
+mod gimbal;
+mod lamp;
 mod messages;
 pub(super) mod payload;
 
@@ -25,6 +28,8 @@ pub struct Command {
     pub system: u8,
     /// Sender.
     pub from: (u8, u8),
+    /// Parameters 5 and 6 came as whole numbers, scaled as places are.
+    pub whole: bool,
 }
 
 const LONG: u32 = 76;
@@ -45,7 +50,7 @@ impl Command {
         let number = u16::from_le_bytes([b[28], b[29]]);
         let mut p = [real(0), real(4), real(8), real(12), real(16), real(20), real(24)];
         if frame.message_id == LONG {
-            return Some(Self { number, p, frame: 0, component: b[31], system: b[30], from });
+            return Some(Self { number, p, frame: 0, component: b[31], system: b[30], from, whole: false });
         }
         let scaled = |at: usize| {
             let whole = i32::from_le_bytes(four(at));
@@ -53,7 +58,7 @@ impl Command {
             if whole == i32::MAX { f64::NAN } else { f64::from(whole) * 1e-7 }
         };
         (p[4], p[5]) = (scaled(16), scaled(20));
-        Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from })
+        Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from, whole: true })
     }
 
     /// From an item of a mission, as its vehicle gives it to itself.
@@ -62,7 +67,7 @@ impl Command {
         let [x, y] = [item.x, item.y].map(|scaled| f64::from(scaled) * 1e-7);
         let p = [item.param1, item.param2, item.param3, item.param4].map(f64::from);
         let p = [p[0], p[1], p[2], p[3], x, y, f64::from(item.z)];
-        Self { number: item.command as u16, p, frame: item.frame as u8, component: from.1, system: from.0, from }
+        Self { number: item.command as u16, p, frame: item.frame as u8, component: from.1, system: from.0, from, whole: true }
     }
 
     /// True when a parameter is 1.
@@ -75,6 +80,13 @@ impl Command {
     #[must_use]
     pub fn given(&self, k: usize) -> Option<f64> {
         Some(self.p[k]).filter(|v| v.is_finite())
+    }
+
+    /// A parameter that is no place, when it is a number: 5 and 6 of COMMAND_INT and of a mission's item are then not scaled.
+    #[must_use]
+    pub fn plain(&self, k: usize) -> Option<f64> {
+        let scaled = self.whole && matches!(k, 4 | 5);
+        self.given(k).map(|value| if scaled { (value * 1e7).round() } else { value })
     }
 }
 

@@ -7,6 +7,8 @@ mod sensors;
 mod system;
 pub mod truth;
 
+pub(super) use payload::field_of_view;
+
 use super::LinkKind;
 use super::view::View;
 use crate::mav::dialect::MavMessage;
@@ -85,6 +87,13 @@ pub const STREAMS: &[Stream] = &[
     row(132, [5.0, 5.0, 0.0], sensors::range_down),
     row(132, [5.0, 5.0, 0.0], sensors::range_up),
     row(132, [5.0, 5.0, 0.0], sensors::range_ahead),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 1)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 2)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 3)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 4)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 5)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 6)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 7)),
     row(281, [0.5, 1.0, 0.0], payload::gimbal_manager_status),
     row(285, [10.0, 10.0, 25.0], payload::gimbal_attitude),
     row(440, [2.0, 2.0, 10.0], payload::lamp),
@@ -100,6 +109,9 @@ pub const STREAMS: &[Stream] = &[
     camera(259, [0.0, 0.0, 0.0], payload::camera_information),
     camera(260, [0.0, 0.0, 0.0], payload::camera_settings),
     camera(261, [0.0, 0.0, 0.0], payload::storage),
+    camera(269, [0.0, 0.0, 0.0], payload::stream_information),
+    camera(270, [0.0, 0.0, 0.0], payload::stream_status),
+    camera(271, [0.0, 0.0, 1.0], |v| Some(field_of_view(v))),
 ];
 
 /// The rows of a message id.

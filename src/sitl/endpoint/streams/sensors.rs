@@ -92,9 +92,29 @@ pub(super) fn range_up(v: &View) -> Option<MavMessage> {
     Some(range(v, 1, v.readings.range_up_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_90))
 }
 
+/// Directions of the finders around, clockwise from the nose. MAVLink's own text has left and right of them exchanged; PX4, ArduPilot and
+/// QGroundControl all take 90 degrees for right.
+const AROUND: [MavSensorOrientation; 8] = [
+    MavSensorOrientation::MAV_SENSOR_ROTATION_NONE,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_45,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_90,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_135,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_180,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_225,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_270,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_315,
+];
+/// Numbers of the finders: down, up, and from here on those around.
+const FIRST_AROUND: u8 = 2;
+
 /// Ahead: the sector of the nose among those around.
 pub(super) fn range_ahead(v: &View) -> Option<MavMessage> {
-    Some(range(v, 2, v.readings.range_around_m?[0], MavSensorOrientation::MAV_SENSOR_ROTATION_NONE))
+    range_beside(v, 0)
+}
+
+/// One of the eight around.
+pub(super) fn range_beside(v: &View, k: usize) -> Option<MavMessage> {
+    Some(range(v, FIRST_AROUND + k as u8, *v.readings.range_around_m?.get(k)?, *AROUND.get(k)?))
 }
 
 /// Nothing within reach is told as a little more than the reach.
@@ -108,7 +128,12 @@ fn range(v: &View, id: u8, distance_m: f64, orientation: MavSensorOrientation) -
         mavtype: MavDistanceSensor::MAV_DISTANCE_SENSOR_LASER,
         id,
         orientation,
-        covariance: u8::MAX,
+        covariance: variance_cm2(v.vehicle.sensors.range_noise_m),
         ..Default::default()
     })
+}
+
+/// Variance of a standard deviation, cm²; 255 is "unknown", and what is more than a byte holds.
+fn variance_cm2(noise_m: f64) -> u8 {
+    (noise_m * 100.0 * noise_m * 100.0).round().min(f64::from(u8::MAX)) as u8
 }

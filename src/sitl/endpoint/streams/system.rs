@@ -136,12 +136,15 @@ pub(super) fn extended_state(v: &View) -> Option<MavMessage> {
 
 pub(super) fn servos(v: &View) -> Option<MavMessage> {
     let pwm = |k: usize| if v.actuators.armed { 1000 + (v.actuators.motors[k] * 1000.0) as u16 } else { 900 };
+    // The lamp as a servo output: see DO_SET_SERVO.
+    let lamp = if v.lamp.on { 1900 } else { 1100 };
     Some(MavMessage::SERVO_OUTPUT_RAW(SERVO_OUTPUT_RAW_DATA {
         time_usec: v.boot_us() as u32,
         servo1_raw: pwm(0),
         servo2_raw: pwm(1),
         servo3_raw: pwm(2),
         servo4_raw: pwm(3),
+        servo9_raw: if v.vehicle.lamp.flux_lm > 0.0 { lamp } else { 0 },
         ..Default::default()
     }))
 }
