@@ -8,6 +8,7 @@ use spandrel::mav::dialect::{MavMessage, MavSysStatusSensor};
 use spandrel::pilot::{Pilot, PilotConfig, Skill};
 use spandrel::scenario::Scenario;
 use spandrel::site::Site;
+use spandrel::sitl::endpoint::flavour::px4;
 use spandrel::sitl::endpoint::{LinkId, LinkKind};
 use spandrel::sitl::sim::{Sim, SimConfig, SimEvent};
 use spandrel::vehicle::Vehicle;
@@ -42,7 +43,10 @@ impl Job {
 
     fn sim(&self, lockstep: bool) -> Sim {
         let (scenario, vehicle) = (Arc::clone(&self.scenario), Arc::clone(&self.vehicle));
-        let mut sim = Sim::new(SimConfig { scenario, vehicle, seed: self.seed, instance: 0 }, Arc::clone(&self.site));
+        let mut sim = Sim::new(
+            SimConfig { scenario, vehicle, seed: self.seed, instance: 0, flavour: &px4::FLAVOUR },
+            Arc::clone(&self.site),
+        );
         sim.open_link(PILOT, LinkKind::GroundStation, lockstep);
         sim.open_link(LinkId(2), LinkKind::Payload, false);
         sim.open_link(LinkId(3), LinkKind::Sdk, false);

@@ -2,6 +2,7 @@
 
 use super::clock;
 use crate::scenario::Scenario;
+use crate::sitl::endpoint::flavour as endpoint;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
 use std::str::FromStr;
 
@@ -37,6 +38,33 @@ pub fn seed(text: &str) -> Result<u64, String> {
 /// A seed that differs from session to session, from the wall clock.
 pub fn fresh_seed() -> u64 {
     crate::base::random::RandomStream::new(clock::unix_us(), "session seed").bits() & SEED_MAX
+}
+
+/// Whose interface the vehicle speaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Flavour {
+    /// PX4's: what ground stations and SDKs know best
+    Px4,
+    /// ArduPilot's, as ArduCopter speaks it: its modes, names of parameters, missions that begin with home, streams on request
+    Ardupilot,
+    /// No autopilot's, the standard alone: QGroundControl then shows the vehicle, but offers no modes and no guided flight
+    Generic,
+}
+
+impl Flavour {
+    /// The interface itself.
+    pub fn spoken(self) -> &'static endpoint::Flavour {
+        match self {
+            Self::Px4 => &endpoint::px4::FLAVOUR,
+            Self::Ardupilot => &endpoint::ardupilot::FLAVOUR,
+            Self::Generic => &endpoint::generic::FLAVOUR,
+        }
+    }
+
+    /// As arguments of a child process.
+    pub fn to_args(self) -> Vec<String> {
+        vec!["--flavour".to_owned(), self.spoken().name.to_owned()]
+    }
 }
 
 /// An address to send to, or nowhere.

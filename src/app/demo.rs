@@ -41,6 +41,9 @@ pub struct Args {
     /// So many times real time (0.1 to 100), or max
     #[arg(long, value_name = "X|max", default_value = "5")]
     speed: Speed,
+    /// Whose interface the vehicle speaks; it flies the same in all of them
+    #[arg(long, value_name = "NAME", default_value = "px4")]
+    flavour: args::Flavour,
     /// Folder that session folders are made in
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
@@ -67,7 +70,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let mut pilot = Child::start("pilot", &pilot_args.concat())?;
     let pilot_port = pilot.announced()?["port"].as_u64().unwrap_or_default();
     let monitor_port = announced["port"].as_u64().unwrap_or_default();
-    let sim_args = [train::common(&job, quiet), sim_args(args, monitor_port, pilot_port)];
+    let sim_args = [train::common(&job, quiet), args.flavour.to_args(), sim_args(args, monitor_port, pilot_port)];
     let mut sim = Child::start("sim", &sim_args.concat())?;
     sim.announced()?;
     tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.skill, args.speed);

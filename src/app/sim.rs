@@ -22,7 +22,7 @@ use std::sync::Arc;
 
 /// Simulate the vehicle
 ///
-/// A quadrotor with its autopilot at the job's site, as a PX4-compatible MAVLink vehicle (it is not PX4). It calls ground station and SDK
+/// A quadrotor with its autopilot at the job's site, as a MAVLink vehicle that speaks as PX4 or ArduPilot does (it is neither). It calls ground station and SDK
 /// unasked, serves those who dial in, feeds the monitor, and forgets peers that fall silent. It runs until it is interrupted.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -31,6 +31,7 @@ Examples:
   spandrel sim --instance 1 --speed 4               a second vehicle beside it, four times real time
   spandrel sim --instances 3                        three vehicles in one process: systems 1 to 3, ports + 0, 1, 2
   spandrel sim --serial /dev/ttyUSB0:57600          a telemetry radio as well, no faster than it can carry
+  spandrel sim --flavour ardupilot                  for Mission Planner, MAVProxy and scripts that are written for ArduCopter
   spandrel sim --ports ephemeral --announce         free ports, told as one JSON line
   spandrel sim --speed max --gcs 127.0.0.1:9000 --lockstep 127.0.0.1:9000
                                                     flat out, in step with a client that answers TIMESYNC
@@ -46,6 +47,9 @@ pub struct Args {
     /// may be repeated
     #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
     lockstep: Vec<SocketAddr>,
+    /// Whose interface the vehicle speaks; it flies the same in all of them
+    #[arg(long, value_name = "NAME", default_value = "px4")]
+    flavour: args::Flavour,
     #[command(flatten)]
     ports: PortArgs,
     /// Vehicles in this process, 1 to 50, side by side at the same site; they pass through each other. System ids and ports count up from
@@ -144,7 +148,13 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let shells: Vec<Shell> = doors
         .into_iter()
         .map(|Door { links, kept, instance }| {
-            let config = SimConfig { scenario: scenario.clone(), vehicle: vehicle.clone(), seed, instance };
+            let config = SimConfig {
+                scenario: scenario.clone(),
+                vehicle: vehicle.clone(),
+                seed,
+                instance,
+                flavour: args.flavour.spoken(),
+            };
             Shell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())
         })
         .collect::<Result<_, _>>()?;

@@ -1,6 +1,6 @@
 //! `spandrel train`: simulator and monitor for a person's ground station.
 
-use super::args::{JobArgs, TraineeId};
+use super::args::{self, JobArgs, TraineeId};
 use super::children::Child;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
@@ -38,6 +38,9 @@ pub struct Args {
     /// So many times real time (0.1 to 100), or max; a person flies at 1
     #[arg(long, value_name = "X|max", default_value = "1")]
     speed: Speed,
+    /// Whose interface the vehicle speaks; it flies the same in all of them
+    #[arg(long, value_name = "NAME", default_value = "px4")]
+    flavour: args::Flavour,
     #[command(flatten)]
     ports: PortArgs,
 }
@@ -56,8 +59,12 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let announced = monitor.announced()?;
     let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
     let monitor_port = announced["port"].as_u64().unwrap_or_default().to_string();
-    let sim_args =
-        [common, args.ports.to_args(), vec!["--speed".into(), args.speed.to_string(), "--monitor-port".into(), monitor_port]];
+    let sim_args = [
+        common,
+        args.ports.to_args(),
+        args.flavour.to_args(),
+        vec!["--speed".into(), args.speed.to_string(), "--monitor-port".into(), monitor_port],
+    ];
     let mut sim = Child::start("sim", &sim_args.concat())?;
     let ports = sim.announced()?;
     print!("{}", how_to_connect(&scenario.title, &args.ports, &ports, &session));

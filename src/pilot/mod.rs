@@ -30,8 +30,6 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use wire::{News, Wire};
 
-/// PX4's main mode number of position control (what a PX4-compatible vehicle calls POSCTL).
-const PX4_POSITION_MODE: f32 = 3.0;
 /// Between two tries of a command that has not had its effect, s.
 const RETRY_S: f64 = 1.5;
 /// Within this of the pad's middle one comes down, m (estimate: the reach of the last correction).
@@ -251,7 +249,7 @@ impl Pilot {
 
     fn arm(&mut self) {
         if self.may_try() {
-            self.wire.command(MavCmd::MAV_CMD_DO_SET_MODE, [1.0, PX4_POSITION_MODE, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            self.wire.position_mode();
             self.wire.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         }
     }

@@ -6,7 +6,7 @@ use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Encoder};
 use crate::mav::dialect::{
     COMMAND_LONG_DATA, HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState,
-    MavMessage, MavModeFlag, MavSysStatusSensor, MavType, TIMESYNC_DATA,
+    MavMessage, MavModeFlag, MavStandardMode, MavSysStatusSensor, MavType, TIMESYNC_DATA,
 };
 use std::collections::VecDeque;
 
@@ -17,12 +17,22 @@ use super::perception::Motion;
 const SYSTEM: u8 = 255;
 const COMPONENT: u8 = 190;
 const AUTOPILOT: u8 = 1;
+/// PX4's main mode number of position control (what a PX4-compatible vehicle calls POSCTL).
+const PX4_POSITION: f32 = 3.0;
+/// ArduCopter's number of POSHOLD.
+const COPTER_POSHOLD: f32 = 16.0;
+/// What the pilot lives by (truth, system status, landed state, battery, gimbal) and how often, Hz: a PX4's rates to a ground station.
+const STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0), (285, 10.0)];
 
 /// What has been heard last.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Heard {
     /// The vehicle's system id.
     pub system: Option<u8>,
+    /// Whose interface it speaks.
+    pub autopilot: Option<MavAutopilot>,
+    /// Something of the world has been seen since the last heartbeat.
+    seen: bool,
     /// Motors may turn.
     pub armed: bool,
     /// The vehicle says that it would arm.
@@ -74,10 +84,17 @@ impl Wire {
         for frame in self.decoder.datagram(bytes) {
             let from_autopilot = frame.component_id == AUTOPILOT;
             match frame.message {
-                Some(MavMessage::HIL_STATE_QUATERNION(truth)) => news.extend(motion(&truth, plane).map(News::Truth)),
+                Some(MavMessage::HIL_STATE_QUATERNION(truth)) => {
+                    self.heard.seen = true;
+                    news.extend(motion(&truth, plane).map(News::Truth));
+                }
                 Some(MavMessage::TIMESYNC(sync)) if sync.tc1 == 0 => news.push(News::Timesync(sync.ts1)),
                 Some(MavMessage::HEARTBEAT(beat)) if from_autopilot => {
                     self.heard.system = Some(frame.system_id);
+                    self.heard.autopilot = Some(beat.autopilot);
+                    if !std::mem::take(&mut self.heard.seen) {
+                        self.ask_for_streams();
+                    }
                     self.heard.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
                 }
                 Some(message) => self.note(&message),
@@ -112,6 +129,26 @@ impl Wire {
             },
             _ => {}
         }
+    }
+
+    /// A vehicle that says nothing unasked is asked, until it speaks.
+    fn ask_for_streams(&mut self) {
+        for (id, rate_hz) in STREAMS {
+            self.command(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        }
+    }
+
+    /// Asks for the mode in which the sticks command velocity, each autopilot by its own number, any other by the standard's.
+    pub fn position_mode(&mut self) {
+        let (command, [a, b]) = match self.heard.autopilot {
+            Some(MavAutopilot::MAV_AUTOPILOT_PX4) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, PX4_POSITION]),
+            Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, COPTER_POSHOLD]),
+            _ => {
+                let number = MavStandardMode::MAV_STANDARD_MODE_POSITION_HOLD as u32 as f32;
+                (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, [number, 0.0])
+            }
+        };
+        self.command(command, [a, b, 0.0, 0.0, 0.0, 0.0, 0.0]);
     }
 
     /// Queues a message.

@@ -8,7 +8,8 @@ mod radio;
 
 use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
-use super::endpoint::params::{Thresholds, World};
+use super::endpoint::flavour::Flavour;
+use super::endpoint::params::{Pack, Thresholds, World};
 use super::endpoint::view::{Scoring, View};
 use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit};
 use super::faults::Faults;
@@ -45,6 +46,8 @@ pub struct SimConfig {
     pub seed: u64,
     /// Vehicle number; the system id is one more.
     pub instance: u8,
+    /// Whose interface is spoken.
+    pub flavour: &'static Flavour,
 }
 
 /// Something worth a log line.
@@ -132,6 +135,8 @@ macro_rules! view {
             lamp: $sim.endpoint.payload.lamp,
             camera: $sim.endpoint.payload.camera.summary($sim.now),
             plans: $sim.endpoint.plans(),
+            flavour: $sim.endpoint.flavour(),
+            chosen: $sim.endpoint.chosen(),
         }
     };
 }
@@ -145,16 +150,22 @@ impl Sim {
         let team = &scenario.ground_team;
         let start = (team.pad_m + Vec3::new(0.0, 0.0, feet_m)).ned();
         let yaw = crate::base::math::wrap_pi(team.pad_heading_deg.to_radians());
-        let autopilot = fresh_autopilot(&config);
+        let mut autopilot = fresh_autopilot(&config);
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
         let rules = &scenario.rules;
-        let thresholds = Thresholds { low_pct: rules.low_battery_pct, critical_pct: rules.critical_battery_pct };
+        let pack = Pack {
+            cells: vehicle.battery.cells,
+            capacity_mah: 1000.0 * vehicle.battery.capacity_ah,
+            thresholds: Thresholds { low_pct: rules.low_battery_pct, critical_pct: rules.critical_battery_pct },
+        };
+        let mut endpoint = Endpoint::new(config.instance + 1, pack, config.flavour);
+        endpoint.prepare(&mut autopilot);
         Self {
             model: Arc::new(Model::new(vehicle, scenario.rules.battery)),
             state: physics::State::at_rest(start, yaw),
             sensors: Sensors::new(vehicle, scenario.rules.gnss_shadow, scenario.origin, seed),
             backend: Backend::Builtin(Box::new(autopilot)),
-            endpoint: Endpoint::new(config.instance + 1, vehicle.battery.cells, thresholds),
+            endpoint,
             wind: WindField::new(&scenario.wind, seed),
             now: SimTime::ZERO,
             readings: Readings::default(),

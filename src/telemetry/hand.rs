@@ -20,7 +20,8 @@ pub enum Hand {
 const ARDUPILOT: u8 = 3;
 
 impl Hand {
-    /// From the autopilot's kind and its mode number, PX4's layout unless it is ArduPilot (whose numbers are Copter's).
+    /// From the autopilot's kind and its mode number, PX4's layout unless it is ArduPilot (whose numbers are Copter's): a vehicle that names
+    /// no autopilot is read as PX4, as SDKs do.
     #[must_use]
     pub fn of(autopilot: u8, custom_mode: u32) -> Self {
         if autopilot == ARDUPILOT { Self::of_copter(custom_mode) } else { Self::of_px4(custom_mode) }
@@ -48,12 +49,12 @@ impl Hand {
         }
     }
 
-    /// ArduCopter's numbers: 3 auto, 4 and 20 guided, 6 RTL, 9 land, 17 brake, 21 smart RTL, 27 auto RTL.
+    /// ArduCopter's numbers: 3 auto, 4 and 20 guided, 6 RTL, 7 circle, 9 land, 17 brake, 21 smart RTL, 27 auto RTL.
     fn of_copter(custom_mode: u32) -> Self {
         match custom_mode {
             3 => Self::Mission,
             4 | 20 => Self::Script,
-            6 | 9 | 17 | 21 | 27 => Self::Autopilot,
+            6 | 7 | 9 | 17 | 21 | 27 => Self::Autopilot,
             _ => Self::Pilot,
         }
     }
@@ -72,8 +73,16 @@ mod tests {
             (6 << 16, Hand::Script),
         ] {
             assert_eq!(Hand::of(12, mode), by);
+            assert_eq!(Hand::of(0, mode), by);
         }
-        for (mode, by) in [(5, Hand::Pilot), (16, Hand::Pilot), (3, Hand::Mission), (4, Hand::Script), (6, Hand::Autopilot)] {
+        for (mode, by) in [
+            (5, Hand::Pilot),
+            (16, Hand::Pilot),
+            (3, Hand::Mission),
+            (4, Hand::Script),
+            (6, Hand::Autopilot),
+            (7, Hand::Autopilot),
+        ] {
             assert_eq!(Hand::of(3, mode), by);
         }
     }

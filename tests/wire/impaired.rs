@@ -212,6 +212,9 @@ fn wire_a_file_comes_whole_over_a_bad_link() {
         assert!(len > 0 && part.offset == file.len() as u32);
         file.extend(&part.data[..len]);
     }
-    assert_eq!(file, spandrel::sitl::endpoint::params::metadata::parameter().bytes.to_vec());
+    assert_eq!(
+        file,
+        spandrel::sitl::endpoint::params::metadata::files(&spandrel::sitl::endpoint::params::face::PX4).parameter.bytes.to_vec()
+    );
     ask(&mut client, Opcode::TerminateSession, open.session, 0, &[]);
 }

@@ -5,6 +5,7 @@ mod camera;
 mod circles;
 mod failures;
 mod fence;
+mod flavours;
 mod flights;
 mod impaired;
 mod inspection;

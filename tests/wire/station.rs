@@ -5,6 +5,7 @@ use spandrel::mav::codec::{Decoder, Encoder, Received};
 use spandrel::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavResult};
 use spandrel::scenario::Scenario;
 use spandrel::site::Site;
+use spandrel::sitl::endpoint::flavour::{self, Flavour};
 use spandrel::sitl::endpoint::{LinkId, LinkKind};
 use spandrel::sitl::sim::{Sim, SimConfig};
 use std::path::Path;
@@ -35,11 +36,20 @@ impl Station {
 
     /// On a job and with an aircraft of one's own.
     pub fn of(scenario: Scenario, vehicle: &str, seed: u64) -> Self {
+        Self::start(&flavour::px4::FLAVOUR, scenario, vehicle, seed)
+    }
+
+    /// As another autopilot.
+    pub fn speaking(flavour: &'static Flavour, scenario_name: &str, seed: u64) -> Self {
+        Self::start(flavour, scenario(scenario_name), "phantom2", seed)
+    }
+
+    fn start(flavour: &'static Flavour, scenario: Scenario, vehicle: &str, seed: u64) -> Self {
         let scenario = Arc::new(scenario);
         let file = format!("vehicle-params/{vehicle}.toml");
         let vehicle = Arc::new(spandrel::vehicle::read(&file, &shipped(&file)).unwrap());
         let site = Arc::new(Site::build(&scenario, seed));
-        let mut sim = Sim::new(SimConfig { scenario, vehicle, seed, instance: 0 }, site);
+        let mut sim = Sim::new(SimConfig { scenario, vehicle, seed, instance: 0, flavour }, site);
         sim.open_link(GCS, LinkKind::GroundStation, false);
         Self { sim, encoder: Encoder::new(255, 190), decoder: Decoder::new(), heard: Vec::new() }
     }

@@ -47,10 +47,11 @@ impl Links {
         pairs.iter().any(|(now, then)| now.abs() > least && (now - then).abs() > least)
     }
 
-    /// The largest deflection.
+    /// The largest deflection; a throttle that is down counts as none where it `may_be_down`.
     #[must_use]
-    pub fn deflection(&self) -> f64 {
+    pub fn deflection(&self, may_be_down: bool) -> f64 {
         let s = &self.sticks;
-        s.forward.abs().max(s.right.abs()).max(s.up.abs()).max(s.yaw.abs())
+        let up = if may_be_down { s.up.max(0.0) } else { s.up.abs() };
+        s.forward.abs().max(s.right.abs()).max(up).max(s.yaw.abs())
     }
 }

@@ -1,7 +1,7 @@
 //! Failsafes, arming checks, battery warnings, and the pilot's hand on the sticks.
 
 use super::core::{Autopilot, Severity};
-use super::{Landed, LinkLoss, Mode};
+use super::{Landed, LinkLoss, Mode, OffboardSetpoint};
 use crate::base::frames::{Frd, Vec3};
 use crate::base::time::SimTime;
 
@@ -170,6 +170,10 @@ impl Autopilot {
         let t = &self.tuning;
         let silent = |at: Option<SimTime>, limit: f64| at.is_some_and(|at| (now - at).s() > limit);
         if self.watch.intended == Mode::Offboard && !self.links.offboard_fresh(t.offboard_patience_s(), now) {
+            if t.setpoints_end {
+                self.end_errand(now);
+                return None;
+            }
             let mode = if self.estimate.position_valid { Mode::Hold } else { Mode::Land };
             return Some((mode, "external set-points lost"));
         }
@@ -177,6 +181,16 @@ impl Autopilot {
             return Some((self.loss_mode(t.data_link_loss, Mode::Hold), "ground station lost"));
         }
         None
+    }
+
+    /// To the place of the last set-point, where it had one; else it stops.
+    fn end_errand(&mut self, now: SimTime) {
+        self.watch.intended = Mode::Hold;
+        self.enter(Mode::Hold, now);
+        if let Some((OffboardSetpoint { position_m: [Some(n), Some(e), Some(d)], yaw_rad, .. }, _)) = self.links.offboard {
+            self.course.target_m = Vec3::new(n, e, d);
+            self.course.target_yaw_rad = yaw_rad;
+        }
     }
 
     fn warn_of_battery(&mut self) {
@@ -254,7 +268,9 @@ impl Autopilot {
             Some(b) if b.remaining_pct < self.tuning.battery_critical_pct => out.push("Battery too low".into()),
             Some(_) => {}
         }
-        if self.links.sticks_fresh(self.tuning.manual_patience_s(), now) && self.links.deflection() > CENTRED {
+        if self.links.sticks_fresh(self.tuning.manual_patience_s(), now)
+            && self.links.deflection(self.tuning.arm_throttle_down) > CENTRED
+        {
             out.push("Sticks not centred".into());
         }
         if e.position_valid && self.breach_at(e.position_m).is_some() {

@@ -85,6 +85,10 @@ pub struct Tuning {
     pub fence_height_m: f64,
     /// `COM_RC_OVERRIDE`: moved sticks take over from automatic modes.
     pub stick_takeover: bool,
+    /// The end of external set-points is the end of an errand: it goes to the last place, or stops; otherwise it is a failure. (ArduPilot)
+    pub setpoints_end: bool,
+    /// The throttle stick may be down when motors are armed, where transmitters have it that does not spring back. (ArduPilot)
+    pub arm_throttle_down: bool,
     /// `MPC_HOLD_DZ`: sticks within this share of their travel count as centred.
     pub stick_deadband: f64,
 }
@@ -137,6 +141,8 @@ impl Default for Tuning {
             fence_distance_m: 0.0,
             fence_height_m: 0.0,
             stick_takeover: true,
+            setpoints_end: false,
+            arm_throttle_down: false,
             stick_deadband: 0.03,
         }
     }

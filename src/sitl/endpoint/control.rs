@@ -1,18 +1,18 @@
 //! Messages that steer: sticks, modes, external set-points, the gimbal.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
+use super::Endpoint;
 use super::arrival::Arrival;
 use super::buttons::{self, Press};
 use super::gimbal::{Aim, DEVICE, Gimbal};
 use super::offboard::{self, Reading};
-use super::{Endpoint, px4};
 use crate::base::frames::{Frd, Ned, Rotation};
 use crate::mav::dialect::{
     GIMBAL_DEVICE_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA,
     GIMBAL_MANAGER_SET_PITCHYAW_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavSeverity, MavType, RC_CHANNELS_OVERRIDE_DATA,
     SET_ATTITUDE_TARGET_DATA, SET_MODE_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
-use crate::sitl::autopilot::{Outcome, Request};
+use crate::sitl::autopilot::{Landed, Mode, Outcome, Request};
 
 pub(super) fn heartbeat(_: &mut Endpoint, beat: &HEARTBEAT_DATA, a: &mut Arrival) {
     if beat.mavtype == MavType::MAV_TYPE_GCS {
@@ -72,9 +72,9 @@ pub(super) fn set_mode(e: &mut Endpoint, m: &SET_MODE_DATA, a: &mut Arrival) {
 
 /// SET_MODE has no acknowledgement: a refusal becomes a text.
 pub(super) fn enter_mode(e: &mut Endpoint, custom_mode: u32, a: &mut Arrival) {
-    let outcome = match px4::from_custom_mode(custom_mode) {
-        Some(mode) => a.autopilot.request(Request::SetMode(mode), a.view.now),
-        None => Outcome::Denied(format!("No such mode: {custom_mode}")),
+    let outcome = match e.flavour.row(custom_mode) {
+        Some(row) => e.flavour.enter(row, &mut e.chosen, a.autopilot, a.view.now),
+        None => Outcome::Denied(format!("No such mode {custom_mode}")),
     };
     if let Outcome::TemporarilyRejected(reason) | Outcome::Denied(reason) | Outcome::Failed(reason) = outcome {
         e.tell(MavSeverity::MAV_SEVERITY_CRITICAL, &reason);
@@ -84,8 +84,20 @@ pub(super) fn enter_mode(e: &mut Endpoint, custom_mode: u32, a: &mut Arrival) {
 /// A set-point that cannot be flown is told, and does not count as one.
 fn fly(e: &mut Endpoint, reading: Reading, a: &mut Arrival) {
     match reading {
-        Ok(setpoint) => a.autopilot.offboard(setpoint, a.view.now),
+        Ok(setpoint) => {
+            a.autopilot.offboard(setpoint, a.view.now);
+            follow(e, a);
+        }
         Err(why) => e.complain(why, a.view.now),
+    }
+}
+
+/// Where a mode flies errands as they come, a set-point in it is flown without being asked for; not before a take-off has ended.
+fn follow(e: &Endpoint, a: &mut Arrival) {
+    let status = a.autopilot.status();
+    let here = Some(e.flavour.row_of(status.mode, e.chosen).number) == e.flavour.errands;
+    if here && status.mode == Mode::Hold && status.failsafe.is_none() && status.landed == Landed::InAir {
+        a.autopilot.request(Request::SetMode(Mode::Offboard), a.view.now);
     }
 }
 

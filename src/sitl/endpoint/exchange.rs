@@ -3,8 +3,9 @@
 
 use super::Endpoint;
 use super::arrival::Arrival;
+use super::homes;
 use super::mission::{Reply, ack};
-use super::params::{HASH, Refusal, Value};
+use super::params::{HASH, Refusal, Told};
 use super::streams::{self, AUTOPILOT};
 use super::view::View;
 use crate::mav::dialect::*;
@@ -14,18 +15,24 @@ use mavlink::MessageData;
 const MISSION_ACK: u32 = 47;
 
 /// PARAM_VALUE of one parameter.
-pub(super) fn param_value(name: &str, value: Value, index: usize, count: u16) -> MavMessage {
-    let param_type = match value {
-        Value::Int(_) => MavParamType::MAV_PARAM_TYPE_INT32,
-        Value::Real(_) => MavParamType::MAV_PARAM_TYPE_REAL32,
-    };
+pub(super) fn param_value(told: Told, index: usize, count: u16) -> MavMessage {
     MavMessage::PARAM_VALUE(PARAM_VALUE_DATA {
-        param_value: value.to_wire(),
+        param_value: told.wire,
         param_count: count,
         param_index: index as u16,
-        param_id: name.into(),
-        param_type,
+        param_id: told.name.into(),
+        param_type: told.kind,
     })
+}
+
+/// PARAM_VALUE by place or by name.
+fn param_at(e: &Endpoint, index: Option<usize>) -> Option<MavMessage> {
+    let index = index?;
+    Some(param_value(e.params.told(index)?, index, e.params.count() as u16))
+}
+
+fn place_of(e: &Endpoint, name: &str) -> Option<usize> {
+    e.params.find(name).map(|(index, ..)| index)
 }
 
 /// The checksum over all parameters, outside the list (PX4: index -1).
@@ -39,37 +46,41 @@ fn param_hash(e: &Endpoint) -> MavMessage {
     })
 }
 
-/// The whole list, a little each tick, with the checksum before it: a station that knows all values stops the list.
+/// The whole list, a little each tick; before it the checksum, so that a station that knows all values stops the list, or who it is.
 pub(super) fn param_list(e: &mut Endpoint, _: &PARAM_REQUEST_LIST_DATA, a: &mut Arrival) {
-    let hash = param_hash(e);
-    e.answer(a.link, &hash);
+    if e.flavour.params.hash {
+        let hash = param_hash(e);
+        e.answer(a.link, &hash);
+    }
+    for line in e.flavour.banner {
+        e.tell(MavSeverity::MAV_SEVERITY_INFO, line);
+    }
     e.param_lists.insert(a.link, (0..e.params.count()).collect());
 }
 
 pub(super) fn param_read(e: &mut Endpoint, r: &PARAM_REQUEST_READ_DATA, a: &mut Arrival) {
-    let count = e.params.count() as u16;
     let name = r.param_id.to_str().unwrap_or_default();
-    let found = match usize::try_from(r.param_index) {
-        Ok(index) => e.params.at(index).map(|(name, value)| (index, name, value)),
-        Err(_) => e.params.find(name),
-    };
-    let message = match found {
-        Some((index, name, value)) => param_value(name, value, index, count),
-        None if name == HASH => param_hash(e),
+    let index = usize::try_from(r.param_index).ok().or_else(|| place_of(e, name));
+    let message = match param_at(e, index) {
+        Some(message) => message,
+        None if is_hash(e, name) => param_hash(e),
         None => param_error(a.from, name, r.param_index, MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST),
     };
     e.answer(a.link, &message);
 }
 
+fn is_hash(e: &Endpoint, name: &str) -> bool {
+    e.flavour.params.hash && name == HASH
+}
+
 /// A change is told to every link; a refusal is named, and the old value is sent as older clients expect.
 pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut Arrival) {
     let name = set.param_id.to_str().unwrap_or_default();
-    if name == HASH {
+    if is_hash(e, name) {
         e.param_lists.remove(&a.link);
         return;
     }
-    let real = set.param_type == MavParamType::MAV_PARAM_TYPE_REAL32;
-    match e.params.set(name, set.param_value, real) {
+    match e.params.set(name, set.param_value, set.param_type) {
         Err(refusal) => {
             let error = match refusal {
                 Refusal::Unknown => MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST,
@@ -81,8 +92,7 @@ pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut Arrival)
         }
         Ok(()) => {
             e.apply_parameters(a.autopilot);
-            if let Some((index, name, value)) = e.params.find(name) {
-                let message = param_value(name, value, index, e.params.count() as u16);
+            if let Some(message) = param_at(e, place_of(e, name)) {
                 e.broadcast(AUTOPILOT, &message);
             }
         }
@@ -91,8 +101,7 @@ pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut Arrival)
 
 fn refuse_param(e: &mut Endpoint, name: &str, error: MavParamError, a: &Arrival) {
     e.answer(a.link, &param_error(a.from, name, -1, error));
-    if let Some((index, name, value)) = e.params.find(name) {
-        let message = param_value(name, value, index, e.params.count() as u16);
+    if let Some(message) = param_at(e, place_of(e, name)) {
         e.answer(a.link, &message);
     }
 }
@@ -119,14 +128,21 @@ pub(super) fn mission_list(e: &mut Endpoint, r: &MISSION_REQUEST_LIST_DATA, a: &
 }
 
 pub(super) fn mission_item_int(e: &mut Endpoint, r: &MISSION_REQUEST_INT_DATA, a: &mut Arrival) {
-    let message = e.plans.item(a.from, r.mission_type, r.seq);
+    let message = plan_item(e, r.mission_type, r.seq, a);
     e.answer(a.link, &message);
 }
 
-/// The older request gets the same answer: MAVLink asks for it.
+/// The older request gets the same answer, as MAVLink asks, or one in the older form, as ArduPilot's clients expect.
 pub(super) fn mission_item(e: &mut Endpoint, r: &MISSION_REQUEST_DATA, a: &mut Arrival) {
-    let message = e.plans.item(a.from, r.mission_type, r.seq);
+    let message = match plan_item(e, r.mission_type, r.seq, a) {
+        MavMessage::MISSION_ITEM_INT(item) if e.flavour.float_items => MavMessage::MISSION_ITEM(homes::in_degrees(&item)),
+        other => other,
+    };
     e.answer(a.link, &message);
+}
+
+fn plan_item(e: &Endpoint, kind: MavMissionType, seq: u16, a: &Arrival) -> MavMessage {
+    if e.plans.is_home(kind, seq) { homes::item(a.view, a.from) } else { e.plans.item(a.from, kind, seq) }
 }
 
 pub(super) fn mission_count(e: &mut Endpoint, c: &MISSION_COUNT_DATA, a: &mut Arrival) {
@@ -135,6 +151,11 @@ pub(super) fn mission_count(e: &mut Endpoint, c: &MISSION_COUNT_DATA, a: &mut Ar
 }
 
 pub(super) fn mission_receive_int(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut Arrival) {
+    if e.flavour.errands.is_some() && homes::is_errand(item) {
+        let result = homes::go(e, item, a);
+        e.answer(a.link, &ack(a.from, item.mission_type, result));
+        return;
+    }
     let reply = e.plans.receive(a.from, item, a.view.plane, a.view.now);
     carry_out(e, reply, a);
 }
@@ -173,7 +194,7 @@ pub(super) fn mission_ack(e: &mut Endpoint, _: &MISSION_ACK_DATA, a: &mut Arriva
 
 /// Answered by MISSION_CURRENT, after a refusal where there is no such item.
 pub(super) fn mission_set_current(e: &mut Endpoint, c: &MISSION_SET_CURRENT_DATA, a: &mut Arrival) {
-    if !a.autopilot.set_mission_current(usize::from(c.seq)) {
+    if !a.autopilot.set_mission_current(usize::from(c.seq.saturating_sub(a.view.plans.lead))) {
         let result = MavMissionResult::MAV_MISSION_INVALID_SEQUENCE;
         let refusal = ack(a.from, MavMissionType::MAV_MISSION_TYPE_MISSION, result);
         e.answer(a.link, &refusal);
@@ -256,20 +277,11 @@ pub(super) fn ping(e: &mut Endpoint, ping: &PING_DATA, a: &mut Arrival) {
 
 /// The legacy way of asking for rates: groups of messages (Mission Planner, MAVProxy).
 pub(super) fn data_stream(e: &mut Endpoint, r: &REQUEST_DATA_STREAM_DATA, a: &mut Arrival) {
-    const GROUPS: [(u8, &[u32]); 7] = [
-        (1, &[24, 29, 105]),
-        (2, &[1, 147, 230, 42, 24]),
-        (3, &[65, 36]),
-        (6, &[33, 32]),
-        (10, &[30, 31]),
-        (11, &[74]),
-        (12, &[2, 242, 231]),
-    ];
     let Some(link) = e.links.get_mut(&a.link) else { return };
     let wanted = r.req_stream_id as u8;
     let stop = r.start_stop == 0 || r.req_message_rate == 0;
     let us = if stop { -1.0 } else { 1e6 / f64::from(r.req_message_rate) };
-    for (_, ids) in GROUPS.iter().filter(|(group, _)| wanted == 0 || *group == wanted) {
+    for (_, ids) in e.flavour.groups.iter().filter(|(group, _)| wanted == 0 || *group == wanted) {
         for (row, _) in ids.iter().flat_map(|id| streams::rows_of(*id)) {
             link.set_interval(row, us, a.view.now);
         }

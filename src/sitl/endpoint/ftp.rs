@@ -1,13 +1,24 @@
 //! Files over MAVLink: the message around the packets of the file server.
 
 use super::arrival::Arrival;
+use super::params::packed;
 use super::streams::AUTOPILOT;
 use super::{Endpoint, LinkId};
 use crate::mav::dialect::{FILE_TRANSFER_PROTOCOL_DATA, MavMessage};
-use crate::mav::ftp::{Packet, Refusal};
+use crate::mav::ftp::{Opcode, Packet, Refusal};
 
 pub(super) fn request(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &mut Arrival) {
-    e.files.receive((a.link, a.from), &Packet::read(&request.payload), a.view.now);
+    let (client, packet) = ((a.link, a.from), Packet::read(&request.payload));
+    match packed_parameters(e, &packet) {
+        Some(content) => e.files.open_made(client, &packet, content, a.view.now),
+        None => e.files.receive(client, &packet, a.view.now),
+    }
+}
+
+/// The parameters as a file, where the flavour has it and this opens it.
+fn packed_parameters(e: &Endpoint, packet: &Packet) -> Option<Vec<u8>> {
+    let opens = e.flavour.params.packed && packet.opcode == Opcode::OpenFileRo as u8;
+    packed::file(packet.sized().filter(|_| opens)?, &e.params, e.storage.defaults())
 }
 
 /// No files in a component's name: the autopilot's component has them.

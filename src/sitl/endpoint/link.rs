@@ -21,6 +21,8 @@ const MOST_WAITING: usize = 4_194_304;
 const HANDED_ON_A_TICK: usize = 16;
 /// Heartbeats are never slowed: clients tell by them that we are there.
 const HEARTBEAT: u32 = 0;
+/// HIL_STATE_QUATERNION.
+const TRUTH: u32 = 115;
 
 /// One peer.
 #[derive(Debug, Clone)]
@@ -46,13 +48,15 @@ pub struct Link {
     pub stamp: u64,
     /// Numbers of pictures that are to be told again.
     pub pictures: std::ops::Range<usize>,
+    /// Nothing but heartbeats until it asks.
+    must_ask: bool,
 }
 
 impl Link {
-    /// A link with its kind's usual rates; the first of everything is due at once.
+    /// A link with its kind's usual rates, which are none but heartbeats' where it must ask; the first of everything is due at once.
     #[must_use]
-    pub fn new(kind: LinkKind, lockstep: bool, system_id: u8, now: SimTime) -> Self {
-        let every: Vec<Option<SimTime>> = STREAMS.iter().map(|s| period(s.rate_hz(kind))).collect();
+    pub fn new(kind: LinkKind, lockstep: bool, system_id: u8, must_ask: bool, now: SimTime) -> Self {
+        let every: Vec<Option<SimTime>> = (0..STREAMS.len()).map(|row| usual(row, kind, must_ask)).collect();
         let next = vec![now; every.len()];
         Self {
             kind,
@@ -71,6 +75,7 @@ impl Link {
             signing: None,
             stamp: 0,
             pictures: 0..0,
+            must_ask,
         }
     }
 
@@ -141,7 +146,7 @@ impl Link {
         }
         self.every[row] = match us {
             us if us < 0.0 => None,
-            0.0 => period(STREAMS[row].rate_hz(self.kind)),
+            0.0 => usual(row, self.kind, self.must_ask),
             us => period((1e6 / us).min(FASTEST_HZ)),
         };
         self.next[row] = now;
@@ -149,9 +154,15 @@ impl Link {
         true
     }
 
+    /// It wants the values for the scoring: without asking, or with the truth that it has asked for.
+    #[must_use]
+    pub fn wants_truth(&self) -> bool {
+        !self.must_ask || STREAMS.iter().zip(&self.every).any(|(stream, every)| stream.id == TRUTH && every.is_some())
+    }
+
     /// Every stream at its kind's usual rate again.
     pub fn usual_rates(&mut self, now: SimTime) {
-        self.every = STREAMS.iter().map(|s| period(s.rate_hz(self.kind))).collect();
+        self.every = (0..STREAMS.len()).map(|row| usual(row, self.kind, self.must_ask)).collect();
         self.next.fill(now);
         self.soonest = now;
     }
@@ -241,6 +252,12 @@ impl Link {
         self.waiting -= len;
         self.out.pop_front()
     }
+}
+
+/// A row's usual interval.
+fn usual(row: usize, kind: LinkKind, must_ask: bool) -> Option<SimTime> {
+    let silent = must_ask && STREAMS[row].id != HEARTBEAT;
+    if silent { None } else { period(STREAMS[row].rate_hz(kind)) }
 }
 
 fn period(rate_hz: f64) -> Option<SimTime> {

@@ -6,7 +6,7 @@ use super::{areas, items};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::mav::dialect::{
-    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MavMessage, MavMissionResult,
+    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MavCmd, MavMessage, MavMissionResult,
     MavMissionType,
 };
 use crate::sitl::autopilot::MissionStep;
@@ -32,11 +32,13 @@ pub struct Plans {
     done: Option<(Peer, MavMissionType, u16)>,
     /// Seconds of simulation time in a second of the uploader's.
     pace: f64,
+    /// Items of the wire's mission before the first that is flown.
+    lead: u16,
 }
 
 impl Default for Plans {
     fn default() -> Self {
-        Self { kept: Default::default(), ids: [0; 3], upload: None, done: None, pace: 1.0 }
+        Self { kept: Default::default(), ids: [0; 3], upload: None, done: None, pace: 1.0, lead: 0 }
     }
 }
 
@@ -106,6 +108,30 @@ fn id_of(items: &[MISSION_ITEM_INT_DATA]) -> u32 {
 }
 
 impl Plans {
+    /// No plans yet; so many items of the wire's missions (home) are not flown. What is kept is
+    /// numbered without them.
+    #[must_use]
+    pub fn led_by(lead: u16) -> Self {
+        Self { lead, ..Self::default() }
+    }
+
+    /// Items of a plan as the wire counts them.
+    fn count(&self, kind: MavMissionType, slot: usize) -> u16 {
+        let kept = self.kept[slot].len() as u16;
+        if kept == 0 { 0 } else { kept + self.lead(kind) }
+    }
+
+    /// Items of a plan of this kind that are not kept.
+    fn lead(&self, kind: MavMissionType) -> u16 {
+        if kind == MavMissionType::MAV_MISSION_TYPE_MISSION { self.lead } else { 0 }
+    }
+
+    /// Whether this is home's item of a mission that is there.
+    #[must_use]
+    pub fn is_home(&self, kind: MavMissionType, seq: u16) -> bool {
+        seq < self.lead(kind) && !self.kept[0].is_empty()
+    }
+
     /// Uploaders that are not kept in step take longer by this factor.
     pub fn set_pace(&mut self, pace: f64) {
         self.pace = pace;
@@ -114,7 +140,7 @@ impl Plans {
     /// What stations see of the plans.
     #[must_use]
     pub fn summary(&self) -> PlanSummary {
-        PlanSummary { mission_items: self.kept[0].len() as u16, ids: self.ids }
+        PlanSummary { mission_items: self.kept[0].len() as u16, ids: self.ids, lead: self.lead }
     }
 
     /// The fence's areas.
@@ -140,7 +166,7 @@ impl Plans {
     pub fn list(&self, from: Peer, kind: MavMissionType) -> MavMessage {
         let Some(slot) = slot(kind) else { return ack(from, kind, MavMissionResult::MAV_MISSION_UNSUPPORTED) };
         MavMessage::MISSION_COUNT(MISSION_COUNT_DATA {
-            count: self.kept[slot].len() as u16,
+            count: self.count(kind, slot),
             target_system: from.0,
             target_component: from.1,
             mission_type: kind,
@@ -151,10 +177,11 @@ impl Plans {
     /// Somebody wants one item.
     #[must_use]
     pub fn item(&self, from: Peer, kind: MavMissionType, seq: u16) -> MavMessage {
-        let item = slot(kind).and_then(|slot| self.kept[slot].get(usize::from(seq)));
+        let index = seq.checked_sub(self.lead(kind)).map(usize::from);
+        let item = slot(kind).zip(index).and_then(|(slot, index)| self.kept[slot].get(index));
         match item {
             Some(item) => {
-                let mut item = item.clone();
+                let mut item = renumbered(item.clone(), i32::from(self.lead(kind)));
                 (item.target_system, item.target_component) = from;
                 MavMessage::MISSION_ITEM_INT(item)
             }
@@ -191,11 +218,11 @@ impl Plans {
             return refuse(MavMissionResult::MAV_MISSION_DENIED);
         }
         let Some(slot) = slot(kind) else { return refuse(MavMissionResult::MAV_MISSION_UNSUPPORTED) };
-        let known = self.kept[slot].len();
+        let known = self.count(kind, slot);
         let (Ok(first), Ok(last)) = (u16::try_from(first), u16::try_from(last)) else {
             return refuse(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE);
         };
-        if first > last || usize::from(last) >= known {
+        if first > last || last >= known {
             return refuse(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE);
         }
         self.done = None;
@@ -211,6 +238,7 @@ impl Plans {
 
     /// An item of an upload.
     pub fn receive(&mut self, from: Peer, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, now: SimTime) -> Reply {
+        let lead = self.lead(item.mission_type);
         let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && u.kind == item.mission_type) else {
             let result = if self.is_last_again(from, item) {
                 MavMissionResult::MAV_MISSION_ACCEPTED
@@ -228,8 +256,10 @@ impl Plans {
         }
         upload.asked = now;
         let kept = slot(upload.kind).map_or(0, |slot| self.kept[slot].len());
-        let total = if upload.part { kept as u16 } else { upload.count };
-        if let Err(result) = items::legal(item, total, plane) {
+        let total = if upload.part { kept as u16 + lead } else { upload.count };
+        // Home is the vehicle's own, whatever is sent for it.
+        let refusal = if wanted < lead { None } else { items::legal(item, total, plane).err() };
+        if let Some(result) = refusal {
             let kind = upload.kind;
             self.upload = None;
             return Reply::Say(ack(from, kind, result));
@@ -247,9 +277,12 @@ impl Plans {
     fn complete(&mut self, upload: Upload) -> Reply {
         let Upload { from, kind, items, first, part, .. } = upload;
         let Some(slot) = slot(kind) else { return Reply::Nothing };
+        let lead = self.lead(kind);
         let mut whole = if part { self.kept[slot].clone() } else { Vec::new() };
         let last = first + items.len().saturating_sub(1) as u16;
-        let first = usize::from(first);
+        let flown = items.into_iter().skip(usize::from(lead.saturating_sub(first)));
+        let items: Vec<_> = flown.map(|item| renumbered(item, -i32::from(lead))).collect();
+        let first = usize::from(first.saturating_sub(lead));
         let until = (first + items.len()).min(whole.len());
         whole.splice(first.min(until)..until, items);
         if let Err(result) = areas::whole(&whole).and_then(|()| items::whole(&whole)) {
@@ -264,10 +297,12 @@ impl Plans {
 
     /// The last item of a finished upload once more: its sender has not heard the acknowledgement.
     fn is_last_again(&self, from: Peer, item: &MISSION_ITEM_INT_DATA) -> bool {
-        let kept = slot(item.mission_type).and_then(|slot| self.kept[slot].get(usize::from(item.seq)));
+        let lead = self.lead(item.mission_type);
+        let index = item.seq.checked_sub(lead).map(usize::from);
+        let kept = slot(item.mission_type).zip(index).and_then(|(slot, index)| self.kept[slot].get(index));
         // Not-a-number fields differ from themselves: the place and the command tell.
         let same = |last: &MISSION_ITEM_INT_DATA| {
-            (last.seq, last.command, last.frame, last.x, last.y) == (item.seq, item.command, item.frame, item.x, item.y)
+            (last.seq + lead, last.command, last.frame, last.x, last.y) == (item.seq, item.command, item.frame, item.x, item.y)
         };
         self.done == Some((from, item.mission_type, item.seq)) && kept.is_some_and(same)
     }
@@ -329,6 +364,15 @@ impl Plans {
     pub fn over_home(&self) -> Vec<bool> {
         self.kept[0].iter().map(|item| relative(item.frame) == Some(true)).collect()
     }
+}
+
+/// An item with its number, and that of a jump's aim, moved by so much.
+fn renumbered(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA {
+    item.seq = (i32::from(item.seq) + by).max(0) as u16;
+    if item.command == MavCmd::MAV_CMD_DO_JUMP {
+        item.param1 = (item.param1 + by as f32).max(0.0);
+    }
+    item
 }
 
 fn ask(to: Peer, kind: MavMissionType, seq: u16) -> MavMessage {

@@ -1,4 +1,4 @@
-//! The vehicle's MAVLink face: PX4-compatible. Datagrams of every link come in, what is due goes out; nothing here reads a clock.
+//! The vehicle's MAVLink face, in one of three flavours. Datagrams of every link come in, what is due goes out; nothing here reads a clock.
 
 mod areas;
 mod arrival;
@@ -9,9 +9,11 @@ pub mod commands;
 mod control;
 mod exchange;
 pub mod files;
+pub mod flavour;
 mod ftp;
 pub mod gimbal;
 pub mod guard;
+mod homes;
 mod items;
 pub mod lamp;
 pub mod link;
@@ -23,7 +25,6 @@ pub mod params;
 pub mod payload;
 mod persistence;
 mod places;
-pub mod px4;
 mod receive;
 mod scoring;
 mod storage;
@@ -38,11 +39,12 @@ use crate::mav::signing::Key;
 use crate::sitl::autopilot::{Autopilot, Event, Severity};
 use crate::sitl::faults::{Kind, Unit};
 use camera::Shot;
+use flavour::Flavour;
 use guard::Guard;
 use link::Link;
 use manual::Manual;
 use mission::Plans;
-use params::{Params, Thresholds};
+use params::{Pack, Params};
 pub use payload::Payload;
 pub use receive::HANDLED;
 use scoring::TruthRates;
@@ -100,6 +102,8 @@ pub struct Context<'a, 'v> {
     pub restart: &'a mut bool,
     /// Faults that are put in.
     pub faults: &'a mut VecDeque<Injection>,
+    /// The flavour's number of the mode that was asked for last.
+    pub chosen: &'a mut u32,
 }
 
 /// A fault to put in, or with no kind to take out; the instance counts from 1, 0 is all.
@@ -121,6 +125,20 @@ impl Context<'_, '_> {
         }
     }
 
+    /// Says to everybody who this is.
+    pub fn introduce(&mut self) {
+        let room = MOST_TEXTS.saturating_sub(self.texts.len());
+        let lines = self.view.flavour.banner.iter().take(room);
+        self.texts.extend(lines.map(|line| (MavSeverity::MAV_SEVERITY_INFO, (*line).to_string())));
+    }
+
+    /// Whether the mode is flown that flies errands, where the flavour has one.
+    #[must_use]
+    pub fn in_errands(&self) -> bool {
+        let now = self.view.flavour.row_of(self.autopilot.status().mode, *self.chosen);
+        self.view.flavour.errands == Some(now.number)
+    }
+
     /// Answers the link that asked.
     pub fn answer(&mut self, component: u8, message: &MavMessage) -> MavResult {
         self.link.send(component, message);
@@ -132,6 +150,9 @@ impl Context<'_, '_> {
 #[derive(Debug, Clone)]
 pub struct Endpoint {
     system_id: u8,
+    flavour: &'static Flavour,
+    /// The flavour's number of the mode that was asked for last: several may mean the same to us.
+    chosen: u32,
     links: BTreeMap<LinkId, Link>,
     router: Router<LinkId>,
     guard: Option<Guard>,
@@ -170,21 +191,23 @@ const COMPLAIN_EVERY: SimTime = SimTime::from_ms(1_000);
 impl Endpoint {
     /// An endpoint without links.
     #[must_use]
-    pub fn new(system_id: u8, cells: u32, battery: Thresholds) -> Self {
-        let params = Params::new(system_id, cells, battery);
+    pub fn new(system_id: u8, pack: Pack, flavour: &'static Flavour) -> Self {
+        let params = Params::new(system_id, pack, flavour.params);
         Self {
             system_id,
+            flavour,
+            chosen: 0,
             links: BTreeMap::new(),
             router: Router::new(),
             guard: None,
-            files: metadata_server(),
+            files: metadata_server(flavour),
             logs: logs::Logs::default(),
             storage: Storage::new(params.clone()),
             restart: false,
             injections: VecDeque::new(),
             sticks_pass: true,
             params,
-            plans: Plans::default(),
+            plans: Plans::led_by(u16::from(flavour.home_item)),
             manual: Manual::default(),
             payload: Payload::new(),
             texts: Vec::new(),
@@ -203,7 +226,7 @@ impl Endpoint {
 
     /// A peer is there from now on.
     pub fn open(&mut self, id: LinkId, kind: LinkKind, lockstep: bool, now: SimTime) {
-        let mut link = Link::new(kind, lockstep, self.system_id, now);
+        let mut link = Link::new(kind, lockstep, self.system_id, self.flavour.must_ask(kind), now);
         link.sign_with(self.guard.as_ref().map(|guard| guard.signer(id.0 as u8)));
         self.links.insert(id, link);
     }
@@ -257,6 +280,25 @@ impl Endpoint {
     /// Names and present values of all parameters, in the order of their names.
     pub fn parameters(&self) -> impl Iterator<Item = (&'static str, params::Value)> {
         (0..self.params.count()).filter_map(|index| self.params.at(index))
+    }
+
+    /// Whose interface is spoken.
+    #[must_use]
+    pub fn flavour(&self) -> &'static Flavour {
+        self.flavour
+    }
+
+    /// The flavour's number of the mode that was asked for last.
+    #[must_use]
+    pub fn chosen(&self) -> u32 {
+        self.chosen
+    }
+
+    /// A fresh autopilot gets what its flavour has otherwise than it.
+    pub fn prepare(&mut self, autopilot: &mut Autopilot) {
+        if !self.flavour.params.defaults.is_empty() {
+            self.apply_parameters(autopilot);
+        }
     }
 
     /// True once after somebody has asked for a restart of the autopilot's software.
@@ -353,6 +395,7 @@ impl Endpoint {
 
     /// What is due now goes out.
     pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
+        self.chosen = view.mode_row().number;
         self.take_picture(view);
         if self.pace != self.told_pace {
             self.told_pace = self.pace;
@@ -368,7 +411,7 @@ impl Endpoint {
         }
         for seq in reached {
             self.mission_payload(seq, view);
-            let message = MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq: seq as u16 });
+            let message = MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq: seq as u16 + view.plans.lead });
             self.broadcast(AUTOPILOT, &message);
         }
         let view = &view.with(&self.payload);
@@ -473,9 +516,10 @@ impl Endpoint {
 }
 
 /// A file server with nothing but what describes the vehicle.
-fn metadata_server() -> files::Server {
+fn metadata_server(flavour: &Flavour) -> files::Server {
     let mut server = files::Server::default();
-    for file in [params::metadata::general(), params::metadata::parameter()] {
+    let params::metadata::Files { general, parameter } = params::metadata::files(flavour.params);
+    for file in [general, parameter] {
         server.make_up(file.path, file.bytes.clone());
     }
     server

@@ -43,6 +43,7 @@ impl Endpoint {
     /// The parameters act.
     pub(super) fn apply_parameters(&mut self, autopilot: &mut Autopilot) {
         self.params.apply(&mut autopilot.tuning);
+        (self.flavour.tune)(&mut autopilot.tuning);
         self.manual.let_go_s = autopilot.tuning.manual_patience_s();
         self.manual.policy = self.params.stick_policy();
     }
@@ -64,8 +65,8 @@ impl Endpoint {
                     break;
                 }
                 let Some(index) = list.pop_front() else { break };
-                if let Some((name, value)) = self.params.at(index) {
-                    link.send(AUTOPILOT, &exchange::param_value(name, value, index, count));
+                if let Some(told) = self.params.told(index) {
+                    link.send(AUTOPILOT, &exchange::param_value(told, index, count));
                 }
             }
         }

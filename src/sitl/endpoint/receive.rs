@@ -145,6 +145,7 @@ impl Endpoint {
             storage: &mut self.storage,
             restart: &mut self.restart,
             faults: &mut self.injections,
+            chosen: &mut self.chosen,
         };
         let before = context.params.changes();
         let result = commands::handle(command, &mut context);

@@ -25,6 +25,12 @@ pub struct Storage {
 }
 
 impl Storage {
+    /// What they were at first.
+    #[must_use]
+    pub fn defaults(&self) -> &Params {
+        &self.defaults
+    }
+
     /// Nobody keeps them.
     #[must_use]
     pub fn new(defaults: Params) -> Self {

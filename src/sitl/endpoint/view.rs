@@ -1,6 +1,7 @@
 //! What the endpoint may look at when it speaks: one instant of the vehicle.
 
 use super::camera::Mode;
+use super::flavour::{Flavour, ModeRow};
 use super::gimbal::Gimbal;
 use super::lamp::LampState;
 use super::payload::Payload;
@@ -51,6 +52,10 @@ pub struct View<'a> {
     pub camera: CameraSummary,
     /// Plans.
     pub plans: PlanSummary,
+    /// Whose interface is spoken.
+    pub flavour: &'static Flavour,
+    /// The flavour's number of the mode that was asked for last.
+    pub chosen: u32,
 }
 
 /// The camera's counters.
@@ -81,6 +86,8 @@ pub struct PlanSummary {
     pub mission_items: u16,
     /// Ids of mission, fence and rally points, by which stations see whether theirs is the present one; 0 for none.
     pub ids: [u32; 3],
+    /// Items of the wire's mission before the first that is flown: home.
+    pub lead: u16,
 }
 
 /// What the scoring needs beside the motion (design.md, truth for the scoring).
@@ -103,6 +110,12 @@ pub struct Scoring {
 }
 
 impl View<'_> {
+    /// The mode as clients see it.
+    #[must_use]
+    pub fn mode_row(&self) -> &'static ModeRow {
+        self.flavour.row_of(self.status.mode, self.chosen)
+    }
+
     /// Milliseconds since simulation start.
     #[must_use]
     pub fn boot_ms(&self) -> u32 {

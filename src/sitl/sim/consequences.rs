@@ -171,6 +171,7 @@ mod tests {
     use crate::base::time::SimTime;
     use crate::scenario::Scenario;
     use crate::site::{ObjectId, Site};
+    use crate::sitl::endpoint::flavour::px4;
     use crate::sitl::physics::contact::Report;
     use crate::sitl::sim::{SimConfig, SimEvent};
     use std::sync::Arc;
@@ -187,7 +188,8 @@ mod tests {
         let vehicle = include_str!("../../../vehicle-params/phantom2.toml");
         let vehicle = Arc::new(crate::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
         let site = Arc::new(Site::build(&scenario, 1));
-        let mut sim = Sim::new(SimConfig { scenario: Arc::new(scenario), vehicle, seed: 1, instance: 0 }, site);
+        let mut sim =
+            Sim::new(SimConfig { scenario: Arc::new(scenario), vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR }, site);
         sim.lifted = true;
         sim.safe = (Vec3::new(SAFE.0, SAFE.1, SAFE.2), 0.3);
         put(&mut sim, Vec3::new(50.0, 0.0, 0.1));

@@ -1,37 +1,35 @@
 //! Arming, modes, take-off, go-to, landing.
 
-use super::super::{px4, storage};
+use super::super::storage;
 use super::{Command, result};
 use crate::mav::dialect::{MavCmd, MavResult};
 use crate::sitl::autopilot::orbit::{OrbitWish, OrbitYaw};
-use crate::sitl::autopilot::{Mode, Request};
+use crate::sitl::autopilot::{Mode, Outcome, Request};
+use crate::sitl::endpoint::flavour::ModeRow;
 use crate::sitl::endpoint::{Context, Injection};
 use crate::sitl::faults::{Faults, Kind, Unit};
-
-/// The number that forces arming and disarming (MAVLink common, COMPONENT_ARM_DISARM param2).
-const FORCE: f64 = 21196.0;
 
 pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     use MavCmd as M;
     const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
     let request = match c.number {
-        n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => arm(c)?,
-        n if n == M::MAV_CMD_DO_SET_MODE as u16 => return Some(set_mode(c, x)),
-        n if n == M::MAV_CMD_DO_SET_STANDARD_MODE as u16 => match standard_mode(c) {
-            Some(mode) => Request::SetMode(mode),
-            None => return Some(DENIED),
+        n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => match arm(c, x)? {
+            Request::Arm { force } => return Some(arm_motors(force, x)),
+            other => other,
         },
-        n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => match take_off_height(c, x) {
+        n if n == M::MAV_CMD_DO_SET_MODE as u16 => return Some(set_mode(c, x)),
+        n if n == M::MAV_CMD_DO_SET_STANDARD_MODE as u16 => {
+            let row = c.given(0).and_then(|number| x.view.flavour.standard(number as u32));
+            return Some(row.map_or(DENIED, |row| enter(row, x)));
+        }
+        n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => match (x.view.flavour.take_off)(c, x) {
             Ok(height_m) => Request::Takeoff { height_m },
-            Err(()) => return Some(DENIED),
+            Err(refusal) => return Some(refusal),
         },
         n if n == M::MAV_CMD_NAV_LAND as u16 => Request::Land,
         n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => Request::SetMode(Mode::Return),
-        n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => Request::SetMode(Mode::Hold),
-        n if n == M::MAV_CMD_DO_REPOSITION as u16 => match reposition(c, x) {
-            Some(request) => request,
-            None => return Some(DENIED),
-        },
+        n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => return Some(enter(x.view.flavour.usual(Mode::Hold), x)),
+        n if n == M::MAV_CMD_DO_REPOSITION as u16 => return Some(go(c, x)),
         n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 => {
             if c.is_one(0) {
                 Request::StartMission { first: None }
@@ -40,7 +38,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             }
         }
         n if n == M::MAV_CMD_MISSION_START as u16 => {
-            Request::StartMission { first: c.given(0).filter(|f| *f > 0.0).map(|f| f as usize) }
+            Request::StartMission { first: c.given(0).filter(|f| *f > 0.0).map(|f| index(f, x)) }
         }
         // Climbing and sinking have parameters of their own.
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.given(0).is_some_and(|kind| kind > 1.0) => return Some(DENIED),
@@ -77,7 +75,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             return Some(reboot(c, x));
         }
         n if n == M::MAV_CMD_DO_SET_MISSION_CURRENT as u16 => {
-            let known = c.given(0).is_some_and(|seq| seq >= 0.0 && x.autopilot.set_mission_current(seq as usize));
+            let known = c.given(0).is_some_and(|seq| seq >= 0.0 && x.autopilot.set_mission_current(index(seq, x)));
             return Some(if known { MavResult::MAV_RESULT_ACCEPTED } else { DENIED });
         }
         _ => return None,
@@ -110,7 +108,7 @@ fn reboot(c: &Command, x: &mut Context) -> MavResult {
         0.0 => MavResult::MAV_RESULT_ACCEPTED,
         1.0 | 3.0 if x.view.status.armed => {
             x.tell("Reboot denied: armed");
-            MavResult::MAV_RESULT_TEMPORARILY_REJECTED
+            x.view.flavour.refusals.for_now
         }
         1.0 | 3.0 => {
             *x.restart = true;
@@ -120,8 +118,8 @@ fn reboot(c: &Command, x: &mut Context) -> MavResult {
     }
 }
 
-fn arm(c: &Command) -> Option<Request> {
-    let force = (c.p[1] - FORCE).abs() < 0.5;
+fn arm(c: &Command, x: &Context) -> Option<Request> {
+    let force = x.view.flavour.force.iter().any(|number| (c.p[1] - number).abs() < 0.5);
     match c.p[0] {
         p if (p - 1.0).abs() < 1e-6 => Some(Request::Arm { force }),
         0.0 => Some(Request::Disarm { force }),
@@ -129,57 +127,70 @@ fn arm(c: &Command) -> Option<Request> {
     }
 }
 
+/// Each reason against it in a text of its own, where the flavour has words for that.
+fn arm_motors(force: bool, x: &mut Context) -> MavResult {
+    let (flavour, now) = (x.view.flavour, x.view.now);
+    if let Some(words) = flavour.arm_words
+        && !x.autopilot.status().armed
+    {
+        let row = flavour.row_of(x.autopilot.status().mode, *x.chosen);
+        let mut reasons = if force { Vec::new() } else { x.autopilot.arming_reasons(now) };
+        if !row.armable {
+            reasons.insert(0, format!("{} mode not armable", row.name.to_uppercase()));
+        }
+        if !reasons.is_empty() {
+            reasons.iter().for_each(|reason| x.tell(&format!("{words}{reason}")));
+            return flavour.refusals.for_now;
+        }
+    }
+    let outcome = x.autopilot.request(Request::Arm { force }, now);
+    result(outcome, x)
+}
+
+fn enter(row: &ModeRow, x: &mut Context) -> MavResult {
+    let outcome = x.view.flavour.enter(row, x.chosen, x.autopilot, x.view.now);
+    result(outcome, x)
+}
+
+/// Only the custom mode counts; the bits of base_mode beside it are the vehicle's own business.
 fn set_mode(c: &Command, x: &mut Context) -> MavResult {
-    // Only the custom mode counts; the bits of base_mode beside it are the vehicle's own business.
     let custom = c.given(0).is_some_and(|base| (base as i64) & 1 == 1);
-    let mode = match (custom, c.given(1), c.given(2)) {
-        (true, Some(main), sub) => px4::from_numbers(main as u32, sub.unwrap_or(0.0) as u32),
-        _ => None,
+    let Some(main) = c.given(1).filter(|_| custom) else {
+        x.tell("No custom mode given");
+        return MavResult::MAV_RESULT_DENIED;
     };
-    match mode {
-        Some(mode) => {
-            let outcome = x.autopilot.request(Request::SetMode(mode), x.view.now);
-            result(outcome, x)
-        }
+    let number = (x.view.flavour.custom_mode)(main, c.given(2).unwrap_or(0.0));
+    match x.view.flavour.row(number) {
+        Some(row) => enter(row, x),
         None => {
-            x.tell("No such mode");
-            MavResult::MAV_RESULT_DENIED
+            x.tell(&format!("No such mode {main}"));
+            x.view.flavour.refusals.no_mode
         }
     }
 }
 
-fn standard_mode(c: &Command) -> Option<Mode> {
-    let wanted = c.given(0)? as u32;
-    if wanted == 0 {
-        return None;
-    }
-    px4::MODES.iter().find(|row| row.standard as u32 == wanted).map(|row| row.mode)
+/// An item's place among those that are flown.
+fn index(seq: f64, x: &Context) -> usize {
+    (seq as usize).saturating_sub(usize::from(x.view.plans.lead))
 }
 
-/// Whether a command's height counts from home; `None` for a frame that is no place over the ground.
-fn over_home(c: &Command) -> Option<bool> {
-    match c.frame {
-        0 | 5 => Some(false),
-        3 | 6 | 10 | 11 => Some(true),
-        _ => None,
+/// DO_REPOSITION. Where one mode flies errands it must be flown, or parameter 2 must ask for it (MAV_DO_REPOSITION_FLAGS_CHANGE_MODE).
+fn go(c: &Command, x: &mut Context) -> MavResult {
+    let changes = c.given(1).is_some_and(|flags| (flags as i64) & 1 == 1);
+    let errands = x.view.flavour.errands;
+    let request = reposition(c, x).filter(|_| errands.is_none() || changes || x.in_errands());
+    let Some(request) = request else { return MavResult::MAV_RESULT_DENIED };
+    let outcome = x.autopilot.request(request, x.view.now);
+    if outcome == Outcome::Accepted {
+        *x.chosen = errands.unwrap_or(*x.chosen);
     }
-}
-
-/// Height over home: parameter 7 is over the sea; not given or too near the ground, the parameter's height.
-fn take_off_height(c: &Command, x: &Context) -> Result<Option<f64>, ()> {
-    const LOWEST_M: f64 = 0.5;
-    const HIGHEST_M: f64 = 500.0;
-    let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
-    let relative = over_home(c).ok_or(())?;
-    let Some(z) = c.given(6) else { return Ok(None) };
-    let height_m = if relative { z } else { z - x.view.plane.origin().altitude_m - home_up };
-    if height_m > HIGHEST_M { Err(()) } else { Ok(Some(height_m).filter(|h| *h >= LOWEST_M)) }
+    result(outcome, x)
 }
 
 fn reposition(c: &Command, x: &Context) -> Option<Request> {
     let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
     let origin = x.view.plane.origin();
-    let relative = over_home(c)?;
+    let relative = c.over_home()?;
     let up_m = c.given(6).map(|z| if relative { home_up + z } else { z - origin.altitude_m });
     let north_east_m = match (c.given(4), c.given(5)) {
         (Some(lat), Some(lon)) => {
@@ -221,7 +232,7 @@ fn home(c: &Command, x: &Context) -> Option<Request> {
     }
     let (lat, lon, alt) = (c.given(4)?, c.given(5)?, c.given(6)?);
     let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
-    let alt = if over_home(c)? { x.view.plane.origin().altitude_m + home_up + alt } else { alt };
+    let alt = if c.over_home()? { x.view.plane.origin().altitude_m + home_up + alt } else { alt };
     let geo = crate::mav::units::geo(crate::mav::units::deg_e7(lat), crate::mav::units::deg_e7(lon), alt)?;
     let local = x.view.plane.enu_from_geo(geo);
     (local.norm() < 20_000.0).then(|| Request::SetHome(local.ned()))
@@ -230,7 +241,7 @@ fn home(c: &Command, x: &Context) -> Option<Request> {
 fn checks(x: &mut Context) -> MavResult {
     let reasons = x.view.status.arming_reasons.clone();
     for reason in &reasons {
-        x.tell(&format!("Preflight Fail: {reason}"));
+        x.tell(&format!("{}{reason}", x.view.flavour.check_words));
     }
     MavResult::MAV_RESULT_ACCEPTED
 }

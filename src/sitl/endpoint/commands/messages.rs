@@ -1,7 +1,6 @@
 //! Asking for messages and their rates, by the present commands and by the older ones that clients still send.
 #![allow(deprecated, reason = "clients still send the superseded commands")]
 
-use super::super::px4;
 use super::super::streams::{self, AUTOPILOT, CAMERA, STREAMS};
 use super::Command;
 use crate::mav::dialect::{AVAILABLE_MODES_DATA, MESSAGE_INTERVAL_DATA, MavCmd, MavMessage, MavModeProperty, MavResult};
@@ -16,6 +15,8 @@ const COUNTED: [u32; 3] = [261, STREAM_INFORMATION, STREAM_STATUS];
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
+/// MAV_CMD_DO_SEND_BANNER of ArduPilot's dialect.
+const SEND_BANNER: u16 = 42_428;
 
 pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     use MavCmd as M;
@@ -41,6 +42,10 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         return Some(request(message, (index, 0.0), c.component, x));
     }
     match c.number {
+        SEND_BANNER if !x.view.flavour.banner.is_empty() => {
+            x.introduce();
+            Some(ACCEPTED)
+        }
         n if n == M::MAV_CMD_REQUEST_MESSAGE as u16 => {
             Some(id(0).map_or(DENIED, |m| request(m, (c.p[1], c.p[2]), c.component, x)))
         }
@@ -79,7 +84,7 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut Context) -
             said = true;
         }
     }
-    if said { ACCEPTED } else { DENIED }
+    if said { ACCEPTED } else { x.view.flavour.refusals.message }
 }
 
 /// Pictures again: from number `first` (-1: from 0 to the newest) to `last` (0: that one alone, -1: to the newest). The first at once, the
@@ -108,17 +113,18 @@ fn pictures(first: f64, last: f64, x: &mut Context) -> MavResult {
 
 /// One mode, or with index 0 all of them.
 fn modes(index: f64, x: &mut Context) -> MavResult {
-    let count = px4::MODES.len();
+    let modes = x.view.flavour.modes;
+    let count = modes.len();
     let wanted = if index.is_finite() && index >= 0.0 { index as usize } else { return DENIED };
     if wanted > count {
         return DENIED;
     }
-    for (k, row) in px4::MODES.iter().enumerate().filter(|(k, _)| wanted == 0 || wanted == k + 1) {
+    for (k, row) in modes.iter().enumerate().filter(|(k, _)| wanted == 0 || wanted == k + 1) {
         let mut properties = MavModeProperty::empty();
         properties.set(MavModeProperty::MAV_MODE_PROPERTY_NOT_USER_SELECTABLE, !row.selectable);
         properties.set(MavModeProperty::MAV_MODE_PROPERTY_AUTO_MODE, row.auto);
         let message = MavMessage::AVAILABLE_MODES(AVAILABLE_MODES_DATA {
-            custom_mode: row.custom_mode(),
+            custom_mode: row.number,
             properties,
             number_modes: count as u8,
             mode_index: (k + 1) as u8,
@@ -130,11 +136,10 @@ fn modes(index: f64, x: &mut Context) -> MavResult {
     ACCEPTED
 }
 
-/// A message that is not spoken fails, as PX4 answers.
 fn set_interval(id: u32, us: f64, component: u8, x: &mut Context) -> MavResult {
     let rows: Vec<usize> = addressed(id, component).collect();
     if rows.is_empty() {
-        return FAILED;
+        return x.view.flavour.refusals.interval;
     }
     let now = x.view.now;
     if rows.iter().all(|row| x.link.set_interval(*row, us, now)) { ACCEPTED } else { DENIED }

@@ -70,6 +70,16 @@ impl Command {
         Self { number: item.command as u16, p, frame: item.frame as u8, component: from.1, system: from.0, from, whole: true }
     }
 
+    /// Whether its height counts from home; `None` for a frame that is no place over the ground.
+    #[must_use]
+    pub fn over_home(&self) -> Option<bool> {
+        match self.frame {
+            0 | 5 => Some(false),
+            3 | 6 | 10 | 11 => Some(true),
+            _ => None,
+        }
+    }
+
     /// True when a parameter is 1.
     #[must_use]
     pub fn is_one(&self, k: usize) -> bool {
@@ -113,10 +123,11 @@ fn look(c: &Command, x: &mut Context) -> Option<MavResult> {
 
 /// The autopilot's answer on the wire; its reason becomes a text.
 fn result(outcome: Outcome, context: &mut Context) -> MavResult {
+    let refusals = &context.view.flavour.refusals;
     let (result, reason) = match outcome {
         Outcome::Accepted => return MavResult::MAV_RESULT_ACCEPTED,
-        Outcome::TemporarilyRejected(reason) => (MavResult::MAV_RESULT_TEMPORARILY_REJECTED, reason),
-        Outcome::Denied(reason) => (MavResult::MAV_RESULT_DENIED, reason),
+        Outcome::TemporarilyRejected(reason) => (refusals.for_now, reason),
+        Outcome::Denied(reason) => (refusals.denied, reason),
         Outcome::Failed(reason) => (MavResult::MAV_RESULT_FAILED, reason),
         Outcome::Unsupported => return MavResult::MAV_RESULT_UNSUPPORTED,
     };

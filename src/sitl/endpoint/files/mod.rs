@@ -6,7 +6,7 @@ mod session;
 
 use super::LinkId;
 use crate::base::time::SimTime;
-use crate::mav::ftp::{DATA_MAX, Opcode, Packet, Refusal, checksum};
+use crate::mav::ftp::{ACK, DATA_MAX, Opcode, Packet, Refusal, checksum};
 use job::{Action, Done, Entry, FileError, Job};
 use path::FilePath;
 use session::Sessions;
@@ -86,21 +86,44 @@ impl Server {
         out
     }
 
-    /// A request came in.
-    pub fn receive(&mut self, client: Client, request: &Packet, now: SimTime) {
+    /// True for a request that was heard before; its answer, if there is one by now, was lost and goes out again, without doing the work
+    /// twice.
+    fn is_again(&mut self, client: Client, request: &Packet) -> bool {
         if let Some((asked, answer)) = self.last.get(&client)
             && asked == request
         {
-            // Its answer was lost: the same again, without doing the work twice.
             self.answers.push_back((client, answer.clone()));
+            return true;
+        }
+        self.waiting.values().any(|waiting| waiting.client == client && waiting.request == *request)
+    }
+
+    /// Opens a file whose content is made for this session alone: what others do meanwhile changes nothing in it.
+    pub fn open_made(&mut self, client: Client, request: &Packet, content: Vec<u8>, now: SimTime) {
+        if self.is_again(client, request) {
             return;
         }
-        if self.waiting.values().any(|waiting| waiting.client == client && waiting.request == *request) {
+        self.sessions.expire(now);
+        let size = content.len() as u32;
+        let path = request.sized().and_then(FilePath::of).map(|path| (path, false));
+        let answer = self.opened(client, request, path, size, now);
+        if answer.opcode == ACK {
+            self.sessions.hold(answer.session, content.into());
+        }
+        self.say(client, request, answer);
+    }
+
+    /// A request came in.
+    pub fn receive(&mut self, client: Client, request: &Packet, now: SimTime) {
+        if self.is_again(client, request) {
             return;
         }
         self.sessions.expire(now);
         self.sessions.touch(client, request.session, now);
         match self.act(client, request) {
+            Ok(Act::Bytes(bytes)) if request.opcode == Opcode::BurstReadFile as u8 => self.burst(client, request, &bytes),
+            Ok(Act::Bytes(bytes)) if bytes.is_empty() => self.say(client, request, request.refuse(Refusal::EndOfFile)),
+            Ok(Act::Bytes(bytes)) => self.say(client, request, request.acknowledge(&bytes)),
             Ok(Act::Answer(data)) => self.say(client, request, request.acknowledge(&data)),
             Ok(Act::Job(action, opens)) => self.ask(client, request, action, opens, now),
             Err(why) => self.say(client, request, request.refuse(why)),
@@ -201,7 +224,11 @@ impl Server {
     fn read(&mut self, client: Client, request: &Packet, opcode: Opcode) -> Result<Act, Refusal> {
         let path = self.sessions.path(client, request.session, false)?;
         let packets = if opcode == Opcode::BurstReadFile { BURST_PACKETS } else { 1 };
-        Ok(Act::Job(Action::Read(path, request.offset, packets * chunk(request)), None))
+        let most = packets * chunk(request);
+        Ok(match self.sessions.content(client, request.session) {
+            Some(content) => Act::Bytes(cut(&content, request.offset, most)),
+            None => Act::Job(Action::Read(path, request.offset, most), None),
+        })
     }
 
     /// One stream of packets, and the end of the file where it ends.
@@ -240,11 +267,9 @@ impl Server {
     fn by_itself(&self, action: &Action) -> Option<Result<Done, FileError>> {
         match action {
             Action::Size(path) => self.made_up.get(path).map(|content| Ok(Done::Size(content.len() as u32))),
-            Action::Read(path, offset, most) => self.made_up.get(path).map(|content| {
-                let from = (*offset as usize).min(content.len());
-                let to = from.saturating_add(*most as usize).min(content.len());
-                Ok(Done::Bytes(content[from..to].to_vec()))
-            }),
+            Action::Read(path, offset, most) => {
+                self.made_up.get(path).map(|content| Ok(Done::Bytes(cut(content, *offset, *most))))
+            }
             _ => None,
         }
         .or_else(|| (!self.stored).then(|| Self::nothing_stored(action)))
@@ -292,8 +317,17 @@ impl Server {
 enum Act {
     /// An acknowledgement at once.
     Answer(Vec<u8>),
+    /// What was read.
+    Bytes(Vec<u8>),
     /// Work, and the file that it opens (writable?).
     Job(Action, Option<(FilePath, bool)>),
+}
+
+/// At most so many bytes from an offset.
+fn cut(content: &[u8], offset: u32, most: u32) -> Vec<u8> {
+    let from = (offset as usize).min(content.len());
+    let to = from.saturating_add(most as usize).min(content.len());
+    content[from..to].to_vec()
 }
 
 /// Bytes a packet that a read asks for; 0 means a whole packet.

@@ -5,6 +5,7 @@ use super::path::FilePath;
 use crate::base::time::SimTime;
 use crate::mav::ftp::Refusal;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Files that all clients together may have open.
 const SESSIONS_MAX: usize = 32;
@@ -19,6 +20,8 @@ struct Session {
     path: FilePath,
     writes: bool,
     used: SimTime,
+    /// What is read, where it was made for this session alone.
+    content: Option<Arc<[u8]>>,
 }
 
 /// All open files, by session number.
@@ -36,8 +39,20 @@ impl Sessions {
     pub fn begin(&mut self, owner: Client, path: FilePath, writes: bool, now: SimTime) -> Result<u8, Refusal> {
         self.room(owner)?;
         let number = (0..=u8::MAX).find(|number| !self.0.contains_key(number)).ok_or(Refusal::NoSessionsAvailable)?;
-        self.0.insert(number, Session { owner, path, writes, used: now });
+        self.0.insert(number, Session { owner, path, writes, used: now, content: None });
         Ok(number)
+    }
+
+    /// Keeps what was made for a session.
+    pub fn hold(&mut self, number: u8, content: Arc<[u8]>) {
+        if let Some(session) = self.0.get_mut(&number) {
+            session.content = Some(content);
+        }
+    }
+
+    /// What was made for a session of this client.
+    pub fn content(&self, client: Client, number: u8) -> Option<Arc<[u8]>> {
+        self.0.get(&number).filter(|session| session.owner == client)?.content.clone()
     }
 
     /// The file of a session of this client, which must have been opened to be written if `writes`.

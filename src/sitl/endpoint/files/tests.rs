@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::base::random::RandomStream;
-use crate::mav::ftp::{ACK, NAK, PAYLOAD};
+use crate::mav::ftp::{NAK, PAYLOAD};
 
 const CLIENT: Client = (LinkId(1), (255, 190));
 const OTHER: Client = (LinkId(2), (254, 190));
@@ -186,6 +186,29 @@ fn exact_made_up_files_are_listed_read_and_never_written() {
     assert_eq!(said(&bench.ask(Opcode::RemoveFile, 0, 0, b"general.json")), Err(Refusal::FileProtected as u8));
     assert_eq!(said(&bench.ask(Opcode::CreateFile, 0, 0, b"/")), Err(Refusal::FileProtected as u8));
     assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"../b.ulg")), Err(Refusal::FileNotFound as u8));
+}
+
+#[test]
+fn exact_what_is_made_for_a_session_stays_as_it_was_when_it_was_opened() {
+    let mut bench = Bench::new();
+    let mut open = |content: &[u8]| {
+        let request = bench.packet(Opcode::OpenFileRo, 0, 0, b"@PARAM/param.pck");
+        bench.server.open_made(CLIENT, &request, content.to_vec(), bench.now);
+        bench.server.open_made(CLIENT, &request, b"a repetition makes nothing anew".to_vec(), bench.now);
+        let answers: Vec<Packet> = bench.server.poll(|_| true).into_iter().map(|(_, packet)| packet).collect();
+        assert_eq!(answers[0], answers[1]);
+        answers[0].clone()
+    };
+    let (old, new) = (open(b"before"), open(b"after it"));
+    assert_eq!((said(&old), said(&new)), (Ok(6u32.to_le_bytes().to_vec()), Ok(8u32.to_le_bytes().to_vec())));
+    assert_eq!(said(&bench.ask(Opcode::ReadFile, old.session, 0, &[0; 100])), Ok(b"before".to_vec()));
+    assert_eq!(said(&bench.ask(Opcode::ReadFile, new.session, 6, &[0; 100])), Ok(b"it".to_vec()));
+    assert_eq!(said(&bench.ask(Opcode::ReadFile, new.session, 8, &[0; 100])), Err(Refusal::EndOfFile as u8));
+    assert_eq!(
+        said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"@PARAM/param.pck")),
+        Err(Refusal::FileNotFound as u8),
+        "it is not kept"
+    );
 }
 
 #[test]

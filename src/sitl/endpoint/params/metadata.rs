@@ -2,7 +2,8 @@
 //! (<https://mavlink.io/en/services/component_information.html>), made from the table and served over MAVLink FTP.
 
 use super::Value;
-use super::table::{ROWS, Row};
+use super::face::{COPTER, Face, PX4};
+use super::table::{Behind, Row};
 use crate::mav::ftp::checksum;
 use serde_json::{Value as Json, json};
 use std::io::Cursor;
@@ -36,25 +37,29 @@ impl File {
     }
 }
 
-/// The file that leads to all others.
-#[must_use]
-pub fn general() -> &'static File {
-    static FILE: LazyLock<File> = LazyLock::new(|| {
-        let parameter = parameter();
-        let types = json!([{ "type": PARAMETER, "uri": parameter.uri, "fileCrc": parameter.crc }]);
-        File::new(GENERAL_PATH, &json!({ "version": 1, "metadataTypes": types }))
-    });
-    &FILE
+/// Both files of one flavour's parameters.
+#[derive(Debug)]
+pub struct Files {
+    /// The file that leads to all others.
+    pub general: File,
+    /// The file about the parameters.
+    pub parameter: File,
 }
 
-/// The file about the parameters.
+/// The files about the parameters as a flavour shows them.
 #[must_use]
-pub fn parameter() -> &'static File {
-    static FILE: LazyLock<File> = LazyLock::new(|| {
-        let parameters: Vec<Json> = ROWS.iter().map(describe).collect();
-        File::new(PARAMETER_PATH, &json!({ "version": 1, "parameters": parameters }))
-    });
-    &FILE
+pub fn files(face: &Face) -> &'static Files {
+    static COMMON: LazyLock<Files> = LazyLock::new(|| make(&PX4));
+    static OTHER: LazyLock<Files> = LazyLock::new(|| make(&COPTER));
+    if face.cast { &OTHER } else { &COMMON }
+}
+
+fn make(face: &Face) -> Files {
+    let parameters: Vec<Json> = face.rows().iter().map(describe).collect();
+    let parameter = File::new(PARAMETER_PATH, &json!({ "version": 1, "parameters": parameters }));
+    let types = json!([{ "type": PARAMETER, "uri": parameter.uri, "fileCrc": parameter.crc }]);
+    let general = File::new(GENERAL_PATH, &json!({ "version": 1, "metadataTypes": types }));
+    Files { general, parameter }
 }
 
 fn describe(row: &Row) -> Json {
@@ -66,7 +71,9 @@ fn describe(row: &Row) -> Json {
         "group": row.group,
         "category": if row.token { "System" } else { "Standard" },
         "shortDesc": row.short,
-        "longDesc": if row.token { "Present because clients look for it; this vehicle does not depend on it." } else { row.short },
+        "longDesc": if row.token && row.read_only {
+            "Present because clients look for it; it tells what is so, and cannot be changed."
+        } else if row.token { "Present because clients look for it; this vehicle does not depend on it." } else { row.short },
         "units": row.unit,
         "default": number(row.default.number()),
         "min": number(row.low),
@@ -77,6 +84,12 @@ fn describe(row: &Row) -> Json {
     if real {
         out["decimalPlaces"] = json!(2);
     }
+    if matches!(row.behind, Behind::Capacity(_)) {
+        // They depend on the aircraft's battery.
+        for key in ["default", "min", "max"] {
+            out.as_object_mut().map(|fields| fields.remove(key));
+        }
+    }
     if !row.values.is_empty() {
         let value = |(value, words): &(i32, &str)| json!({ "value": value, "description": words });
         out["values"] = row.values.iter().map(value).collect();
@@ -86,6 +99,7 @@ fn describe(row: &Row) -> Json {
 
 #[cfg(test)]
 mod tests {
+    use super::super::table::ROWS;
     use super::*;
 
     fn unpacked(file: &File) -> Json {
@@ -96,16 +110,17 @@ mod tests {
 
     #[test]
     fn exact_the_files_lead_to_each_other_and_describe_every_parameter() {
-        let general = unpacked(general());
+        let Files { general, parameter } = files(&PX4);
+        let general = unpacked(general);
         let entry = &general["metadataTypes"][0];
-        assert_eq!((entry["type"].as_u64(), entry["uri"].as_str()), (Some(1), Some(parameter().uri.as_str())));
-        assert_eq!(entry["fileCrc"], parameter().crc);
-        let described = unpacked(parameter());
+        assert_eq!((entry["type"].as_u64(), entry["uri"].as_str()), (Some(1), Some(parameter.uri.as_str())));
+        assert_eq!(entry["fileCrc"], parameter.crc);
+        let described = unpacked(parameter);
         let names: Vec<&str> = described["parameters"].as_array().unwrap().iter().filter_map(|p| p["name"].as_str()).collect();
         assert_eq!(names, ROWS.iter().map(|row| row.name).collect::<Vec<_>>());
         // MAVLink's schema for parameter.json asks for these, and types of these names.
-        for parameter in described["parameters"].as_array().unwrap() {
-            assert!(["Int32", "Float"].contains(&parameter["type"].as_str().unwrap()));
+        for one in described["parameters"].as_array().unwrap() {
+            assert!(["Int32", "Float"].contains(&one["type"].as_str().unwrap()));
         }
         let act = described["parameters"].as_array().unwrap().iter().find(|p| p["name"] == "GF_ACTION").unwrap();
         assert_eq!(act["values"][3], json!({ "value": 3, "description": "Return mode" }));

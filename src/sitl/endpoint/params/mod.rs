@@ -1,14 +1,20 @@
-//! Parameters: the names that ground stations look for, our own group, ranges, and the byte-wise encoding of PX4.
+//! Parameters: the names that ground stations look for, our own group, ranges, and how each flavour shows them. The values are kept under
+//! one set of names; another flavour's names show them in its own units.
 
+mod copter;
+pub mod face;
 pub mod metadata;
+pub mod packed;
 mod table;
 pub mod text;
 
 use crate::base::time::SimTime;
+use crate::mav::dialect::MavParamType;
 use crate::sitl::autopilot::{FenceAction, LinkLoss, Tuning};
 use Value::{Int, Real};
+pub use face::Face;
 use std::collections::BTreeMap;
-use table::{ROWS, Row};
+use table::{Behind, ROWS, Row};
 
 /// A value with its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,6 +32,20 @@ impl Value {
         match self {
             Self::Int(i) => f32::from_bits(i.cast_unsigned()),
             Self::Real(r) => r,
+        }
+    }
+
+    /// Cast into the wire's float field, as C does.
+    #[must_use]
+    pub fn cast(self) -> f32 {
+        self.number() as f32
+    }
+
+    /// A number as this one's kind.
+    fn alike(self, number: f64) -> Self {
+        match self {
+            Self::Int(_) => Self::Int(number.round() as i32),
+            Self::Real(_) => Self::Real(number as f32),
         }
     }
 
@@ -61,6 +81,28 @@ pub struct Thresholds {
     pub critical_pct: f64,
 }
 
+/// What of the aircraft the parameters show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pack {
+    /// Cells in series.
+    pub cells: u32,
+    /// Capacity, mAh.
+    pub capacity_mah: f64,
+    /// When it counts as low.
+    pub thresholds: Thresholds,
+}
+
+/// A parameter as it goes out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Told {
+    /// Name.
+    pub name: &'static str,
+    /// The wire's float field.
+    pub wire: f32,
+    /// Its type.
+    pub kind: MavParamType,
+}
+
 /// What an instructor can make of the world by parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct World {
@@ -81,23 +123,31 @@ pub enum Policy {
     LatestTakes,
 }
 
-/// The parameter table: present values by name, in the order of their names.
+/// The parameter table: present values by name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Params {
     values: BTreeMap<&'static str, Value>,
     changes: u64,
+    face: &'static Face,
+    capacity_mah: f64,
 }
 
 impl Params {
-    /// Defaults for a vehicle.
+    /// Defaults for a vehicle, as one flavour shows them.
     #[must_use]
-    pub fn new(system_id: u8, cells: u32, battery: Thresholds) -> Self {
-        let mut values: BTreeMap<&'static str, Value> = ROWS.iter().map(|row| (row.name, row.default)).collect();
+    pub fn new(system_id: u8, pack: Pack, face: &'static Face) -> Self {
+        let own = face.rows().iter().filter(|row| row.behind == Behind::Own);
+        let mut values: BTreeMap<&'static str, Value> = own.chain(ROWS).map(|row| (row.name, row.default)).collect();
+        values.extend(face.defaults.iter().copied());
+        values.insert("SPAN_FLAVOUR", Int(face.number));
         values.insert("MAV_SYS_ID", Int(i32::from(system_id)));
-        values.insert("BAT1_N_CELLS", Int(cells.cast_signed()));
-        values.insert("BAT_LOW_THR", Real((battery.low_pct / 100.0) as f32));
-        values.insert("BAT_CRIT_THR", Real((battery.critical_pct / 100.0) as f32));
-        Self { values, changes: 0 }
+        values.insert("BAT1_N_CELLS", Int(pack.cells.cast_signed()));
+        values.insert("BAT_LOW_THR", Real((pack.thresholds.low_pct / 100.0) as f32));
+        values.insert("BAT_CRIT_THR", Real((pack.thresholds.critical_pct / 100.0) as f32));
+        if face.cast {
+            values.insert("BATT_CAPACITY", Int(pack.capacity_mah.round() as i32));
+        }
+        Self { values, changes: 0, face, capacity_mah: pack.capacity_mah }
     }
 
     /// Back to the defaults of the vehicle.
@@ -114,16 +164,22 @@ impl Params {
         self.changes
     }
 
+    /// How clients see them.
+    #[must_use]
+    pub fn face(&self) -> &'static Face {
+        self.face
+    }
+
     /// Allowed range of a parameter.
     #[must_use]
     pub fn range(&self, name: &str) -> Option<(f64, f64)> {
-        find(name).map(|row| (row.low, row.high))
+        self.row(name).map(|(_, row)| self.span(row))
     }
 
-    /// How many.
+    /// How many clients see.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.values.len()
+        self.face.rows().len()
     }
 
     /// PX4's checksum: CRC-32 without pre- and post-inversion over name and value of each, in the order of their names.
@@ -131,9 +187,9 @@ impl Params {
     pub fn hash(&self) -> u32 {
         // The crate inverts the register at both ends: inverting around it leaves the plain polynomial.
         let mut crc = crc32fast::Hasher::new_with_initial(u32::MAX);
-        for (name, value) in self.values.iter().filter(|(name, _)| !is_volatile(name)) {
-            crc.update(name.as_bytes());
-            crc.update(&value.to_wire().to_bits().to_le_bytes());
+        for row in self.face.rows().iter().filter(|row| !row.volatile) {
+            crc.update(row.name.as_bytes());
+            crc.update(&self.shown(row).to_wire().to_bits().to_le_bytes());
         }
         !crc.finalize()
     }
@@ -141,34 +197,109 @@ impl Params {
     /// By place in the list.
     #[must_use]
     pub fn at(&self, index: usize) -> Option<(&'static str, Value)> {
-        self.values.iter().nth(index).map(|(n, v)| (*n, *v))
+        self.face.rows().get(index).map(|row| (row.name, self.shown(row)))
     }
 
     /// By name, with its place.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<(usize, &'static str, Value)> {
-        self.values.iter().enumerate().find(|(_, (n, _))| **n == name).map(|(k, (n, v))| (k, *n, *v))
+        self.row(name).map(|(index, row)| (index, row.name, self.shown(row)))
     }
 
-    /// Sets a value from the wire's float field, whose bits are an integer for integer parameters.
+    /// By place in the list, as it goes out.
+    #[must_use]
+    pub fn told(&self, index: usize) -> Option<Told> {
+        let row = self.face.rows().get(index)?;
+        let value = self.shown(row);
+        Some(Told { name: row.name, wire: if self.face.cast { value.cast() } else { value.to_wire() }, kind: row.wire })
+    }
+
+    fn row(&self, name: &str) -> Option<(usize, &'static Row)> {
+        let rows = self.face.rows();
+        let index = rows.binary_search_by(|row| row.name.cmp(name)).ok()?;
+        Some((index, &rows[index]))
+    }
+
+    /// The factor by which a row shows what is behind it, and whose value that is.
+    fn behind(&self, row: &Row) -> Option<(&'static str, f64)> {
+        match row.behind {
+            Behind::Own | Behind::Mapped(..) => None,
+            Behind::Scaled(name, factor) => Some((name, factor)),
+            Behind::Capacity(name) => Some((name, self.capacity_mah)),
+        }
+    }
+
+    fn span(&self, row: &Row) -> (f64, f64) {
+        match self.behind(row).and_then(|(name, factor)| Some((find(name)?, factor))) {
+            Some((other, factor)) => (other.low * factor, other.high * factor),
+            None => (row.low, row.high),
+        }
+    }
+
+    fn shown(&self, row: &Row) -> Value {
+        if let Some((name, factor)) = self.behind(row) {
+            return row.default.alike(self.number(name) * factor);
+        }
+        let Behind::Mapped(name, pairs) = row.behind else {
+            return self.values.get(row.name).copied().unwrap_or(row.default);
+        };
+        let other = self.whole(name);
+        pairs.iter().find(|(_, theirs)| Some(*theirs) == other).map_or(row.default, |(own, _)| Int(*own))
+    }
+
+    /// Sets a value from the wire: byte-wise, where the bits are an integer for integer parameters, or cast, where the type does not count.
     ///
     /// # Errors
     /// [`Refusal`], and nothing is changed.
-    pub fn set(&mut self, name: &str, wire: f32, real: bool) -> Result<(), Refusal> {
-        let row = find(name).ok_or(Refusal::Unknown)?;
+    pub fn set(&mut self, name: &str, wire: f32, kind: MavParamType) -> Result<(), Refusal> {
+        let (_, row) = self.row(name).ok_or(Refusal::Unknown)?;
+        let real = kind == MavParamType::MAV_PARAM_TYPE_REAL32;
         let value = match row.default {
+            Int(_) if self.face.cast && wire.is_nan() => return Err(Refusal::OutOfRange),
+            // ArduPilot cuts off what lies behind the point.
+            Int(_) if self.face.cast => Int(wire as i32),
             Int(_) if !real => Int(wire.to_bits().cast_signed()),
-            Real(_) if real => Real(wire),
+            Real(_) if real || self.face.cast => Real(wire),
             Int(_) | Real(_) => return Err(Refusal::Type),
         };
+        self.put(row, value)
+    }
+
+    /// Sets a value by the name that clients know.
+    ///
+    /// # Errors
+    /// [`Refusal`], and nothing is changed.
+    pub fn set_value(&mut self, name: &str, value: Value) -> Result<(), Refusal> {
+        let (_, row) = self.row(name).ok_or(Refusal::Unknown)?;
+        match (row.default, value) {
+            (Int(_), Int(_)) | (Real(_), Real(_)) => self.put(row, value),
+            _ => Err(Refusal::Type),
+        }
+    }
+
+    fn put(&mut self, row: &'static Row, value: Value) -> Result<(), Refusal> {
         if row.read_only {
             return Err(Refusal::ReadOnly);
         }
-        let number = value.number();
-        if number.is_nan() || number < row.low || number > row.high {
+        let (number, (low, high)) = (value.number(), self.span(row));
+        // The last place of the wire's numbers where units differ, so that a bound that is shown can be set.
+        let slack = if row.behind == Behind::Own { 0.0 } else { f64::from(f32::EPSILON) * high.abs().max(low.abs()) };
+        if number.is_nan() || number < low - slack || number > high + slack {
             return Err(Refusal::OutOfRange);
         }
-        if self.values.insert(row.name, value) != Some(value) {
+        let (name, value) = match row.behind {
+            Behind::Own => (row.name, value),
+            Behind::Mapped(name, pairs) => {
+                let (_, theirs) = pairs.iter().find(|(own, _)| Int(*own) == value).ok_or(Refusal::OutOfRange)?;
+                (name, Int(*theirs))
+            }
+            Behind::Scaled(..) | Behind::Capacity(_) => {
+                let (name, factor) = self.behind(row).ok_or(Refusal::Unknown)?;
+                let other = find(name).ok_or(Refusal::Unknown)?;
+                (name, other.default.alike((number / factor).clamp(other.low, other.high)))
+            }
+        };
+        if self.values.insert(name, value) != Some(value) {
             self.changes += 1;
         }
         Ok(())
@@ -237,34 +368,73 @@ fn find(name: &str) -> Option<&'static Row> {
     ROWS.iter().find(|row| row.name == name)
 }
 
-fn is_volatile(name: &str) -> bool {
-    find(name).is_some_and(|row| row.volatile)
-}
-
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    const REAL: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
+    const INT: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
+
+    pub fn of(face: &'static Face) -> Params {
+        let thresholds = Thresholds { low_pct: 30.0, critical_pct: 10.0 };
+        Params::new(1, Pack { cells: 3, capacity_mah: 5_200.0, thresholds }, face)
+    }
 
     #[test]
     fn exact_integers_travel_byte_wise_and_bad_values_change_nothing() {
-        let mut params = Params::new(1, 3, Thresholds { low_pct: 30.0, critical_pct: 10.0 });
+        let mut params = of(&face::PX4);
         let before = params.clone();
-        assert_eq!(params.set("MIS_TAKEOFF_ALT", f32::NAN, true), Err(Refusal::OutOfRange));
-        assert_eq!(params.set("MIS_TAKEOFF_ALT", 1e6, true), Err(Refusal::OutOfRange));
-        assert_eq!(params.set("NAV_RCL_ACT", 2.0, true), Err(Refusal::Type));
-        assert_eq!(params.set("NO_SUCH", 2.0, true), Err(Refusal::Unknown));
+        assert_eq!(params.set("MIS_TAKEOFF_ALT", f32::NAN, REAL), Err(Refusal::OutOfRange));
+        assert_eq!(params.set("MIS_TAKEOFF_ALT", 1e6, REAL), Err(Refusal::OutOfRange));
+        assert_eq!(params.set("NAV_RCL_ACT", 2.0, REAL), Err(Refusal::Type));
+        assert_eq!(params.set("NO_SUCH", 2.0, REAL), Err(Refusal::Unknown));
+        assert_eq!(params.set("SPAN_FLAVOUR", 0.0, INT), Err(Refusal::ReadOnly));
         assert_eq!(params, before);
-        assert_eq!(params.set("NAV_RCL_ACT", Int(2).to_wire(), false), Ok(()));
+        assert_eq!(params.set("NAV_RCL_ACT", Int(2).to_wire(), INT), Ok(()));
         assert_eq!(params.find("NAV_RCL_ACT").map(|p| p.2), Some(Int(2)));
+    }
+
+    #[test]
+    fn exact_copters_names_show_and_set_what_is_behind_them_in_their_units() {
+        let mut params = of(&face::COPTER);
+        assert_eq!(params.set("WPNAV_SPEED", 350.0, REAL), Ok(()));
+        assert_eq!((params.cruise_m_s(), params.find("WPNAV_SPEED").map(|p| p.2)), (3.5, Some(Real(350.0))));
+        assert_eq!(params.set("FS_GCS_ENABLE", 5.0, REAL), Ok(()), "cast, whatever the type says");
+        assert_eq!(params.whole("NAV_DLL_ACT"), Some(3));
+        assert_eq!(params.set("FS_GCS_ENABLE", 4.0, INT), Err(Refusal::OutOfRange), "nothing here does that");
+        assert_eq!(params.set("BATT_LOW_MAH", 1_040.0, REAL), Ok(()));
+        assert_eq!(params.number("BAT_LOW_THR") as f32, 0.2);
+        assert_eq!(params.set("FRAME_CLASS", 2.0, INT), Err(Refusal::ReadOnly));
+        assert_eq!(params.set("MPC_XY_CRUISE", 3.0, REAL), Err(Refusal::Unknown), "another flavour's name");
+        assert_eq!(params.set("RC_OVERRIDE_TIME", f32::NAN, REAL), Err(Refusal::OutOfRange));
+        let told = params.told(params.find("FS_GCS_ENABLE").unwrap().0).unwrap();
+        assert_eq!((told.wire, told.kind), (5.0, MavParamType::MAV_PARAM_TYPE_INT8));
+    }
+
+    #[test]
+    fn exact_every_bound_that_is_shown_can_be_set_and_reads_back() {
+        for face in [&face::PX4, &face::COPTER, &face::GENERIC] {
+            let mut params = of(face);
+            for row in face.rows().iter().filter(|row| !row.read_only && !matches!(row.behind, Behind::Mapped(..))) {
+                let (low, high) = params.range(row.name).unwrap();
+                for bound in [low, high] {
+                    let value = row.default.alike(bound);
+                    assert_eq!(params.set_value(row.name, value), Ok(()), "{} = {bound}", row.name);
+                    let back = params.find(row.name).unwrap().2.number();
+                    assert!((back - value.number()).abs() <= 1e-6 * bound.abs().max(1.0), "{} = {bound}: {back}", row.name);
+                }
+            }
+        }
     }
 
     /// The checksum by hand, bit by bit: polynomial 0xEDB88320, register from zero, nothing inverted.
     #[test]
     fn exact_the_checksum_is_the_plain_polynomial_and_changes_with_every_value() {
-        let mut params = Params::new(1, 3, Thresholds { low_pct: 30.0, critical_pct: 10.0 });
+        let mut params = of(&face::PX4);
         let mut register = 0u32;
-        for (name, value) in params.values.iter().filter(|(name, _)| !is_volatile(name)) {
-            for byte in name.bytes().chain(value.to_wire().to_bits().to_le_bytes()) {
+        for row in ROWS.iter().filter(|row| !row.volatile) {
+            let value = params.values[row.name];
+            for byte in row.name.bytes().chain(value.to_wire().to_bits().to_le_bytes()) {
                 register ^= u32::from(byte);
                 for _ in 0..8 {
                     register = register >> 1 ^ if register & 1 == 1 { 0xEDB8_8320 } else { 0 };
@@ -272,7 +442,7 @@ mod tests {
             }
         }
         assert_eq!(params.hash(), register);
-        params.set("MIS_TAKEOFF_ALT", 3.0, true).unwrap();
+        params.set("MIS_TAKEOFF_ALT", 3.0, REAL).unwrap();
         assert_ne!(params.hash(), register);
     }
 }

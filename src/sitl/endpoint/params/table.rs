@@ -1,6 +1,20 @@
 //! The parameters: one row each, with what ground stations show of it.
 
 use super::Value::{self, Int, Real};
+use crate::mav::dialect::MavParamType;
+
+/// Where a parameter's value is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Behind {
+    /// It has one of its own.
+    Own,
+    /// Another parameter's, times a factor.
+    Scaled(&'static str, f64),
+    /// Another parameter's, which is a share of the battery's capacity, in mAh.
+    Capacity(&'static str),
+    /// Another parameter's, whose numbers mean the same as these: (this one's, the other's).
+    Mapped(&'static str, &'static [(i32, i32)]),
+}
 
 /// One parameter.
 #[derive(Debug, Clone, Copy)]
@@ -27,9 +41,13 @@ pub struct Row {
     pub volatile: bool,
     /// It exists because clients look for it; nothing here depends on it.
     pub token: bool,
+    /// Its type on the wire.
+    pub wire: MavParamType,
+    /// Where its value is.
+    pub behind: Behind,
 }
 
-const fn row(
+pub(super) const fn row(
     name: &'static str,
     default: Value,
     range: (f64, f64),
@@ -49,26 +67,31 @@ const fn row(
         read_only: false,
         volatile: false,
         token: false,
+        wire: match default {
+            Int(_) => MavParamType::MAV_PARAM_TYPE_INT32,
+            Real(_) => MavParamType::MAV_PARAM_TYPE_REAL32,
+        },
+        behind: Behind::Own,
     }
 }
 
 impl Row {
-    const fn values(mut self, values: &'static [(i32, &'static str)]) -> Self {
+    pub(super) const fn values(mut self, values: &'static [(i32, &'static str)]) -> Self {
         self.values = values;
         self
     }
 
-    const fn read_only(mut self) -> Self {
+    pub(super) const fn read_only(mut self) -> Self {
         self.read_only = true;
         self
     }
 
-    const fn volatile(mut self) -> Self {
+    pub(super) const fn volatile(mut self) -> Self {
         self.volatile = true;
         self
     }
 
-    const fn token(mut self) -> Self {
+    pub(super) const fn token(mut self) -> Self {
         self.token = true;
         self
     }
@@ -222,7 +245,9 @@ pub const ROWS: &[Row] = &[
         "Where the wind comes from, clockwise from north, where SIM_WIND_SPD is set",
     ),
     row("SIM_WIND_SPD", Real(-1.0), (-1.0, 25.0), "m/s", SIMULATION, "Mean wind 6 m over the water; negative: the scenario's"),
-    row("SPAN_FLAVOUR", Int(0), (0.0, 2.0), "", SYSTEM, "Whose interface is spoken").values(&[(0, "PX4")]).read_only(),
+    row("SPAN_FLAVOUR", Int(0), (0.0, 2.0), "", SYSTEM, "Whose interface is spoken")
+        .values(&[(0, "PX4"), (1, "ArduPilot"), (2, "None: the standard alone")])
+        .read_only(),
     row("SPAN_STICKS", Int(0), (0.0, 1.0), "", JOYSTICK, "Who of several senders has the sticks")
         .values(&[(0, "The first, until he falls silent"), (1, "Whoever moves them last")]),
     row("SYS_AUTOCONFIG", Int(0), (0.0, 2.0), "", SYSTEM, "Reset of the configuration at start").token(),

@@ -5,6 +5,8 @@ use super::{Params, Refusal, Value};
 /// MAV_PARAM_TYPE_INT32 and MAV_PARAM_TYPE_REAL32.
 const INT32: &str = "6";
 const REAL32: &str = "9";
+/// MAV_PARAM_TYPE_INT8 and MAV_PARAM_TYPE_INT16: what ArduPilot has besides.
+const NARROW: [&str; 2] = ["2", "4"];
 
 /// What is wrong with a line.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -21,12 +23,12 @@ pub struct Problem {
 pub fn write(params: &Params, system_id: u8) -> String {
     let mut out = String::from("# Parameters of a Spandrel vehicle\n# Vehicle-Id Component-Id Name Value Type\n");
     for index in 0..params.count() {
-        let Some((name, value)) = params.at(index) else { continue };
-        let (value, kind) = match value {
-            Value::Int(whole) => (whole.to_string(), INT32),
-            Value::Real(real) => (real.to_string(), REAL32),
+        let Some(((name, value), told)) = params.at(index).zip(params.told(index)) else { continue };
+        let value = match value {
+            Value::Int(whole) => whole.to_string(),
+            Value::Real(real) => real.to_string(),
         };
-        out.push_str(&format!("{system_id}\t1\t{name}\t{value}\t{kind}\n"));
+        out.push_str(&format!("{system_id}\t1\t{name}\t{value}\t{}\n", told.kind as u8));
     }
     out
 }
@@ -61,12 +63,13 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
         return Ok(());
     }
     let no_number = |allowed| format!("{name} = '{value}' is no number (allowed: {allowed})");
-    let (wire, real) = match kind {
-        REAL32 => (value.parse().map_err(|_| no_number("a real number"))?, true),
-        INT32 => (Value::Int(value.parse().map_err(|_| no_number("a whole number"))?).to_wire(), false),
+    let narrow = params.face().cast && NARROW.contains(&kind);
+    let value_read = match kind {
+        REAL32 => Value::Real(value.parse().map_err(|_| no_number("a real number"))?),
+        _ if kind == INT32 || narrow => Value::Int(value.parse().map_err(|_| no_number("a whole number"))?),
         _ => return Err(format!("{name}: type '{kind}' (allowed: {INT32} for whole numbers, {REAL32} for real ones)")),
     };
-    match params.set(name, wire, real) {
+    match params.set_value(name, value_read) {
         Ok(()) | Err(Refusal::Unknown | Refusal::ReadOnly) => Ok(()),
         Err(Refusal::Type) => Err(format!("{name} is of the other type")),
         Err(Refusal::OutOfRange) => {
@@ -78,21 +81,30 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Thresholds;
+    use super::super::face;
+    use super::super::tests::of;
     use super::*;
 
     fn params() -> Params {
-        Params::new(3, 4, Thresholds { low_pct: 30.0, critical_pct: 10.0 })
+        of(&face::PX4)
     }
 
     #[test]
     fn exact_what_is_written_reads_back_the_same() {
         let mut changed = params();
-        changed.set("MIS_TAKEOFF_ALT", 7.3, true).unwrap();
-        changed.set("GF_ACTION", Value::Int(3).to_wire(), false).unwrap();
+        changed.set_value("MIS_TAKEOFF_ALT", Value::Real(7.3)).unwrap();
+        changed.set_value("GF_ACTION", Value::Int(3)).unwrap();
         let mut read_back = params();
         read(&mut read_back, &write(&changed, 3)).unwrap();
         assert_eq!(read_back, changed);
+        let mut copter = of(&face::COPTER);
+        copter.set_value("FENCE_ACTION", Value::Int(2)).unwrap();
+        copter.set_value("RTL_ALT", Value::Int(2_500)).unwrap();
+        let text = write(&copter, 3);
+        assert!(text.contains("3\t1\tFENCE_ACTION\t2\t2\n"), "as narrow as ArduPilot's");
+        let mut read_back = of(&face::COPTER);
+        read(&mut read_back, &text).unwrap();
+        assert_eq!(write(&read_back, 3), text);
     }
 
     #[test]

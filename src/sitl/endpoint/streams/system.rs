@@ -2,44 +2,28 @@
 #![allow(deprecated, reason = "clients still ask for PROTOCOL_VERSION")]
 
 use super::super::params::metadata;
-use super::super::px4;
 use super::super::view::View;
 use crate::mav::dialect::{
     AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, COMPONENT_INFORMATION_DATA, COMPONENT_METADATA_DATA, CURRENT_MODE_DATA,
     ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags, FENCE_STATUS_DATA, FLIGHT_INFORMATION_DATA,
-    FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavAutopilot, MavBatteryChargeState, MavBatteryFault, MavBatteryFunction,
-    MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag, MavProtocolCapability, MavState, MavSysStatusSensor,
-    MavSysStatusSensorExtended, MavType, MavVtolState, MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA,
-    SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
+    FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavBatteryChargeState, MavBatteryFault, MavBatteryFunction,
+    MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag, MavSysStatusSensor, MavSysStatusSensorExtended,
+    MavType, MavVtolState, MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA,
+    VIBRATION_DATA, WIND_COV_DATA,
 };
 use crate::sitl::autopilot::fence::Breach;
 use crate::sitl::autopilot::{Landed, Mode};
 
-/// What we call ourselves on the wire: a PX4-compatible interface, development version (mavlink.md R1).
-const SOFTWARE_VERSION: u32 = 1 << 24 | 16 << 16;
-
 pub(super) fn heartbeat(v: &View) -> Option<MavMessage> {
-    let row = px4::row_of(v.status.mode);
-    let mut base = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | MavModeFlag::MAV_MODE_FLAG_STABILIZE_ENABLED;
-    if row.auto {
-        base |= MavModeFlag::MAV_MODE_FLAG_AUTO_ENABLED | MavModeFlag::MAV_MODE_FLAG_GUIDED_ENABLED;
-    } else {
-        base |= MavModeFlag::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED;
-    }
-    if v.status.armed {
-        base |= MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED;
-    }
-    let state = match (&v.status.failsafe, v.status.armed) {
-        (Some(_), _) => MavState::MAV_STATE_CRITICAL,
-        (None, true) => MavState::MAV_STATE_ACTIVE,
-        (None, false) => MavState::MAV_STATE_STANDBY,
-    };
+    let row = v.mode_row();
+    let mut base = row.base;
+    base.set(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, v.status.armed);
     Some(MavMessage::HEARTBEAT(HEARTBEAT_DATA {
-        custom_mode: row.custom_mode(),
+        custom_mode: row.number,
         mavtype: MavType::MAV_TYPE_QUADROTOR,
-        autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
+        autopilot: v.flavour.autopilot,
         base_mode: base,
-        system_status: state,
+        system_status: (v.flavour.state)(v),
         mavlink_version: 3,
     }))
 }
@@ -194,9 +178,10 @@ pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
         _ if v.status.mission_paused => MissionState::MISSION_STATE_PAUSED,
         _ => MissionState::MISSION_STATE_NOT_STARTED,
     };
+    // Once flown to its end, the last item stays the current one.
+    let item = (v.status.mission_current as u16).min(v.plans.mission_items.saturating_sub(1));
     Some(MavMessage::MISSION_CURRENT(MISSION_CURRENT_DATA {
-        // Once flown to its end, the last item stays the current one.
-        seq: (v.status.mission_current as u16).min(v.plans.mission_items.saturating_sub(1)),
+        seq: if v.plans.mission_items == 0 { 0 } else { v.plans.lead } + item,
         total: v.plans.mission_items,
         mission_state: state,
         // 1 in mission mode, 2 not.
@@ -224,47 +209,34 @@ pub(super) fn fence(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn current_mode(v: &View) -> Option<MavMessage> {
-    let row = px4::row_of(v.status.mode);
+    let row = v.mode_row();
     Some(MavMessage::CURRENT_MODE(CURRENT_MODE_DATA {
-        custom_mode: row.custom_mode(),
-        intended_custom_mode: row.custom_mode(),
+        custom_mode: row.number,
+        intended_custom_mode: row.number,
         standard_mode: row.standard,
     }))
 }
 
 pub(super) fn version(v: &View) -> Option<MavMessage> {
-    use MavProtocolCapability as C;
-    let capabilities = C::MAV_PROTOCOL_CAPABILITY_MISSION_FLOAT
-        | C::MAV_PROTOCOL_CAPABILITY_MISSION_INT
-        | C::MAV_PROTOCOL_CAPABILITY_COMMAND_INT
-        | C::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
-        | C::MAV_PROTOCOL_CAPABILITY_SET_ATTITUDE_TARGET
-        | C::MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_LOCAL_NED
-        | C::MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_GLOBAL_INT
-        | C::MAV_PROTOCOL_CAPABILITY_FLIGHT_TERMINATION
-        | C::MAV_PROTOCOL_CAPABILITY_MAVLINK2
-        | C::MAV_PROTOCOL_CAPABILITY_FTP
-        | C::MAV_PROTOCOL_CAPABILITY_MISSION_FENCE
-        | C::MAV_PROTOCOL_CAPABILITY_MISSION_RALLY;
     Some(MavMessage::AUTOPILOT_VERSION(AUTOPILOT_VERSION_DATA {
-        capabilities,
+        capabilities: v.flavour.capabilities,
         uid: 0x5350_414e_4452_454c + u64::from(v.scoring.seed.unsigned_abs()),
-        flight_sw_version: SOFTWARE_VERSION,
-        middleware_sw_version: SOFTWARE_VERSION,
+        flight_sw_version: v.flavour.software_version,
+        middleware_sw_version: v.flavour.software_version,
         ..Default::default()
     }))
 }
 
 /// Where the descriptions of the parameters lie.
 pub(super) fn metadata(v: &View) -> Option<MavMessage> {
-    let general = metadata::general();
+    let general = &metadata::files(v.flavour.params).general;
     let uri = general.uri.as_str().into();
     Some(MavMessage::COMPONENT_METADATA(COMPONENT_METADATA_DATA { time_boot_ms: v.boot_ms(), file_crc: general.crc, uri }))
 }
 
 /// The same for older clients.
 pub(super) fn information(v: &View) -> Option<MavMessage> {
-    let general = metadata::general();
+    let general = &metadata::files(v.flavour.params).general;
     Some(MavMessage::COMPONENT_INFORMATION(COMPONENT_INFORMATION_DATA {
         time_boot_ms: v.boot_ms(),
         general_metadata_file_crc: general.crc,
