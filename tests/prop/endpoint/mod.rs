@@ -1,5 +1,5 @@
 //! The vehicle's endpoint under fire: every message that it handles with its fields changed and the checksum mended, and bytes that are
-//! no messages at all; on the ground, flown by hand, in a mission and under external set-points.
+//! no messages at all; on the ground, flown by hand, in a mission and under external set-points, as PX4 and as ArduPilot.
 
 mod driver;
 mod mutate;
@@ -15,6 +15,7 @@ use spandrel::base::random::RandomStream;
 use spandrel::mav::codec::Decoder;
 use spandrel::mav::dialect::{MavCmd, MavMessage, MavResult};
 use spandrel::sitl::endpoint::HANDLED;
+use spandrel::sitl::endpoint::flavour::ardupilot;
 use spandrel::sitl::sim::Sim;
 use station::Station;
 
@@ -67,13 +68,27 @@ fn situations() -> Vec<Sim> {
     offboard.send(&seeds::good(84)[0]);
     offboard.run_ms(1);
     offboard.command(1, MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    vec![ground.sim, flown.sim, mission.sim, offboard.sim]
+    let mut copter = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 3);
+    copter.run_ms(2_500);
+    let mut guided = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 3);
+    guided.run_ms(2_500);
+    for (command, p) in [
+        (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (MavCmd::MAV_CMD_NAV_TAKEOFF, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0]),
+    ] {
+        assert_eq!(guided.command(1, command, p), MavResult::MAV_RESULT_ACCEPTED);
+    }
+    guided.run_ms(6_000);
+    vec![ground.sim, flown.sim, mission.sim, offboard.sim, copter.sim, guided.sim]
 }
 
 /// Shoots at one situation after the other, each volley at a fresh copy, until something is found.
 fn run(seed: u64, wrap: impl Fn(Vehicle) -> Box<dyn Subject>) -> Result<Depth, Finding> {
     let situations = situations();
-    let numbers = known_commands(&situations[0]);
+    let mut numbers = known_commands(&situations[0]);
+    // What only one flavour knows: ArduPilot's DO_SEND_BANNER.
+    numbers.push(42_428);
     assert!(numbers.len() > 40, "{numbers:?}");
     let stream = RandomStream::new(seed, "endpoint under fire");
     let mut driver = Driver { stream, numbers: &numbers, depth: Depth::default() };

@@ -53,7 +53,15 @@ fn files() -> Vec<MavMessage> {
         payload[12..12 + data.len()].copy_from_slice(data);
         MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA { payload, ..Default::default() })
     };
-    (0..=16).map(request).collect()
+    let packed = |data: &[u8]| {
+        let mut payload = [0; 251];
+        (payload[0], payload[3], payload[4]) = (99, 4, data.len() as u8);
+        payload[12..12 + data.len()].copy_from_slice(data);
+        MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA { payload, ..Default::default() })
+    };
+    let mut out: Vec<MavMessage> = (0..=16).map(request).collect();
+    out.push(packed(b"@PARAM/param.pck?withdefaults=1&start=3&count=70"));
+    out
 }
 
 fn sticks() -> Vec<MavMessage> {
@@ -69,6 +77,9 @@ fn sticks() -> Vec<MavMessage> {
         }),
         MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 3 << 16, ..Default::default() }),
         MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 6 << 16, ..Default::default() }),
+        // Copter's LOITER and GUIDED.
+        MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 5, ..Default::default() }),
+        MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 4, ..Default::default() }),
     ]
 }
 
@@ -164,6 +175,9 @@ fn parameters() -> Vec<MavMessage> {
         MavMessage::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA { param_index: 5, ..Default::default() }),
         set("MIS_TAKEOFF_ALT", 5.0, real),
         set("MPC_XY_VEL_MAX", 4.0, real),
+        set("WPNAV_SPEED", 400.0, real),
+        set("RTL_ALT", 2_000.0, MavParamType::MAV_PARAM_TYPE_INT32),
+        set("FS_GCS_ENABLE", 5.0, MavParamType::MAV_PARAM_TYPE_INT8),
         set("COM_RC_LOSS_T", 1.0, real),
         set("NAV_DLL_ACT", f32::from_bits(2), MavParamType::MAV_PARAM_TYPE_INT32),
     ]
@@ -236,6 +250,7 @@ fn plans() -> Vec<MavMessage> {
         frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT,
         ..Default::default()
     }));
+    out.push(MavMessage::MISSION_ITEM_INT(MISSION_ITEM_INT_DATA { current: 2, ..item(1) }));
     out.push(MavMessage::MISSION_REQUEST_LIST(MISSION_REQUEST_LIST_DATA::default()));
     out.push(MavMessage::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA { seq: 1, ..Default::default() }));
     out.push(MavMessage::MISSION_REQUEST(MISSION_REQUEST_DATA { seq: 1, ..Default::default() }));
@@ -270,6 +285,8 @@ fn commands() -> Vec<MavMessage> {
         long(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         long(MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         long(MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 4.0, 0.0, 0.0, 0.0, 0.0]),
+        long(MavCmd::MAV_CMD_NAV_TAKEOFF, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 10.0]),
+        long(MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 17.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         long(MavCmd::MAV_CMD_NAV_TAKEOFF, [-1.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
         long(MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0]),
         long(MavCmd::MAV_CMD_SET_CAMERA_MODE, [0.0, 1.0, NAN, NAN, NAN, NAN, NAN]),
