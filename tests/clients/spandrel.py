@@ -54,14 +54,14 @@ def end(process):
 class Flight:
     """A simulator and a monitor on ports that nobody else uses, and the session that they write."""
 
-    def __init__(self, folder, scenario="two-bridges", seed=7, speed=SPEED):
+    def __init__(self, folder, scenario="two-bridges", seed=7, speed=SPEED, flavour="px4"):
         self.sessions = pathlib.Path(folder) / "sessions"
         self.log = open(pathlib.Path(folder) / "log.txt", "w", encoding="utf-8")
         self.client_port = free_udp_port()
         payload, monitor = free_udp_port(), free_udp_port()
         common = ["--scenario", scenario, "--seed", str(seed)]
         self.sim = self._start(
-            "sim", *common, "--speed", str(speed), "--gcs", f"127.0.0.1:{self.client_port}", "--sdk", "none",
+            "sim", *common, "--flavour", flavour, "--speed", str(speed), "--gcs", f"127.0.0.1:{self.client_port}", "--sdk", "none",
             "--gcs-port", "0", "--tcp-port", "none", "--payload-port", str(payload), "--monitor-port", str(monitor),
         )
         self.monitor = self._start(

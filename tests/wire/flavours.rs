@@ -149,6 +149,9 @@ fn wire_copters_modes_are_refused_as_copter_refuses_them() {
         assert!(texts(&station).iter().any(|text| text.starts_with(name)), "{:?}", texts(&station));
     }
     assert_eq!(station.command(1, SET_MODE, [0.0, GUIDED, 0.0, 0.0, 0.0, 0.0, 0.0]), DENIED, "without the flag for custom modes");
+    let switch = SET_MODE_DATA { custom_mode: 0, target_system: 1, base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED };
+    station.send(&MavMessage::SET_MODE(switch));
+    assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32, "MAVProxy's words for the safety switch are no mode");
     assert_eq!(station.command(1, SET_MODE, mode(RTL)), ACCEPTED);
     assert_eq!(station.command(1, ARM, one(1.0)), FAILED);
     station.run_ms(5);

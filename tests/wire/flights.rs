@@ -68,6 +68,18 @@ fn wire_four_demos_side_by_side_all_end_well() {
     }
 }
 
+#[test]
+fn wire_a_demo_in_any_flavour_ends_with_scores() {
+    for flavour in ["ardupilot", "generic"] {
+        let folder = tempfile::tempdir().unwrap();
+        let out = well(&demo(folder.path(), "7").args(["--flavour", flavour]).output().unwrap());
+        let assessment = json(&only_session(folder.path()).join("assessment.json"));
+        assert_eq!(assessment["end"]["reason"], "landed", "{flavour}: {out}");
+        assert!(assessment["tasks"][0]["on_path"].as_f64().unwrap() > 0.9, "{flavour}: {out}");
+        assert!(assessment["flown_by"].to_string().contains("pilot"), "the sidecar reads the flavour's modes: {assessment}");
+    }
+}
+
 /// A process of ours on a leash, with its announcement.
 struct Process {
     child: Child,

@@ -19,6 +19,7 @@ fn wire_wrong_arguments_and_files_end_with_two_and_say_what_is_allowed() {
         (vec!["demo", "--speed", "0"], "0.1 to 100, or max"),
         (vec!["demo", "--seed", "-1"], "0 to 2147483647"),
         (vec!["demo", "--skill", "ace"], "expert"),
+        (vec!["sim", "--flavour", "slugs"], "ardupilot"),
         (vec!["monitor", "--scenario", "no-such-job"], "two-bridges"),
         (vec!["monitor", "--vehicle", "no-such-drone"], "phantom2"),
         (vec!["monitor", "--session", "no-such-folder"], "is no session folder"),

@@ -9,8 +9,9 @@ use super::offboard::{self, Reading};
 use crate::base::frames::{Frd, Ned, Rotation};
 use crate::mav::dialect::{
     GIMBAL_DEVICE_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA,
-    GIMBAL_MANAGER_SET_PITCHYAW_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavSeverity, MavType, RC_CHANNELS_OVERRIDE_DATA,
-    SET_ATTITUDE_TARGET_DATA, SET_MODE_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA,
+    GIMBAL_MANAGER_SET_PITCHYAW_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavModeFlag, MavSeverity, MavType,
+    RC_CHANNELS_OVERRIDE_DATA, SET_ATTITUDE_TARGET_DATA, SET_MODE_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA,
+    SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
 use crate::sitl::autopilot::{Landed, Mode, Outcome, Request};
 
@@ -67,7 +68,9 @@ fn tell_hands(e: &mut Endpoint) {
 }
 
 pub(super) fn set_mode(e: &mut Endpoint, m: &SET_MODE_DATA, a: &mut Arrival) {
-    enter_mode(e, m.custom_mode, a);
+    if !e.flavour.custom_flag || m.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) {
+        enter_mode(e, m.custom_mode, a);
+    }
 }
 
 /// SET_MODE has no acknowledgement: a refusal becomes a text.
@@ -92,11 +95,12 @@ fn fly(e: &mut Endpoint, reading: Reading, a: &mut Arrival) {
     }
 }
 
-/// Where a mode flies errands as they come, a set-point in it is flown without being asked for; not before a take-off has ended.
+/// Where a mode flies errands as they come, a set-point in it is flown without being asked for, and ends a take-off that has left the ground.
 fn follow(e: &Endpoint, a: &mut Arrival) {
     let status = a.autopilot.status();
     let here = Some(e.flavour.row_of(status.mode, e.chosen).number) == e.flavour.errands;
-    if here && status.mode == Mode::Hold && status.failsafe.is_none() && status.landed == Landed::InAir {
+    let waits = matches!(status.mode, Mode::Hold | Mode::Takeoff) && status.landed == Landed::InAir;
+    if here && waits && status.failsafe.is_none() {
         a.autopilot.request(Request::SetMode(Mode::Offboard), a.view.now);
     }
 }

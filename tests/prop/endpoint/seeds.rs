@@ -65,6 +65,7 @@ fn files() -> Vec<MavMessage> {
 }
 
 fn sticks() -> Vec<MavMessage> {
+    let custom = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED;
     vec![
         MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { x: 400, y: -300, z: 700, r: 100, ..Default::default() }),
         MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { z: 500, ..Default::default() }),
@@ -78,8 +79,8 @@ fn sticks() -> Vec<MavMessage> {
         MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 3 << 16, ..Default::default() }),
         MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 6 << 16, ..Default::default() }),
         // Copter's LOITER and GUIDED.
-        MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 5, ..Default::default() }),
-        MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 4, ..Default::default() }),
+        MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 5, base_mode: custom, ..Default::default() }),
+        MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: 4, base_mode: custom, ..Default::default() }),
     ]
 }
 

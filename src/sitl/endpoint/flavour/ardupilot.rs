@@ -48,7 +48,8 @@ const MODES: &[ModeRow] = &[
     row(2, Mode::Altitude, "Altitude Hold", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, BASE),
     row(5, Mode::Position, "Loiter", S::MAV_STANDARD_MODE_POSITION_HOLD, PLACED),
     row(16, Mode::Position, "Position Hold", S::MAV_STANDARD_MODE_NON_STANDARD, PLACED),
-    row(17, Mode::Hold, "Brake", S::MAV_STANDARD_MODE_NON_STANDARD, PLACED).by_itself().not_armable(),
+    // Armable, where ArduPilot's is not: without sticks the modes by hand are armed into it, and a landing ends in it.
+    row(17, Mode::Hold, "Brake", S::MAV_STANDARD_MODE_NON_STANDARD, PLACED).by_itself(),
     row(GUIDED, Mode::Hold, "Guided", S::MAV_STANDARD_MODE_NON_STANDARD, PLACED)
         .by_itself()
         .covering(&[Mode::Takeoff, Mode::Offboard]),
@@ -67,6 +68,7 @@ pub static FLAVOUR: Flavour = Flavour {
     modes: MODES,
     mode_bits: u32::MAX,
     custom_mode: |number, _| if (0.0..256.0).contains(&number) { number as u32 } else { u32::MAX },
+    custom_flag: true,
     state,
     errands: Some(GUIDED),
     take_off: from_guided,

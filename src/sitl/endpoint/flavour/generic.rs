@@ -29,6 +29,7 @@ pub static FLAVOUR: Flavour = Flavour {
     modes: MODES,
     mode_bits: px4::MODE_BITS,
     custom_mode,
+    custom_flag: false,
     state: px4::state,
     errands: None,
     take_off: px4::over_sea,

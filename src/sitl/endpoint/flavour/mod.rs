@@ -77,6 +77,8 @@ pub struct Flavour {
     pub mode_bits: u32,
     /// The custom mode in parameters 2 and 3 of DO_SET_MODE.
     pub custom_mode: fn(f64, f64) -> u32,
+    /// SET_MODE must say that it means a custom mode; otherwise it means something else (ArduPilot: the safety switch).
+    pub custom_flag: bool,
     /// HEARTBEAT.system_status.
     pub state: fn(&View) -> MavState,
     /// Number of the mode in which go-to commands and external set-points are flown as they come; `None`: external set-points have a mode

@@ -58,6 +58,7 @@ pub static FLAVOUR: Flavour = Flavour {
     modes: MODES,
     mode_bits: MODE_BITS,
     custom_mode: main_and_sub,
+    custom_flag: false,
     state,
     errands: None,
     take_off: over_sea,

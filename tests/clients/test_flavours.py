@@ -1,0 +1,226 @@
+"""The same vehicle as other autopilots: scripts for ArduCopter, MAVProxy as its users type, MAVSDK, and the standard alone."""
+
+import os
+
+os.environ["MAVLINK20"] = "1"
+
+import pytest
+from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.action import Action
+from mavsdk.plugins.mission_raw import MissionItem, MissionRaw
+from mavsdk.plugins.param import Param
+from mavsdk.plugins.telemetry import FlightMode, Telemetry
+from pymavlink import mavutil
+
+import spandrel
+from spandrel import wait_for
+from test_mavproxy import LAT, LON, Console, plan
+
+M = mavutil.mavlink
+# Wall seconds for an answer of a simulator on a busy machine, ten times over.
+LIMIT_S = 120
+# A height counts as reached within this, m.
+NEAR_M = 0.8
+NAN = float("nan")
+
+
+class Script:
+    """What scripts on pymavlink do, whatever the autopilot."""
+
+    def __init__(self, port):
+        self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
+        assert self.link.wait_heartbeat(timeout=LIMIT_S) is not None
+
+    def wait(self, kind, condition=lambda message: True):
+        """The next message of a kind that meets a condition."""
+        return wait_for(kind, lambda: (m := self.link.recv_match(type=kind, blocking=True, timeout=1)) and condition(m) and m, LIMIT_S)
+
+    def command(self, number, *params):
+        """The result of a command."""
+        self.link.mav.command_long_send(1, 1, number, 0, *(list(params) + [0] * 7)[:7])
+        return self.wait("COMMAND_ACK", lambda ack: ack.command == number).result
+
+    def ready(self):
+        """Asks for everything at 10 Hz, as scripts do, and waits until the vehicle would arm."""
+        self.link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, 10, 1)
+        self.wait("SYS_STATUS", lambda s: s.onboard_control_sensors_health & M.MAV_SYS_STATUS_PREARM_CHECK)
+
+    def height(self):
+        """Over home, m."""
+        return self.wait("GLOBAL_POSITION_INT").relative_alt / 1000
+
+    def landed(self):
+        """Waits until the motors stand."""
+        self.wait("HEARTBEAT", lambda b: b.get_srcComponent() == 1 and not b.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
+
+
+@pytest.fixture
+def vehicle(tmp_path):
+    """Starts a vehicle in a flavour and gives its port."""
+    started = []
+
+    def start(flavour, *more, speed=spandrel.SPEED):
+        port = spandrel.free_udp_port()
+        started.append(spandrel.start_sim(tmp_path, port, "--flavour", flavour, *more, speed=speed))
+        return port
+
+    yield start
+    for process in started:
+        spandrel.end(process)
+
+
+@pytest.mark.timeout(600)
+def test_wire_a_script_for_arducopter_flies(vehicle):
+    """pymavlink's own helpers for ArduPilot: mode by name, arming, take-off over home, a target, parameters cast, return."""
+    script = Script(vehicle("ardupilot"))
+    link = script.link
+    assert link.mode_mapping()["GUIDED"] == 4
+    script.ready()
+    link.mav.param_request_list_send(1, 1)
+    values, count = {}, None
+    while count is None or len(values) < count:
+        message = script.wait("PARAM_VALUE")
+        values[message.param_id], count = message.param_value, message.param_count
+    assert (values["FRAME_CLASS"], values["RTL_ALT"]) == (1.0, 3000.0)
+    link.param_set_send("RTL_ALT", 1200)
+    assert script.wait("PARAM_VALUE", lambda v: v.param_id == "RTL_ALT").param_value == 1200.0
+    link.set_mode("GUIDED")
+    script.wait("HEARTBEAT", lambda b: b.get_srcComponent() == 1 and b.custom_mode == 4)
+    assert link.flightmode == "GUIDED"
+    link.arducopter_arm()
+    link.motors_armed_wait()
+    assert script.command(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 6) == M.MAV_RESULT_ACCEPTED
+    wait_for("take-off", lambda: script.height() > 6 - NEAR_M, LIMIT_S)
+    here = script.wait("GLOBAL_POSITION_INT")
+    # Once, and only where: as scripts for GUIDED do.
+    link.mav.set_position_target_global_int_send(
+        0, 1, 1, M.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT, 0x0DF8, here.lat + 1500, here.lon, 8, 0, 0, 0, 0, 0, 0, 0, 0,
+    )
+    script.wait("GLOBAL_POSITION_INT", lambda p: p.lat > here.lat + 1400 and abs(p.relative_alt / 1000 - 8) < NEAR_M)
+    link.set_mode("RTL")
+    script.wait("HEARTBEAT", lambda b: b.get_srcComponent() == 1 and b.custom_mode == 6)
+    script.landed()
+    end = script.wait("GLOBAL_POSITION_INT")
+    assert abs(end.lat - here.lat) < 200 and abs(end.lon - here.lon) < 200
+
+
+@pytest.mark.timeout(600)
+def test_wire_a_script_for_the_standard_flies(vehicle):
+    """Nothing but common messages and standard modes: what is offered, take-off, position hold, return."""
+    script = Script(vehicle("generic"))
+    script.ready()
+    standard = {1: "position hold", 5: "safe recovery", 7: "land", 8: "take-off"}
+    modes, total = {}, 1
+    while len(modes) < total:
+        assert script.command(M.MAV_CMD_REQUEST_MESSAGE, 435, len(modes) + 1) == M.MAV_RESULT_ACCEPTED
+        mode = script.link.messages["AVAILABLE_MODES"]
+        modes[mode.mode_index], total = mode, mode.number_modes
+    offered = {mode.standard_mode for mode in modes.values() if not mode.properties & M.MAV_MODE_PROPERTY_NOT_USER_SELECTABLE}
+    assert set(standard) <= offered and 0 not in offered
+    assert script.command(M.MAV_CMD_COMPONENT_ARM_DISARM, 1) == M.MAV_RESULT_ACCEPTED
+    assert script.command(M.MAV_CMD_DO_SET_STANDARD_MODE, 8) == M.MAV_RESULT_ACCEPTED
+    wait_for("take-off", lambda: script.height() > 2.5 - NEAR_M, LIMIT_S)
+    assert script.command(M.MAV_CMD_DO_SET_STANDARD_MODE, 7) == M.MAV_RESULT_ACCEPTED
+    wait_for("mode", lambda: script.wait("CURRENT_MODE").standard_mode == 7, LIMIT_S)
+    script.landed()
+
+
+@pytest.fixture
+def copter(tmp_path, vehicle):
+    """A Copter and MAVProxy beside it, parameters fetched."""
+    console = Console(vehicle("ardupilot", speed=2), tmp_path)
+    console.wait("parameters to")
+    yield console, tmp_path
+    console.close()
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavproxy_flies_a_copter(copter):
+    """Parameters as a file, modes by name, arming refused and granted, GUIDED take-off, channels, relay, return."""
+    typed, _folder = copter
+    fetched = "\n".join(typed.heard)
+    assert "fallback" not in fetched.lower() and "param.pck" not in fetched, "over FTP, at the first try"
+    typed.say("param show RTL_ALT", "RTL_ALT          3000")
+    typed.say("param set RTL_ALT 1500", None)
+    typed.until("param fetch RTL_ALT", "RTL_ALT = 1500")
+    modes = typed.say("mode", "Available modes")
+    assert "GUIDED" in modes and "POSHOLD" in modes
+    typed.say("arm list", "all")
+    typed.say("arm prearms", "RUN_PREARM_CHECKS: ACCEPTED")
+    typed.until("mode rtl", "Mode RTL")
+    typed.until("arm throttle", "Arm: RTL mode not armable")
+    typed.until("mode loiter", "Mode LOITER")
+    typed.say("rc 3 1900", None)
+    typed.until("arm throttle", "Arm: Sticks not centred")
+    typed.say("rc 3 1000", None)
+    typed.until("mode guided", "Mode GUIDED")
+    typed.until("arm throttle", "ARMED")
+    typed.say("takeoff 5", "NAV_TAKEOFF: ACCEPTED")
+    typed.wait("Takeoff detected")
+    typed.until("status VFR_HUD", "climb : 0.0")
+    typed.say("rc all 1500", None)
+    typed.until("mode loiter", "Mode LOITER")
+    typed.say("relay set 0 1", "DO_SET_RELAY: ACCEPTED")
+    typed.say("rc 2 1300", None)
+    typed.until("status VFR_HUD", "groundspeed : 5.")
+    typed.say("rc 2 1500", None)
+    typed.until("mode rtl", "Mode RTL")
+    typed.wait("DISARMED")
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavproxy_loads_and_lists_a_copters_plans(copter):
+    """Item 0 of a mission is home: what is loaded comes back with it, and the fence and the rally points without."""
+    typed, folder = copter
+    nothing = (0.0, 0.0, 0.0, 0.0)
+    home = (0, 16, nothing, 0, 1630)
+    mission = plan(folder, "mission.txt", [home, (3, 22, nothing, 0, 5), (3, 16, nothing, 10, 6), (3, 21, nothing, 0, 0)])
+    typed.say(f"wp load {mission}", "Loaded 4 waypoints")
+    typed.wait("Got MISSION_ACK: TYPE_MISSION: ACCEPTED")
+    typed.say("wp list", "Requesting 4 waypoints")
+    saved = folder / "back.txt"
+    typed.wait("Saved 4 waypoints")
+    typed.say(f"wp save {saved}", str(saved))
+    rows = [line.split("\t") for line in saved.read_text(encoding="utf-8").splitlines()[1:]]
+    assert [row[3] for row in rows] == ["16", "22", "16", "21"]
+    assert abs(float(rows[0][8]) - LAT) < 1e-3 and abs(float(rows[0][9]) - LON) < 1e-3, "home, where the vehicle stands"
+    typed.say("wp set 2", None)
+    typed.until("status MISSION_CURRENT", "seq : 2")
+    typed.say(f"fence load {plan(folder, 'fence.txt', [(0, 5003, (80.0, 0.0, 0.0, 0.0), 0, 0)])}", "Got MISSION_ACK: TYPE_FENCE: ACCEPTED")
+    typed.say("fence list", "Requesting 1 fence")
+    typed.say(f"rally load {plan(folder, 'rally.txt', [(3, 5100, nothing, 20, 5)])}", "Got MISSION_ACK: TYPE_RALLY: ACCEPTED")
+    typed.say("rally list", "Requesting 1 rally")
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavsdk_takes_it_for_an_ardupilot(vehicle):
+    """Take-off, hold, parameters, a mission with home in front, return: MAVSDK chooses ArduPilot's ways by itself."""
+    port = vehicle("ardupilot")
+    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
+    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
+    system = mavsdk.first_autopilot(60.0)
+    assert system is not None, "no vehicle discovered"
+    action, telemetry, param, mission = Action(system), Telemetry(system), Param(system), MissionRaw(system)
+    telemetry.set_rate_position(10.0)
+    telemetry.set_rate_in_air(5.0)
+    wait_for("position", lambda: telemetry.position().latitude_deg > 1, LIMIT_S)
+    param.set_param_float("WPNAV_SPEED", 400.0)
+    assert param.get_param_float("WPNAV_SPEED") == 400.0 and param.get_param_int("FRAME_CLASS") == 1
+    lat, lon = int(LAT * 1e7), int(LON * 1e7)
+    items = [
+        MissionItem(0, 0, 16, 1, 1, 0, 0, 0, 0, lat, lon, 1630.0, 0),
+        MissionItem(1, 3, 22, 0, 1, 0, 0, 0, 0, lat, lon, 6.0, 0),
+        MissionItem(2, 3, 16, 0, 1, 0, 0, 0, 0, lat + 1000, lon, 6.0, 0),
+    ]
+    mission.upload_mission(items)
+    back = mission.download_mission()
+    assert [item.command for item in back] == [16, 22, 16] and back[2].x == items[2].x
+    action.set_takeoff_altitude(4.0)
+    action.arm()
+    action.takeoff()
+    wait_for("take-off", lambda: telemetry.position().relative_altitude_m > 4.0 - NEAR_M, LIMIT_S)
+    action.hold()
+    wait_for("hold", lambda: telemetry.flight_mode() == FlightMode.HOLD, LIMIT_S)
+    action.return_to_launch()
+    wait_for("return", lambda: telemetry.flight_mode() == FlightMode.RETURN_TO_LAUNCH, LIMIT_S)
+    wait_for("disarmed", lambda: not telemetry.armed(), LIMIT_S)
