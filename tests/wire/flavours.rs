@@ -86,6 +86,9 @@ fn wire_each_flavour_beats_and_names_itself_as_its_autopilot() {
         (&generic::FLAVOUR, MavAutopilot::MAV_AUTOPILOT_GENERIC, 3 << 16),
     ] {
         let mut station = Station::speaking(flavour, "drill-hover", 7);
+        station.run_ms(5);
+        let first = if flavour.name == "ardupilot" { MavState::MAV_STATE_BOOT } else { MavState::MAV_STATE_STANDBY };
+        assert_eq!(beat(&station).system_status, first, "{}: the first beat", flavour.name);
         station.run_ms(2_500);
         let heard = beat(&station);
         assert_eq!((heard.autopilot, heard.custom_mode), (autopilot, number), "{}", flavour.name);
@@ -323,7 +326,16 @@ fn wire_copters_parameters_are_cast_and_act() {
     assert_eq!((of("FRAME_CLASS").param_value, of("FRAME_CLASS").param_type), (1.0, MavParamType::MAV_PARAM_TYPE_INT8));
     assert_eq!(of("RTL_ALT").param_value, 3_000.0);
     assert!(texts(&station).iter().any(|text| text.starts_with("ArduCopter V") && text.contains("Spandrel")));
-    for name in ["RCMAP_ROLL", "FLTMODE6", "INS_ACCOFFS_X", "COMPASS_DEV_ID", "SYSID_THISMAV", "FS_THR_ENABLE", "BATT_MONITOR"] {
+    for name in [
+        "RCMAP_ROLL",
+        "FLTMODE6",
+        "INS_ACCOFFS_X",
+        "COMPASS_DEV_ID",
+        "COMPASS_USE3",
+        "SYSID_THISMAV",
+        "FS_THR_ENABLE",
+        "BATT_MONITOR",
+    ] {
         of(name);
     }
     let set = |name: &str, param_value, param_type| {
@@ -582,7 +594,7 @@ fn wire_a_copter_says_nothing_but_heartbeats_until_it_is_asked_and_the_sidecar_i
     station.run_ms(10);
     station.heard.clear();
     station.run_ms(2_000);
-    for id in [1, 24, 30, 33, 65, 74, 147] {
+    for id in [1, 24, 27, 30, 33, 62, 65, 74, 147] {
         // Sticks are told while somebody has them.
         assert!(id == 65 || count(&station, id) == 8, "message {id}: {}", count(&station, id));
     }

@@ -123,6 +123,10 @@ fn fixed() -> Vec<Row> {
     let nominal = Real(0.001);
     let mode = |name| told(name, Int(5), INT8, "FLTMODE", "Mode of a switch position; no mode switch is read");
     let offset = |name| told(name, nominal, REAL32, "INS", "Offset of the accelerometer: nominal");
+    let none = |name, wire, group| {
+        let zero = if wire == REAL32 { Real(0.0) } else { Int(0) };
+        told(name, zero, wire, group, "There is only one")
+    };
     let compass = |name| told(name, nominal, REAL32, "COMPASS", "Offset of the compass: nominal");
     vec![
         told("ARMING_CHECK", Int(1), INT32, "ARMING", "Checks before arming: all, always").values(&[(1, "All")]),
@@ -133,6 +137,18 @@ fn fixed() -> Vec<Row> {
         told("COMPASS_DEV_ID", Int(97_539), INT32, "COMPASS", "Number of the compass"),
         told("COMPASS_ENABLE", Int(1), INT8, "COMPASS", "There is a compass").values(ONE),
         told("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "The compass is on the board"),
+        none("COMPASS_DEV_ID2", INT32, "COMPASS"),
+        none("COMPASS_DEV_ID3", INT32, "COMPASS"),
+        none("COMPASS_OFS2_X", REAL32, "COMPASS"),
+        none("COMPASS_OFS2_Y", REAL32, "COMPASS"),
+        none("COMPASS_OFS2_Z", REAL32, "COMPASS"),
+        none("COMPASS_OFS3_X", REAL32, "COMPASS"),
+        none("COMPASS_OFS3_Y", REAL32, "COMPASS"),
+        none("COMPASS_OFS3_Z", REAL32, "COMPASS"),
+        none("COMPASS_USE2", INT8, "COMPASS"),
+        none("COMPASS_USE3", INT8, "COMPASS"),
+        none("INS_USE2", INT8, "INS"),
+        none("INS_USE3", INT8, "INS"),
         compass("COMPASS_OFS_X"),
         compass("COMPASS_OFS_Y"),
         compass("COMPASS_OFS_Z"),

@@ -112,6 +112,8 @@ pub const STREAMS: &[Stream] = &[
     camera(269, [0.0, 0.0, 0.0], payload::stream_information),
     camera(270, [0.0, 0.0, 0.0], payload::stream_status),
     camera(271, [0.0, 0.0, 1.0], |v| Some(field_of_view(v))),
+    row(27, [0.0, 0.0, 0.0], sensors::raw_imu),
+    row(62, [0.0, 0.0, 0.0], position::way),
 ];
 
 /// The rows of a message id.

@@ -2,10 +2,11 @@
 
 use super::super::view::View;
 use crate::base::frames::Vec3;
+use crate::base::math;
 use crate::mav::dialect::{
     ALTITUDE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA,
-    MavEstimatorType, MavFrame, MavMessage, ODOMETRY_DATA, ORBIT_EXECUTION_STATUS_DATA, POSITION_TARGET_LOCAL_NED_DATA,
-    PositionTargetTypemask, VFR_HUD_DATA,
+    MavEstimatorType, MavFrame, MavMessage, NAV_CONTROLLER_OUTPUT_DATA, ODOMETRY_DATA, ORBIT_EXECUTION_STATUS_DATA,
+    POSITION_TARGET_LOCAL_NED_DATA, PositionTargetTypemask, VFR_HUD_DATA,
 };
 use crate::mav::units::{cm, deg_e7, heading_cdeg, mm};
 
@@ -153,5 +154,22 @@ pub(super) fn hud(v: &View) -> Option<MavMessage> {
         climb: -e.velocity_m_s.down() as f32,
         heading: (heading.round() as i16) % 360,
         throttle: (v.status.thrust * 100.0).clamp(0.0, 100.0) as u16,
+    }))
+}
+
+/// What the guidance wants, and how far it has to go: nowhere without a target.
+pub(super) fn way(v: &View) -> Option<MavMessage> {
+    let here = v.estimate.position_m;
+    let left = v.status.target_m.map_or(Vec3::zero(), |target| target - here);
+    let bearing = |east: f64, north: f64| math::atan2(east, north).to_degrees().round() as i16;
+    let (roll, pitch, yaw) = v.status.attitude_target.euler();
+    Some(MavMessage::NAV_CONTROLLER_OUTPUT(NAV_CONTROLLER_OUTPUT_DATA {
+        nav_roll: roll.to_degrees() as f32,
+        nav_pitch: pitch.to_degrees() as f32,
+        alt_error: -left.down() as f32,
+        nav_bearing: yaw.to_degrees().round() as i16,
+        target_bearing: bearing(left.east(), left.north()),
+        wp_dist: left.horizontal_norm().round().clamp(0.0, 65_535.0) as u16,
+        ..Default::default()
     }))
 }

@@ -3,9 +3,9 @@
 use super::super::view::View;
 use crate::mav::dialect::{
     DISTANCE_SENSOR_DATA, GPS_RAW_INT_DATA, GpsFixType, HIGHRES_IMU_DATA, HighresImuUpdatedFlags, MavDistanceSensor, MavFrame,
-    MavMessage, MavSensorOrientation, OBSTACLE_DISTANCE_DATA, SCALED_PRESSURE_DATA,
+    MavMessage, MavSensorOrientation, OBSTACLE_DISTANCE_DATA, RAW_IMU_DATA, SCALED_PRESSURE_DATA,
 };
-use crate::mav::units::{cm_u16, deg_e7, heading_cdeg, mm};
+use crate::mav::units::{cm_u16, deg_e7, heading_cdeg, milli_g, mm};
 
 pub(super) fn gps_raw(v: &View) -> Option<MavMessage> {
     let gnss = v.readings.gnss.as_ref()?;
@@ -58,6 +58,28 @@ pub(super) fn highres_imu(v: &View) -> Option<MavMessage> {
         abs_pressure: v.readings.pressure_pa.map_or(0.0, |p| (p / 100.0) as f32),
         temperature: 15.0,
         fields_updated: HighresImuUpdatedFlags::all(),
+        ..Default::default()
+    }))
+}
+
+/// In thousandths of g, rad/s and gauss, as ArduPilot fills it; the message itself leaves the units open.
+pub(super) fn raw_imu(v: &View) -> Option<MavMessage> {
+    let imu = v.readings.imu.as_ref()?;
+    let milli = |value: f64| (1000.0 * value).round() as i16;
+    let [xacc, yacc, zacc] = imu.specific_force_m_s2.array().map(milli_g);
+    let [xgyro, ygyro, zgyro] = imu.rates_rad_s.array().map(milli);
+    let [xmag, ymag, zmag] = v.readings.mag_gauss.map_or([0; 3], |gauss| gauss.array().map(milli));
+    Some(MavMessage::RAW_IMU(RAW_IMU_DATA {
+        time_usec: v.boot_us(),
+        xacc,
+        yacc,
+        zacc,
+        xgyro,
+        ygyro,
+        zgyro,
+        xmag,
+        ymag,
+        zmag,
         ..Default::default()
     }))
 }
