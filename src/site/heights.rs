@@ -235,7 +235,9 @@ impl HeightGrid {
             (false, true) => (0.0, max_m),
             (false, false) => (0.0, if direction.up() > 0.0 { max_m.min(to_top) } else { max_m }),
         };
-        self.walk(origin, direction, start.max(0.0), end.min(FARTHEST_M))
+        let (start, end) = (start.max(0.0), end.min(FARTHEST_M));
+        // What all but runs level comes down to the highest ground farther away than cells can be counted.
+        if start < end { self.walk(origin, direction, start, end) } else { None }
     }
 
     /// Follows the cells under a ray.

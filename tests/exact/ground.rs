@@ -147,3 +147,13 @@ fn exact_plumb_and_level_rays() {
     let below = grid.ray(Vec3::new(1.0, 2.0, 1.0), Vec3::new(0.0, 0.0, 1.0), 50.0).unwrap();
     assert_eq!(below.0, 0.0);
 }
+
+#[test]
+fn exact_a_ray_that_all_but_runs_level_far_over_the_ground_meets_nothing() {
+    let grid = rough();
+    // It would come down to the highest ground farther away than cells can be counted.
+    for fall in [1e-12, 1e-19, 1e-300] {
+        let sideways = Vec3::new(1.0, 1e-3, -fall);
+        assert!(grid.ray(Vec3::new(0.0, 0.0, 40.0), sideways, 10.0).is_none(), "{fall}");
+    }
+}

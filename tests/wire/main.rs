@@ -2,6 +2,7 @@
 
 mod answers;
 mod camera;
+mod camera_settings;
 mod circles;
 mod failures;
 mod fence;

@@ -2,10 +2,10 @@
 
 use super::arrival::Arrival;
 use super::params::packed;
-use super::streams::AUTOPILOT;
+use super::streams::{AUTOPILOT, CAMERA};
 use super::{Endpoint, LinkId};
 use crate::mav::dialect::{FILE_TRANSFER_PROTOCOL_DATA, MavMessage};
-use crate::mav::ftp::{Opcode, Packet, Refusal};
+use crate::mav::ftp::{Opcode, Packet};
 
 pub(super) fn request(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &mut Arrival) {
     let (client, packet) = ((a.link, a.from), Packet::read(&request.payload));
@@ -21,18 +21,20 @@ fn packed_parameters(e: &Endpoint, packet: &Packet) -> Option<Vec<u8>> {
     packed::file(packet.sized().filter(|_| opens)?, &e.params, e.storage.defaults())
 }
 
-/// No files in a component's name: the autopilot's component has them.
-pub(super) fn refuse(e: &mut Endpoint, component: u8, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &Arrival) {
-    let answer = Packet::read(&request.payload).refuse(Refusal::FileNotFound);
-    e.answer_as(component, a.link, &message(a.from, &answer));
+/// The camera's component has its own files.
+pub(super) fn request_of_camera(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &Arrival) {
+    e.camera_files.receive((a.link, a.from), &Packet::read(&request.payload), a.view.now);
 }
 
-/// What the server has to say goes out.
+/// What the servers have to say goes out.
 pub(super) fn speak(e: &mut Endpoint) {
-    let links = &e.links;
-    let ready = |link: &LinkId| links.get(link).is_none_or(|link| !link.is_busy());
-    for ((link, to), packet) in e.files.poll(ready) {
-        e.answer_as(AUTOPILOT, link, &message(to, &packet));
+    for component in [AUTOPILOT, CAMERA] {
+        let links = &e.links;
+        let ready = |link: &LinkId| links.get(link).is_none_or(|link| !link.is_busy());
+        let server = if component == CAMERA { &mut e.camera_files } else { &mut e.files };
+        for ((link, to), packet) in server.poll(ready) {
+            e.answer_as(component, link, &message(to, &packet));
+        }
     }
 }
 

@@ -5,6 +5,7 @@ mod arrival;
 pub mod budget;
 pub mod buttons;
 pub mod camera;
+mod camera_params;
 pub mod commands;
 mod control;
 mod exchange;
@@ -158,6 +159,8 @@ pub struct Endpoint {
     guard: Option<Guard>,
     /// The file server.
     pub files: files::Server,
+    /// What the camera's component has to be fetched.
+    camera_files: files::Server,
     /// The flight logs.
     pub logs: logs::Logs,
     params: Params,
@@ -201,6 +204,7 @@ impl Endpoint {
             router: Router::new(),
             guard: None,
             files: metadata_server(flavour),
+            camera_files: camera_server(),
             logs: logs::Logs::default(),
             storage: Storage::new(params.clone()),
             restart: false,
@@ -274,6 +278,7 @@ impl Endpoint {
         self.router.close(id);
         self.param_lists.remove(&id);
         self.files.forget(id);
+        self.camera_files.forget(id);
         self.logs.forget(id);
     }
 
@@ -522,5 +527,12 @@ fn metadata_server(flavour: &Flavour) -> files::Server {
     for file in [general, parameter] {
         server.make_up(file.path, file.bytes.clone());
     }
+    server
+}
+
+/// The camera's own, with nothing but its description.
+fn camera_server() -> files::Server {
+    let mut server = files::Server::default();
+    server.make_up(camera::settings::FILE, camera::settings::definition().into_bytes());
     server
 }

@@ -6,7 +6,7 @@ use super::commands::{self, Command};
 use super::guard::Admitted;
 use super::streams::{AUTOPILOT, CAMERA};
 use super::view::View;
-use super::{Context, Endpoint, LinkId, control, exchange, ftp};
+use super::{Context, Endpoint, LinkId, camera_params, control, exchange, ftp};
 use crate::base::time::SimTime;
 use crate::mav::codec::Received;
 use crate::mav::dialect::*;
@@ -49,6 +49,9 @@ handlers! {
     PARAM_REQUEST_LIST PARAM_REQUEST_LIST_DATA exchange::param_list,
     PARAM_REQUEST_READ PARAM_REQUEST_READ_DATA exchange::param_read,
     PARAM_SET PARAM_SET_DATA exchange::param_set,
+    PARAM_EXT_REQUEST_LIST PARAM_EXT_REQUEST_LIST_DATA camera_params::list,
+    PARAM_EXT_REQUEST_READ PARAM_EXT_REQUEST_READ_DATA camera_params::read,
+    PARAM_EXT_SET PARAM_EXT_SET_DATA camera_params::set,
     MISSION_REQUEST_LIST MISSION_REQUEST_LIST_DATA exchange::mission_list,
     MISSION_REQUEST_INT MISSION_REQUEST_INT_DATA exchange::mission_item_int,
     MISSION_REQUEST MISSION_REQUEST_DATA exchange::mission_item,
@@ -111,7 +114,7 @@ impl Endpoint {
         }
     }
 
-    /// Everything is the autopilot's component's; the camera's takes commands and refuses files.
+    /// Everything is the autopilot's component's; the camera's takes commands, and has settings and a file of its own.
     fn act(&mut self, id: LinkId, frame: &Received, view: &View, autopilot: &mut Autopilot) {
         let (system, component) = router::target(frame);
         if system != 0 && system != self.system_id {
@@ -124,11 +127,20 @@ impl Endpoint {
                 Some(message) => dispatch(self, message, &mut arrival),
                 None => self.unreadable(frame, &mut arrival),
             },
-            (CAMERA, None) => {
-                if let Some(MavMessage::FILE_TRANSFER_PROTOCOL(request)) = &frame.message {
-                    ftp::refuse(self, CAMERA, request, &arrival);
-                }
-            }
+            (CAMERA, None) => self.act_as_camera(frame, &mut arrival),
+            _ => {}
+        }
+    }
+
+    fn act_as_camera(&mut self, frame: &Received, a: &mut Arrival) {
+        match &frame.message {
+            Some(MavMessage::FILE_TRANSFER_PROTOCOL(request)) => ftp::request_of_camera(self, request, a),
+            Some(
+                message @ (MavMessage::PARAM_EXT_REQUEST_LIST(_)
+                | MavMessage::PARAM_EXT_REQUEST_READ(_)
+                | MavMessage::PARAM_EXT_SET(_)),
+            ) => dispatch(self, message, a),
+            None if frame.message_id == PARAM_EXT_SET_DATA::ID => camera_params::unknown_type(self, &frame.payload(255), a),
             _ => {}
         }
     }

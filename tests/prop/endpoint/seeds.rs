@@ -13,12 +13,14 @@ pub fn all(number: u32) -> Vec<MavMessage> {
     let mut out = good(number);
     // The codec's own default besides, addressed to the vehicle.
     out.extend(MavMessage::default_message_from_id(number));
+    // The camera alone has extended parameters.
+    let camera = (320..=324).contains(&number);
     for message in &mut out {
         if let Some(system) = message.target_system_id_mut() {
             *system = 1;
         }
         if let Some(component) = message.target_component_id_mut() {
-            *component = 1;
+            *component = if camera { 100 } else { 1 };
         }
     }
     out
@@ -174,6 +176,18 @@ fn parameters() -> Vec<MavMessage> {
             ..Default::default()
         }),
         MavMessage::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA { param_index: 5, ..Default::default() }),
+        MavMessage::PARAM_EXT_REQUEST_LIST(PARAM_EXT_REQUEST_LIST_DATA::default()),
+        MavMessage::PARAM_EXT_REQUEST_READ(PARAM_EXT_REQUEST_READ_DATA {
+            param_index: -1,
+            param_id: "CAM_VIDRATE".into(),
+            ..Default::default()
+        }),
+        MavMessage::PARAM_EXT_SET(PARAM_EXT_SET_DATA {
+            param_id: "CAM_PHOTOQUAL".into(),
+            param_value: "\u{1}".into(),
+            param_type: MavParamExtType::MAV_PARAM_EXT_TYPE_UINT32,
+            ..Default::default()
+        }),
         set("MIS_TAKEOFF_ALT", 5.0, real),
         set("MPC_XY_VEL_MAX", 4.0, real),
         set("WPNAV_SPEED", 400.0, real),

@@ -2,6 +2,7 @@
 
 pub mod card;
 mod series;
+pub mod settings;
 mod shot;
 pub mod zoom;
 

@@ -1,7 +1,7 @@
 //! Camera, gimbal and lamp.
 
 use super::super::camera::card::CARD_MIB;
-use super::super::camera::{Mode, zoom};
+use super::super::camera::{Mode, settings, zoom};
 use super::super::gimbal::DEVICE;
 use super::super::view::View;
 use crate::base::math;
@@ -51,6 +51,8 @@ pub(super) fn camera_information(v: &View) -> Option<MavMessage> {
         resolution_v: camera.height_px as u16,
         vendor_name,
         model_name,
+        cam_definition_version: settings::VERSION,
+        cam_definition_uri: settings::URI.into(),
         gimbal_device_id: DEVICE,
         ..Default::default()
     }))

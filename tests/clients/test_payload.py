@@ -1,0 +1,336 @@
+"""Camera, gimbal and lamp by MAVSDK's plugins, and by the older forms that pymavlink's users send; a second station hears what changes."""
+
+import math
+import os
+import time
+
+os.environ["MAVLINK20"] = "1"
+
+import pytest
+from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.camera import Camera, CameraError, Mode, Option, PhotosRange, Setting
+from mavsdk.plugins.gimbal import ControlMode, Gimbal, GimbalError, GimbalMode, SendMode
+from mavsdk.plugins.telemetry import Telemetry
+from pymavlink import mavutil
+
+import spandrel
+from spandrel import wait_for
+
+M = mavutil.mavlink
+CAMERA, AUTOPILOT = 100, 1
+NAN = float("nan")
+# The gimbal arrives this near, deg; the field of view and zoom are told in floats.
+NEAR_DEG = 1.0
+# One picture and a second of recording on the card as it is set at first, MiB.
+PICTURE_MIB, VIDEO_MIB_S = 6.0, 60e6 / 8 / 2**20
+# The zoom range of vehicle-params/m30.toml.
+WIDE_DEG, ZOOM_MAX = 84.0, 3.1
+
+
+class Station:
+    """A second ground station on pymavlink that hears everything and asks in the older forms."""
+
+    def __init__(self, port):
+        self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=254, source_component=190)
+        self.heard = []
+        self.last = {}
+
+    def pump(self):
+        """Takes in everything that has arrived."""
+        while (message := self.link.recv_match(blocking=False)) is not None:
+            self.heard.append(message)
+            self.last[message.get_type(), message.get_srcComponent()] = message
+
+    def wait(self, what, predicate):
+        """Pumps until the predicate holds."""
+
+        def step():
+            self.pump()
+            return predicate()
+
+        return wait_for(what, step)
+
+    def command(self, component, number, *params):
+        """Sends a command and returns the result of its acknowledgement."""
+        params = list(params) + [0] * (7 - len(params))
+        self.pump()
+        self.heard.clear()
+        self.link.mav.command_long_send(1, component, number, 0, *params)
+
+        def answer():
+            for message in self.heard:
+                if message.get_type() == "COMMAND_ACK" and message.command == number and message.target_system == 254:
+                    return message
+            return None
+
+        return self.wait(f"acknowledgement of {number}", answer).result
+
+    def told(self, kind, component=CAMERA):
+        """The last message of a kind since the last command."""
+        found = [m for m in self.heard if m.get_type() == kind and m.get_srcComponent() == component]
+        return found[-1] if found else None
+
+
+class Rig:
+    """MAVSDK's plugins for one vehicle with a zoom lens, and a second station."""
+
+    def __init__(self, folder):
+        port, second = spandrel.free_udp_port(), spandrel.free_udp_port()
+        self.station = Station(second)
+        self.process = spandrel.start_sim(folder, port, "--vehicle", "m30", "--gcs", f"127.0.0.1:{second}")
+        self.mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
+        self.mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
+        system = self.mavsdk.first_autopilot(60.0)
+        assert system is not None, "no vehicle discovered"
+        self.telemetry, self.camera, self.gimbal = Telemetry(system), Camera(system), Gimbal(system)
+        self.station.wait("heartbeat", lambda: ("HEARTBEAT", CAMERA) in self.station.last)
+
+
+@pytest.fixture
+def rig(tmp_path):
+    """One simulated vehicle and its two stations."""
+    rig = Rig(tmp_path)
+    yield rig
+    spandrel.end(rig.process)
+    # MAVSDK itself must be the last of its things to go.
+    for plugin in ("telemetry", "camera", "gimbal"):
+        getattr(rig, plugin).destroy()
+        delattr(rig, plugin)
+
+
+def found(rig):
+    """The camera's component id, once MAVSDK has found it."""
+    cameras = wait_for("camera", lambda: rig.camera.camera_list().cameras)
+    assert [(c.component_id, c.vendor_name) for c in cameras] == [(CAMERA, "Spandrel")]
+    assert (cameras[0].horizontal_resolution_px, cameras[0].vertical_resolution_px) == (4000, 3000)
+    return cameras[0].component_id
+
+
+def told_again(rig, predicate, what):
+    """Waits for storage and capture status that MAVSDK polls every few seconds."""
+
+    def look():
+        try:
+            storage = rig.camera.get_storage(CAMERA)
+        except CameraError:
+            return None
+        return storage if predicate(storage) else None
+
+    return wait_for(what, look)
+
+
+@pytest.mark.timeout(300)
+def test_wire_mavsdk_takes_pictures_one_by_one_and_in_series_and_lists_them(rig):
+    """take_photo, start_photo_interval, capture info with geotags, list_photos, storage, format."""
+    camera = found(rig)
+    shots = {}
+    rig.camera.subscribe_capture_info(lambda info, _: shots.__setitem__(info.index, info))
+    told_again(rig, lambda s: s.total_storage_mib > 30_000, "storage")
+    for _ in range(2):
+        rig.camera.take_photo(camera)
+    wait_for("two pictures", lambda: len(shots) == 2)
+    rig.camera.start_photo_interval(camera, 0.5)
+    told_again(rig, lambda s: s.photo_interval_on, "series on")
+    wait_for("a series", lambda: len(shots) >= 6)
+    rig.camera.stop_photo_interval(camera)
+    told_again(rig, lambda s: not s.photo_interval_on, "series off")
+    time.sleep(0.5)
+    count = len(shots)
+    assert sorted(shots) == list(range(count)), "every picture is told, none twice"
+    home = rig.telemetry.position()
+    for shot in shots.values():
+        assert shot.is_success
+        assert abs(shot.position.latitude_deg - home.latitude_deg) < 1e-4
+        assert abs(shot.position.longitude_deg - home.longitude_deg) < 1e-4
+    listed = rig.camera.list_photos(camera, PhotosRange.ALL)
+    assert sorted(info.index for info in listed) == list(range(count))
+    storage = told_again(rig, lambda s: s.used_storage_mib == count * PICTURE_MIB, "used storage")
+    assert math.isclose(storage.used_storage_mib + storage.available_storage_mib, storage.total_storage_mib, abs_tol=0.1)
+    rig.camera.format_storage(camera, 1)
+    told_again(rig, lambda s: s.used_storage_mib == 0.0, "an empty card")
+    rig.camera.take_photo(camera)
+    wait_for("the first again", lambda: [i.index for i in rig.camera.list_photos(camera, PhotosRange.ALL)] == [0])
+
+
+@pytest.mark.timeout(300)
+def test_wire_mavsdk_records_in_video_mode_and_the_camera_says_how_long(rig):
+    """set_mode, start_video, stop_video, recording time, and what a stream that does not run answers."""
+    camera = found(rig)
+    with pytest.raises(CameraError):
+        rig.camera.start_video(camera)
+    rig.camera.set_mode(camera, Mode.VIDEO)
+    rig.station.wait("the mode told to others", lambda: getattr(rig.station.last.get(("CAMERA_SETTINGS", CAMERA)), "mode_id", 0) == 1)
+    rig.camera.start_video(camera)
+    storage = told_again(rig, lambda s: s.video_on and s.recording_time_s > 3.0, "recording")
+    assert storage.recording_time_s < 600.0
+    rig.camera.take_photo(camera)
+    wait_for("a picture meanwhile", lambda: len(rig.camera.list_photos(camera, PhotosRange.ALL)) == 1)
+    with pytest.raises(CameraError):
+        rig.camera.set_mode(camera, Mode.PHOTO)
+    rig.camera.stop_video(camera)
+    storage = told_again(rig, lambda s: not s.video_on, "recording over")
+    told_again(rig, lambda s: s.used_storage_mib > PICTURE_MIB + 3.0 * VIDEO_MIB_S, "the recording's share of the card")
+    rig.camera.set_mode(camera, Mode.PHOTO)
+    wait_for("photo mode again", lambda: rig.camera.get_mode(camera) == Mode.PHOTO)
+    stream = wait_for("stream", lambda: (s := rig.camera.get_video_stream_info(camera)).stream_id == 1 and s)
+    assert (stream.settings.uri, stream.status) == ("5600", 0)
+    with pytest.raises(CameraError):
+        rig.camera.start_video_streaming(camera, 1)
+    rig.camera.stop_video_streaming(camera, 1)
+
+
+@pytest.mark.timeout(300)
+def test_wire_mavsdk_zooms_and_what_the_camera_sees_is_told_to_everybody(rig):
+    """zoom_range, zoom_in_start, zoom_out_start, zoom_stop, focus and reset."""
+    camera = found(rig)
+    station = rig.station
+
+    def level():
+        return getattr(station.last.get(("CAMERA_SETTINGS", CAMERA)), "zoomLevel", NAN)
+
+    def field():
+        return getattr(station.last.get(("CAMERA_FOV_STATUS", CAMERA)), "hfov", NAN)
+
+    def seen(level):
+        ratio = 1 + level / 100 * (ZOOM_MAX - 1)
+        return 2 * math.degrees(math.atan(math.tan(math.radians(WIDE_DEG / 2)) / ratio))
+
+    rig.camera.zoom_range(camera, 40.0)
+    station.wait("zoom 40", lambda: abs(level() - 40.0) < 0.01)
+    station.wait("its field of view", lambda: abs(field() - seen(40.0)) < 0.01)
+    rig.camera.zoom_in_start(camera)
+    station.wait("tele", lambda: level() == 100.0)
+    station.wait("narrow", lambda: abs(field() - seen(100.0)) < 0.01)
+    rig.camera.zoom_out_start(camera)
+    rig.camera.zoom_stop(camera)
+    station.wait("a place between", lambda: 0.0 < level() < 100.0)
+    rig.camera.reset_settings(camera)
+    station.wait("wide", lambda: level() == 0.0 and abs(field() - WIDE_DEG) < 0.01)
+    rig.camera.focus_auto(camera)
+    for by_hand in (rig.camera.focus_in_step, rig.camera.focus_out_start):
+        with pytest.raises(CameraError):
+            by_hand(camera)
+
+
+def setting(rig, name):
+    """The present option of a setting."""
+    return rig.camera.get_setting(CAMERA, Setting(setting_id=name)).option.option_id
+
+
+@pytest.mark.timeout(300)
+def test_wire_mavsdk_changes_every_setting_to_every_option_and_back(rig):
+    """Camera settings as the old mavlink-testing-suite checked them: all options of lists, ends and middle of ranges."""
+    camera = found(rig)
+    ids = ["CAM_PHOTOQUAL", "CAM_VIDRATE"]
+
+    def possible():
+        try:
+            return {s.setting_id: s for s in rig.camera.get_possible_setting_options(camera)}
+        except CameraError:
+            return {}
+
+    settings = wait_for("settings", lambda: (s := possible()) and len(s) == len(ids) and s)
+    assert sorted(settings) == ids
+    for name, options in settings.items():
+        initial = setting(rig, name)
+        wanted = [option.option_id for option in options.options]
+        assert options.is_range == (name == "CAM_VIDRATE")
+        if options.is_range:
+            low, high, step = (int(value) for value in wanted)
+            assert high > low and (high - low) % step == 0
+            wanted = [str(low), str(high), str(low + (high - low) // 2 // step * step)]
+        for value in [*wanted, initial]:
+            rig.camera.set_setting(camera, Setting(setting_id=name, option=Option(option_id=value)))
+            assert setting(rig, name) == value, name
+    with pytest.raises(CameraError):
+        rig.camera.set_setting(camera, Setting(setting_id="CAM_PHOTOQUAL", option=Option(option_id="7")))
+
+
+def pitch_deg(rig, gimbal):
+    """Pitch over the horizon."""
+    return rig.gimbal.get_attitude(gimbal).euler_angle_forward.pitch_deg
+
+
+@pytest.mark.timeout(300)
+def test_wire_mavsdk_points_the_gimbal_by_angles_rates_and_places_and_has_it_alone(rig):
+    """set_angles, set_angular_rates, take_control, release_control, set_roi_location."""
+    gimbal = wait_for("gimbal", lambda: rig.gimbal.gimbal_list().gimbals)[0]
+    assert (gimbal.gimbal_manager_component_id, gimbal.gimbal_device_id, gimbal.model_name) == (1, 1, "Pitch gimbal")
+    own = gimbal.gimbal_id
+    for angle, mode, send in [
+        (-90.0, GimbalMode.YAW_FOLLOW, SendMode.ONCE),
+        (90.0, GimbalMode.YAW_LOCK, SendMode.ONCE),
+        (-30.0, GimbalMode.YAW_FOLLOW, SendMode.STREAM),
+    ]:
+        rig.gimbal.set_angles(own, 0.0, angle, 0.0, mode, send)
+        wait_for(f"{angle} degrees", lambda a=angle: abs(pitch_deg(rig, own) - a) < NEAR_DEG)
+    for rate, send in [(40.0, SendMode.ONCE), (-40.0, SendMode.STREAM)]:
+        rig.gimbal.set_angular_rates(own, 0.0, rate, 0.0, GimbalMode.YAW_FOLLOW, send)
+        wait_for(f"the stop at {rate} deg/s", lambda r=rate: abs(pitch_deg(rig, own) - math.copysign(90.0, r)) < NEAR_DEG)
+    with pytest.raises(GimbalError):
+        rig.gimbal.set_angles(own, 0.0, -120.0, 0.0, GimbalMode.YAW_FOLLOW, SendMode.ONCE)
+
+    rig.gimbal.take_control(own, ControlMode.PRIMARY)
+    wait_for("control", lambda: rig.gimbal.get_control_status(own).control_mode == ControlMode.PRIMARY)
+    aim = (M.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, 10, NAN, NAN, NAN, 0, 0, 1)
+    assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_DENIED, "another is in control"
+    rig.gimbal.set_angles(own, 0.0, -20.0, 0.0, GimbalMode.YAW_FOLLOW, SendMode.ONCE)
+    wait_for("still obeying", lambda: abs(pitch_deg(rig, own) + 20.0) < NEAR_DEG)
+    rig.gimbal.release_control(own)
+    wait_for("no control", lambda: rig.gimbal.get_control_status(own).control_mode == ControlMode.NONE)
+    assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_ACCEPTED
+    wait_for("the other's aim", lambda: abs(pitch_deg(rig, own) - 10.0) < NEAR_DEG)
+
+    here = wait_for("position", lambda: (p := rig.telemetry.position()).absolute_altitude_m > 0 and p)
+    north = here.latitude_deg + 50.0 / 111_180.0
+    rig.gimbal.set_roi_location(own, north, here.longitude_deg, here.absolute_altitude_m + 50.0)
+    # 50 m away and 50 m up: 45 degrees, the drone's own place being known to a metre.
+    wait_for("looking up at a place", lambda: abs(pitch_deg(rig, own) - 45.0) < 2.5)
+
+
+@pytest.mark.timeout(300)
+def test_wire_older_forms_of_camera_mount_and_lamp_commands_are_answered(rig):
+    """REQUEST_CAMERA_*, DO_DIGICAM_CONTROL, DO_MOUNT_*, relay, servo, actuator: results and what comes with them."""
+    station = rig.station
+    ok, denied = M.MAV_RESULT_ACCEPTED, M.MAV_RESULT_DENIED
+    assert station.command(AUTOPILOT, M.MAV_CMD_DO_DIGICAM_CONTROL, 0, 0, 0, 0, 1) == ok
+    station.wait("a picture", lambda: station.told("CAMERA_IMAGE_CAPTURED"))
+    for number, kind in [
+        (M.MAV_CMD_REQUEST_CAMERA_INFORMATION, "CAMERA_INFORMATION"),
+        (M.MAV_CMD_REQUEST_CAMERA_SETTINGS, "CAMERA_SETTINGS"),
+        (M.MAV_CMD_REQUEST_STORAGE_INFORMATION, "STORAGE_INFORMATION"),
+        (M.MAV_CMD_REQUEST_CAMERA_CAPTURE_STATUS, "CAMERA_CAPTURE_STATUS"),
+        (M.MAV_CMD_REQUEST_VIDEO_STREAM_INFORMATION, "VIDEO_STREAM_INFORMATION"),
+        (M.MAV_CMD_REQUEST_VIDEO_STREAM_STATUS, "VIDEO_STREAM_STATUS"),
+    ]:
+        assert station.command(CAMERA, number, 1, 1) == ok, kind
+        station.wait(kind, lambda k=kind: station.told(k))
+    assert station.command(CAMERA, 2002, 0) == ok
+    station.wait("the picture again", lambda: station.told("CAMERA_IMAGE_CAPTURED"))
+
+    def pitch():
+        q = station.last["GIMBAL_DEVICE_ATTITUDE_STATUS", AUTOPILOT].q
+        return math.degrees(2 * math.atan2(q[2], q[0]))
+
+    assert station.command(AUTOPILOT, M.MAV_CMD_DO_MOUNT_CONFIGURE, M.MAV_MOUNT_MODE_MAVLINK_TARGETING, 1, 1, 0) == ok
+    assert station.command(AUTOPILOT, M.MAV_CMD_DO_MOUNT_CONTROL, -70, 0, 0, 0, 0, 0, M.MAV_MOUNT_MODE_MAVLINK_TARGETING) == ok
+    station.wait("mount at -70", lambda: abs(pitch() + 70.0) < NEAR_DEG)
+    assert station.command(AUTOPILOT, M.MAV_CMD_DO_MOUNT_CONTROL, 0, 0, 0, 0, 0, 0, M.MAV_MOUNT_MODE_NEUTRAL) == ok
+    station.wait("mount neutral", lambda: abs(pitch()) < NEAR_DEG)
+    assert station.command(AUTOPILOT, M.MAV_CMD_DO_MOUNT_CONTROL, 0, 0, 0, 0, 0, 0, M.MAV_MOUNT_MODE_RETRACT) == denied
+
+    def lamp():
+        relay = station.last.get(("RELAY_STATUS", AUTOPILOT))
+        return relay and relay.on & 1
+
+    for on, *command in [
+        (1, M.MAV_CMD_DO_SET_RELAY, 0, 1),
+        (0, M.MAV_CMD_DO_SET_SERVO, 9, 1100),
+        (1, M.MAV_CMD_DO_SET_SERVO, 9, 1900),
+        (0, M.MAV_CMD_DO_SET_ACTUATOR, -1, NAN, NAN, NAN, NAN, NAN, 0),
+        (1, 405, 1),
+        (1, M.MAV_CMD_DO_REPEAT_RELAY, 0, 2, 0.2),
+    ]:
+        assert station.command(AUTOPILOT, *command) == ok, command
+        station.wait(f"lamp {on} by {command}", lambda o=on: lamp() == o)
+    assert station.command(AUTOPILOT, M.MAV_CMD_DO_SET_RELAY, 3, 1) == denied
