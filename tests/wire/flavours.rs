@@ -500,6 +500,30 @@ fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
     let degrees =
         station.ask(&MavMessage::MISSION_REQUEST(older), |m| if let MavMessage::MISSION_ITEM(i) = m { Some(i.x) } else { None });
     assert!((f64::from(degrees.unwrap()) - f64::from(items[2].x) * 1e-7).abs() < 1e-5);
+    let answer = |m: &MavMessage| match m {
+        MavMessage::MISSION_REQUEST_INT(r) => Some(Ok(r.seq)),
+        MavMessage::MISSION_ACK(ack) => Some(Err(ack.mavtype)),
+        _ => None,
+    };
+    let again = MavMessage::MISSION_ITEM_INT(items[3].clone());
+    assert_eq!(station.ask(&again, answer), Some(Err(accepted)), "the acknowledgement was lost");
+    let part = |start_index, end_index| {
+        MavMessage::MISSION_WRITE_PARTIAL_LIST(MISSION_WRITE_PARTIAL_LIST_DATA {
+            start_index,
+            end_index,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        })
+    };
+    assert_eq!(station.ask(&part(2, 2), answer), Some(Ok(2)));
+    assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(item(2, place, 30.0, 6.0)), answer), Some(Err(accepted)));
+    assert_eq!(station.ask(&part(0, 1), answer), Some(Ok(0)), "home, too, though nothing comes of it");
+    assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(items[0].clone()), answer), Some(Ok(1)));
+    assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(item(1, place, 12.0, 7.0)), answer), Some(Err(accepted)));
+    let heights: Vec<f32> = (1..=3).map(|seq| fetch(&mut station, seq).unwrap().z).collect();
+    assert_eq!((counted(&mut station), heights), (4, vec![7.0, 6.0, 0.0]));
+    assert_eq!(station.ask(&part(3, 4), answer), Some(Err(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE)));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one(2.0)), ACCEPTED);
     assert_eq!(current(&mut station), (2, 3));
     assert_ne!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one(4.0)), ACCEPTED);

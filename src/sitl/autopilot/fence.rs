@@ -236,6 +236,7 @@ impl Autopilot {
         let start = if flying { self.estimate.position_m } else { home };
         let mut from = (self.mission.current == 0 && self.breach_at(start).is_none()).then_some(start);
         for (step, what) in self.mission.all() {
+            let step = step + self.tuning.first_item;
             let outside = format!("Mission item {step} lies outside the geofence");
             let to = match what {
                 MissionStep::Waypoint { position_m, .. } | MissionStep::Land { position_m: Some(position_m) } => position_m,

@@ -89,6 +89,8 @@ pub struct Tuning {
     pub setpoints_end: bool,
     /// The throttle stick may be down when motors are armed, where transmitters have it that does not spring back. (ArduPilot)
     pub arm_throttle_down: bool,
+    /// The number that people give the mission's first step: 1 where home is 0. (ArduPilot)
+    pub first_item: usize,
     /// `MPC_HOLD_DZ`: sticks within this share of their travel count as centred.
     pub stick_deadband: f64,
 }
@@ -143,6 +145,7 @@ impl Default for Tuning {
             stick_takeover: true,
             setpoints_end: false,
             arm_throttle_down: false,
+            first_item: 0,
             stick_deadband: 0.03,
         }
     }

@@ -479,7 +479,10 @@ impl Endpoint {
         if let Some(result) = commands::payload::handle(&command, view, &mut self.payload)
             && result != MavResult::MAV_RESULT_ACCEPTED
         {
-            self.tell(MavSeverity::MAV_SEVERITY_WARNING, &format!("Mission item {seq} was refused by the payload"));
+            self.tell(
+                MavSeverity::MAV_SEVERITY_WARNING,
+                &format!("Mission item {} was refused by the payload", seq + usize::from(view.plans.lead)),
+            );
         }
     }
 

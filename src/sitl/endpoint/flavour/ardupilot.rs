@@ -105,6 +105,7 @@ pub static FLAVOUR: Flavour = Flavour {
     tune: |tuning| {
         tuning.setpoints_end = true;
         tuning.arm_throttle_down = true;
+        tuning.first_item = 1;
     },
 };
 
