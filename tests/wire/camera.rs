@@ -1,9 +1,13 @@
 //! The camera component: modes, recording, zoom, the memory card, and the older forms of asking.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
-use super::station::{Station, scenario};
+use super::plans::{home_north, item, upload};
+use super::station::{Station, scenario, shipped};
+use spandrel::base::geodesy::LocalPlane;
 use spandrel::base::math;
 use spandrel::mav::dialect::*;
+use spandrel::monitor::measures::attention::camera;
+use spandrel::telemetry::Timeline;
 
 const CAMERA: u8 = 100;
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
@@ -186,26 +190,37 @@ fn wire_a_continuous_zoom_stops_when_told_and_a_reset_leads_back_to_the_wide_end
 #[test]
 fn wire_before_every_picture_stands_the_field_of_view_that_it_has() {
     let mut station = on_the_pad(ZOOMS);
+    let file = format!("vehicle-params/{ZOOMS}.toml");
+    let wide = spandrel::vehicle::read(&file, &shipped(&file)).unwrap().camera;
     station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, p(&[1.0, 1.0]));
     for _ in 0..5 {
         station.run_ms(430);
         station.heard.clear();
         assert_eq!(take(&mut station), OK);
         station.run_ms(20);
-        let camera: Vec<&MavMessage> = station
+        let spoken: Vec<&MavMessage> = station
             .heard
             .iter()
             .filter(|frame| frame.component_id == CAMERA)
             .filter_map(|frame| frame.message.as_ref())
             .collect();
-        let at = camera.iter().position(|m| matches!(m, MavMessage::CAMERA_IMAGE_CAPTURED(_))).unwrap();
-        let [MavMessage::CAMERA_FOV_STATUS(field), MavMessage::CAMERA_IMAGE_CAPTURED(image)] = camera[at - 1..=at] else {
-            panic!("{:?}", camera[at - 1])
+        let at = spoken.iter().position(|m| matches!(m, MavMessage::CAMERA_IMAGE_CAPTURED(_))).unwrap();
+        let [MavMessage::CAMERA_FOV_STATUS(field), MavMessage::CAMERA_IMAGE_CAPTURED(image)] = spoken[at - 1..=at] else {
+            panic!("{:?}", spoken[at - 1])
         };
         assert_eq!((field.time_boot_ms, field.q), (image.time_boot_ms, image.q));
         let level = f64::from(image.time_boot_ms - 100) / 3_000.0;
         // The lens moves with the control ticks, every 2.5 ms.
         assert!((f64::from(field.hfov) - field_deg(level)).abs() < 0.2, "{} at {level}", field.hfov);
+        // What the sidecar makes of it.
+        let mut timeline = Timeline::new(LocalPlane::new(scenario("drill-hover").origin));
+        station.heard.iter().for_each(|frame| {
+            timeline.push(&frame.bytes);
+        });
+        let flight = timeline.flight(0);
+        let [(time, _, _)] = flight.snapshots.all() else { panic!("one picture") };
+        let judged = camera(&flight, *time, &wide).hfov_rad.to_degrees() as f32;
+        assert!((judged - field.hfov).abs() < 1e-5, "{judged} for {}", field.hfov);
     }
 }
 
@@ -298,4 +313,74 @@ fn wire_missed_pictures_are_told_again_one_by_one_in_ranges_and_all() {
         let ask = p(&[263.0, first, last]);
         assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_REQUEST_MESSAGE, ask), DENIED, "{first} {last}");
     }
+}
+
+/// An item that is the payload's: seven parameters, 5 and 6 as they lie on the wire.
+fn act(seq: u16, command: MavCmd, p: [f32; 4], x: i32, z: f32) -> MISSION_ITEM_INT_DATA {
+    let [param1, param2, param3, param4] = p;
+    let frame = MavFrame::MAV_FRAME_MISSION;
+    MISSION_ITEM_INT_DATA { param1, param2, param3, param4, x, y: 0, frame, ..item(seq, command, 0.0, z) }
+}
+
+#[test]
+fn wire_a_missions_items_do_what_the_same_commands_do() {
+    use MavCmd as M;
+    let mut station = on_the_pad(ZOOMS);
+    station.run_ms(2_500);
+    let north = home_north(&station);
+    let items = [
+        item(0, M::MAV_CMD_NAV_TAKEOFF, north, 6.0),
+        act(1, M::MAV_CMD_SET_CAMERA_MODE, [0.0, 1.0, NAN, NAN], 0, NAN),
+        act(2, M::MAV_CMD_VIDEO_START_CAPTURE, [0.0, 0.0, 0.0, NAN], 0, NAN),
+        act(3, M::MAV_CMD_SET_CAMERA_ZOOM, [2.0, 50.0, 0.0, NAN], 0, NAN),
+        act(4, M::MAV_CMD_SET_CAMERA_FOCUS, [4.0, NAN, 0.0, NAN], 0, NAN),
+        act(5, M::MAV_CMD_DO_SET_SERVO, [9.0, 1_900.0, 0.0, 0.0], 0, 0.0),
+        act(6, M::MAV_CMD_DO_MOUNT_CONFIGURE, [2.0, 1.0, 1.0, 0.0], 0, 0.0),
+        act(7, M::MAV_CMD_DO_MOUNT_CONTROL, [-50.0, 0.0, 0.0, 0.0], 0, 2.0),
+        item(8, M::MAV_CMD_NAV_WAYPOINT, north + 8.0, 6.0),
+        // One as MAVLink says, one as stations send it that scale every fifth parameter.
+        act(9, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 1, 0.0),
+        item(10, M::MAV_CMD_NAV_WAYPOINT, north, 6.0),
+        act(11, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 10_000_000, 0.0),
+        act(12, M::MAV_CMD_VIDEO_STOP_CAPTURE, [0.0, 0.0, NAN, NAN], 0, NAN),
+        act(13, M::MAV_CMD_DO_REPEAT_RELAY, [0.0, 2.0, 0.2, 0.0], 0, 0.0),
+        act(14, M::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [NAN, NAN, NAN, NAN], 2, 1.0),
+        item(15, M::MAV_CMD_NAV_LAND, north, 0.0),
+    ];
+    assert_eq!(upload(&mut station, &items), MavMissionResult::MAV_MISSION_ACCEPTED);
+    assert_eq!(station.command(1, M::MAV_CMD_MISSION_START, p(&[])), OK);
+    assert_eq!(station.command(1, M::MAV_CMD_COMPONENT_ARM_DISARM, p(&[1.0])), OK);
+    let (mut lowest, mut changes, mut lamp) = (0.0_f32, 0, false);
+    let ended = station.run_until(90.0, |s| {
+        for frame in s.heard.drain(..).collect::<Vec<_>>() {
+            match frame.message {
+                Some(MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g)) => lowest = lowest.min(2.0 * g.q[2].atan2(g.q[0])),
+                Some(MavMessage::ILLUMINATOR_STATUS(i)) => {
+                    changes += u32::from(lamp != (i.enable == 1));
+                    lamp = i.enable == 1;
+                }
+                Some(MavMessage::STATUSTEXT(t)) => {
+                    let text = t.text.to_str().unwrap_or_default().to_owned();
+                    assert!(!text.contains("refused"), "{text}");
+                    if text == "Disarmed by landing" {
+                        return true;
+                    }
+                }
+                _ => {}
+            }
+        }
+        false
+    });
+    assert!(ended, "it lands");
+    assert!((lowest.to_degrees() + 50.0).abs() < 1.0, "mount control: {}", lowest.to_degrees());
+    assert_eq!((changes, lamp), (5, true), "on by the servo, off and on twice by the relay");
+    let done = status(&mut station);
+    assert_eq!((done.image_count, done.video_status), (2, 0));
+    let video_mib = used_mib(&mut station) - 2.0 * PICTURE_MIB;
+    assert!(video_mib > 5.0 * VIDEO_MIB_S, "recorded all the way: {video_mib}");
+    ask(&mut station, 260);
+    assert!((settings(&station).unwrap().1 - 50.0).abs() < 0.01);
+    station.run_ms(200);
+    let flags = station.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.flags) } else { None });
+    assert!(flags.unwrap().contains(GimbalDeviceFlags::GIMBAL_DEVICE_FLAGS_NEUTRAL));
 }

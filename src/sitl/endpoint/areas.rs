@@ -35,7 +35,8 @@ pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> Result<(), MavMissionRes
         let corners = corners(item);
         let run = items.iter().skip(at).take(corners);
         let alike = run.filter(|other| other.command == item.command && other.param1 == item.param1).count();
-        if alike < corners {
+        // What is no polygon stands for itself; its first parameter need not even be a number.
+        if corners > 1 && alike < corners {
             return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);
         }
         at += corners;

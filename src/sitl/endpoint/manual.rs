@@ -107,7 +107,8 @@ impl Manual {
         self.take(from, Sticks { forward: zero(axis(m.x)), right: zero(axis(m.y)), up, yaw: zero(axis(m.r)) }, now)
     }
 
-    /// The gimbal's axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the holder has moved it.
+    /// The gimbal's axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the holder has moved it. The extension `t` (roll by MAVLink, yaw by
+    /// QGroundControl) moves nothing: the gimbal has neither axis.
     pub fn gimbal(&mut self, from: Sender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
         let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
         let before = self.gimbal.replace(pitch);

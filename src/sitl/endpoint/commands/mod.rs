@@ -92,11 +92,15 @@ impl Command {
         Some(self.p[k]).filter(|v| v.is_finite())
     }
 
-    /// A parameter that is no place, when it is a number: 5 and 6 of COMMAND_INT and of a mission's item are then not scaled.
+    /// A small whole number that is no place, when it is given: as 5 and 6 of COMMAND_INT and of a mission's item it is not scaled, but some
+    /// stations scale it all the same.
     #[must_use]
     pub fn plain(&self, k: usize) -> Option<f64> {
-        let scaled = self.whole && matches!(k, 4 | 5);
-        self.given(k).map(|value| if scaled { (value * 1e7).round() } else { value })
+        let value = self.given(k)?;
+        if !(self.whole && matches!(k, 4 | 5)) || (value != 0.0 && value.fract() == 0.0) {
+            return Some(value);
+        }
+        Some((value * 1e7).round())
     }
 }
 

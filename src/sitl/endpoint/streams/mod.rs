@@ -111,7 +111,7 @@ pub const STREAMS: &[Stream] = &[
     camera(261, [0.0, 0.0, 0.0], payload::storage),
     camera(269, [0.0, 0.0, 0.0], payload::stream_information),
     camera(270, [0.0, 0.0, 0.0], payload::stream_status),
-    camera(271, [0.0, 0.0, 1.0], |v| Some(field_of_view(v))),
+    camera(271, [0.0, 0.0, 5.0], |v| Some(field_of_view(v))),
     row(27, [0.0, 0.0, 0.0], sensors::raw_imu),
     row(62, [0.0, 0.0, 0.0], position::way),
 ];
