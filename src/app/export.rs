@@ -7,6 +7,7 @@ use super::files;
 use super::mcap::{self, Recording};
 use super::progress::Progress;
 use super::session_folder::Stored;
+use crate::base::foxglove;
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::monitor::assessment::scored_flight;
@@ -16,7 +17,7 @@ use crate::pilot::flight_plan;
 use crate::pilot::job::Map;
 use crate::site::Site;
 use crate::site::gltf;
-use crate::telemetry::{Timeline, foxglove};
+use crate::telemetry::Timeline;
 use std::io::Cursor;
 use std::path::Path;
 

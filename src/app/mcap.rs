@@ -3,7 +3,7 @@
 //! A chunk goes to the disk whole once it has gathered [`CHUNK`] bytes or a second of the flight, so that a program that is killed loses
 //! no more than that; a file without its end is read up to its last whole chunk.
 
-use crate::telemetry::foxglove::{CHANNELS, Message};
+use crate::base::foxglove::{CHANNELS, Message};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use mcap::records::MessageHeader;
@@ -125,7 +125,7 @@ pub fn recover(file: &[u8]) -> McapResult<Recovered> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::telemetry::foxglove;
+    use crate::base::foxglove;
     use std::io::Cursor;
 
     const START_NS: u64 = 1_700_000_000_000_000_000;

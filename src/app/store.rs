@@ -3,11 +3,11 @@
 
 use super::errors::AppError;
 use super::mcap::{Recording, base64};
+use crate::base::foxglove;
 use crate::mav::ftp::checksum;
 use crate::sitl::endpoint::files::job::{Action, Done, Entry, FileError};
 use crate::sitl::endpoint::files::path::FilePath;
 use crate::sitl::log::Piece;
-use crate::telemetry::foxglove;
 use cap_std::ambient_authority;
 use cap_std::fs::{Dir, File, OpenOptions};
 use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};

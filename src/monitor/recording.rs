@@ -1,12 +1,12 @@
 //! A flight that was heard over MAVLink, for Foxglove: frames of drone and camera, battery, what the scores are made of, and in words
 //! what happened.
 
+use crate::base::foxglove::{self, Message, Pose};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::SimTime;
 use crate::scenario::Scenario;
-use crate::telemetry::foxglove::{self, Message, Pose};
 use crate::telemetry::{Contact, Flight};
-use crate::vehicle::Vehicle;
+use crate::vehicle::{Camera, Vehicle};
 
 /// Frames come no closer than this.
 const FRAME_STEP: SimTime = SimTime::from_ms(40);
@@ -41,7 +41,7 @@ pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<
             &foxglove::Scoring {
                 clearance_m: flight.clearance.at(now).unwrap_or(f64::INFINITY),
                 lux: None,
-                contact: flight.contact.at(now).unwrap_or_default(),
+                contact: flight.contact.at(now).unwrap_or_default().word(),
                 hits: flight.hits.at(now).unwrap_or(0),
                 respawns: flight.respawns.at(now).unwrap_or(0),
                 lamp_on: flight.light.at(now).unwrap_or(false),
@@ -49,7 +49,9 @@ pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<
             },
         ));
         if frames % SLOW_EVERY == 0 {
-            out.push(foxglove::camera(at, &vehicle.camera));
+            let wide = vehicle.camera;
+            let lens = Camera { hfov_rad: flight.field_of_view.at(now).unwrap_or(wide.hfov_rad), ..wide };
+            out.push(foxglove::camera(at, lens.focal_px(), (lens.width_px, lens.height_px)));
             out.extend(flight.battery.at(now).map(|pct| foxglove::battery(at, None, pct)));
         }
         frames += 1;

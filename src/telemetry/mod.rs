@@ -2,7 +2,6 @@
 //! [`timeline::Flight`] (sorted, gaps known), and a flight is read at the scorer's rate as [`frame::Frame`]s. [`tlog`] is the
 //! file format in between. Read by monitor, pilot, view and report; knows nothing of the scoring.
 
-pub mod foxglove;
 pub mod frame;
 pub mod hand;
 pub mod sample;

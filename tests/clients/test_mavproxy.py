@@ -126,3 +126,24 @@ def test_wire_mavproxy_loads_and_lists_plans(console):
     typed.say(f"fence load {plan(folder, 'torn.txt', corners)}", "Got MISSION_ACK: TYPE_FENCE: INVALID_PARAM1")
     typed.say(f"rally load {plan(folder, 'rally.txt', [(3, 5100, nothing, 20, 5)])}", "Got MISSION_ACK: TYPE_RALLY: ACCEPTED")
     typed.say("rally list", "Requesting 1 rally")
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavproxy_is_obeyed_once_it_has_the_key(tmp_path):
+    """A vehicle that demands signatures: nothing happens without the passphrase, and all with it."""
+    key = tmp_path / "key"
+    key.write_text("steelspan\n", encoding="utf-8")
+    key.chmod(0o600)
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, "--signing-key", str(key), speed=2)
+    typed = Console(port, tmp_path)
+    try:
+        typed.wait("Detected vehicle")
+        typed.say("arm throttle force", None)
+        typed.say("signing key steelspan", None)
+        typed.until("param fetch MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT = 2.5")
+        assert "ARMED" not in "\n".join(typed.heard), "armed without a signature"
+        typed.until("arm throttle force", "ARMED")
+    finally:
+        typed.close()
+        spandrel.end(process)

@@ -227,3 +227,13 @@ fn wire_a_part_of_a_plan_is_replaced_and_the_rest_stays() {
     assert_eq!(station.ask(&jump, result), Some(MavMissionResult::MAV_MISSION_INVALID_PARAM1));
     assert_eq!(heights(&mut station), [6.0, 6.0, 9.0, 9.0, 6.0]);
 }
+
+/// MAVSDK writes not-a-numbers where nothing is asked for.
+#[test]
+fn wire_numbers_that_an_item_does_not_give_are_no_fault() {
+    let mut station = ready(7);
+    let silent = |command| MISSION_ITEM_INT_DATA { param1: NAN, param2: NAN, param3: NAN, ..item(0, command, 0.0, 5.0) };
+    for command in [MavCmd::MAV_CMD_NAV_TAKEOFF, MavCmd::MAV_CMD_NAV_WAYPOINT, MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH] {
+        assert_eq!(upload(&mut station, &[silent(command)]), ACCEPTED, "{command:?}");
+    }
+}

@@ -8,8 +8,8 @@ pub mod ulog;
 
 use super::endpoint::params;
 use super::endpoint::view::View;
+use crate::base::foxglove::Message;
 use crate::base::time::{Schedule, SimTime};
-use crate::telemetry::foxglove::Message;
 use row::Row;
 use scene::Scene;
 use std::collections::VecDeque;

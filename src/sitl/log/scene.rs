@@ -1,9 +1,8 @@
 //! The flight for Foxglove: where drone and camera are, truth and estimate, battery, what the scores are made of, and every text.
 
 use super::super::endpoint::view::View;
+use crate::base::foxglove::{self, Message, Pose};
 use crate::base::time::{Schedule, SimTime};
-use crate::telemetry::Contact;
-use crate::telemetry::foxglove::{self, Message, Pose};
 use std::collections::VecDeque;
 
 /// Messages a second of simulation time: frames, fixes, scoring, the slow rest.
@@ -47,7 +46,7 @@ impl Scene {
             let values = foxglove::Scoring {
                 clearance_m: s.clearance_m,
                 lux: Some(s.lux),
-                contact: Contact::from_wire(s.contact),
+                contact: word(s.contact),
                 hits: s.hits,
                 respawns: s.respawns,
                 lamp_on: view.lamp.on,
@@ -56,12 +55,19 @@ impl Scene {
             out.push_back(foxglove::scoring(at, &values));
         }
         if slow {
-            out.push_back(foxglove::camera(at, &view.vehicle.camera));
+            let lens = view.camera_now();
+            out.push_back(foxglove::camera(at, lens.focal_px(), (lens.width_px, lens.height_px)));
             let battery = view.readings.battery.as_ref();
             out.extend(battery.map(|b| foxglove::battery(at, Some((b.voltage_v, b.current_a)), b.remaining_pct)));
         }
         out
     }
+}
+
+/// What is touched, by the wire's number (design.md, truth for the scoring).
+fn word(contact: i32) -> &'static str {
+    const WORDS: [&str; 7] = ["none", "bridge", "terrain", "water", "vehicle", "person", "other"];
+    usize::try_from(contact).ok().and_then(|code| WORDS.get(code)).copied().unwrap_or("other")
 }
 
 fn transforms(view: &View, at: u64) -> Message {

@@ -49,17 +49,20 @@ pub struct ProcessNoise {
 /// A correction of all error states.
 pub type Correction = [f64; STATES];
 
+/// A row's places: an even number of pairs, so that no loop over a row has a tail; what lies beyond the states stays zero.
+const WIDTH: usize = STATES.next_multiple_of(4);
+
 /// Symmetric covariance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Covariance {
-    m: [[f64; STATES]; STATES],
+    m: [[f64; WIDTH]; STATES],
 }
 
 impl Covariance {
     /// From the variances alone.
     #[must_use]
     pub fn diagonal(variances: &[f64; STATES]) -> Self {
-        let mut m = [[0.0; STATES]; STATES];
+        let mut m = [[0.0; WIDTH]; STATES];
         for (i, v) in variances.iter().enumerate() {
             m[i][i] = *v;
         }
@@ -150,9 +153,10 @@ impl Covariance {
         }
     }
 
-    /// The matrix times F transposed, in place.
+    /// The matrix times F transposed, in place. F has more than its diagonal in the first rows alone, and below them lies the half that
+    /// is mirrored afterwards.
     fn columns(&mut self, a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], dt_s: f64) {
-        for row in &mut self.m {
+        for row in &mut self.m[..BG] {
             for i in 0..3 {
                 row[P + i] += dt_s * row[V + i];
             }
@@ -188,7 +192,7 @@ impl Covariance {
     /// Fuses one scalar: `slopes` are the few non-zero derivatives of the measurement by the errors, `innovation` is measured minus
     /// expected. `None` when it lies outside `gate` standard deviations; the covariance then stays.
     pub fn fuse(&mut self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> Option<Correction> {
-        let mut ph = [0.0; STATES];
+        let mut ph = [0.0; WIDTH];
         for (index, slope) in slopes {
             for (sum, value) in ph.iter_mut().zip(&self.m[*index]) {
                 *sum += slope * value;
@@ -206,7 +210,7 @@ impl Covariance {
             }
         }
         let step = innovation * inverse;
-        Some(ph.map(|p| p * step))
+        Some(std::array::from_fn(|i| ph[i] * step))
     }
 }
 

@@ -13,6 +13,9 @@ use crate::mav::codec::Received;
 use crate::mav::dialect::{MISSION_ITEM_INT_DATA, MavResult};
 use crate::sitl::autopilot::{Outcome, Request};
 
+/// Degrees E7 of a place that is not given: none of them is on the globe.
+const NOT_GIVEN: [i32; 3] = [i32::MAX, i32::MIN, 0x7ff8_0000];
+
 /// A command from either message.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Command {
@@ -54,8 +57,8 @@ impl Command {
         }
         let scaled = |at: usize| {
             let whole = i32::from_le_bytes(four(at));
-            // INT32_MAX means "not given" (MAVLink: COMMAND_INT).
-            if whole == i32::MAX { f64::NAN } else { f64::from(whole) * 1e-7 }
+            // INT32_MAX means "not given" (MAVLink: COMMAND_INT); the others are what clients make of a not-a-number.
+            if NOT_GIVEN.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
         };
         (p[4], p[5]) = (scaled(16), scaled(20));
         Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from, whole: true })

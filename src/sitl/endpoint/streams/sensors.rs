@@ -3,7 +3,7 @@
 use super::super::view::View;
 use crate::mav::dialect::{
     DISTANCE_SENSOR_DATA, GPS_RAW_INT_DATA, GpsFixType, HIGHRES_IMU_DATA, HighresImuUpdatedFlags, MavDistanceSensor, MavFrame,
-    MavMessage, MavSensorOrientation, OBSTACLE_DISTANCE_DATA, RAW_IMU_DATA, SCALED_PRESSURE_DATA,
+    MavMessage, MavSensorOrientation, OBSTACLE_DISTANCE_DATA, RAW_IMU_DATA, SCALED_IMU_DATA, SCALED_PRESSURE_DATA,
 };
 use crate::mav::units::{cm_u16, deg_e7, heading_cdeg, milli_g, mm};
 
@@ -62,13 +62,33 @@ pub(super) fn highres_imu(v: &View) -> Option<MavMessage> {
     }))
 }
 
-/// In thousandths of g, rad/s and gauss, as ArduPilot fills it; the message itself leaves the units open.
-pub(super) fn raw_imu(v: &View) -> Option<MavMessage> {
+/// Specific force, thousandths of g; rates, mrad/s; field, mgauss. The raw message leaves its units open; ArduPilot fills it so.
+fn milli(v: &View) -> Option<[[i16; 3]; 3]> {
     let imu = v.readings.imu.as_ref()?;
     let milli = |value: f64| (1000.0 * value).round() as i16;
-    let [xacc, yacc, zacc] = imu.specific_force_m_s2.array().map(milli_g);
-    let [xgyro, ygyro, zgyro] = imu.rates_rad_s.array().map(milli);
-    let [xmag, ymag, zmag] = v.readings.mag_gauss.map_or([0; 3], |gauss| gauss.array().map(milli));
+    let field = v.readings.mag_gauss.map_or([0; 3], |gauss| gauss.array().map(milli));
+    Some([imu.specific_force_m_s2.array().map(milli_g), imu.rates_rad_s.array().map(milli), field])
+}
+
+pub(super) fn scaled_imu(v: &View) -> Option<MavMessage> {
+    let [[xacc, yacc, zacc], [xgyro, ygyro, zgyro], [xmag, ymag, zmag]] = milli(v)?;
+    Some(MavMessage::SCALED_IMU(SCALED_IMU_DATA {
+        time_boot_ms: v.boot_ms(),
+        xacc,
+        yacc,
+        zacc,
+        xgyro,
+        ygyro,
+        zgyro,
+        xmag,
+        ymag,
+        zmag,
+        ..Default::default()
+    }))
+}
+
+pub(super) fn raw_imu(v: &View) -> Option<MavMessage> {
+    let [[xacc, yacc, zacc], [xgyro, ygyro, zgyro], [xmag, ymag, zmag]] = milli(v)?;
     Some(MavMessage::RAW_IMU(RAW_IMU_DATA {
         time_usec: v.boot_us(),
         xacc,

@@ -4,12 +4,12 @@
 use super::super::params::metadata;
 use super::super::view::View;
 use crate::mav::dialect::{
-    AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, COMPONENT_INFORMATION_DATA, COMPONENT_METADATA_DATA, CURRENT_MODE_DATA,
-    ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags, FENCE_STATUS_DATA, FLIGHT_INFORMATION_DATA,
-    FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavBatteryChargeState, MavBatteryFault, MavBatteryFunction,
-    MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag, MavSysStatusSensor, MavSysStatusSensorExtended,
-    MavType, MavVtolState, MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA,
-    VIBRATION_DATA, WIND_COV_DATA,
+    ACTUATOR_OUTPUT_STATUS_DATA, AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, COMPONENT_INFORMATION_DATA,
+    COMPONENT_METADATA_DATA, CURRENT_MODE_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags,
+    FENCE_STATUS_DATA, FLIGHT_INFORMATION_DATA, FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavBatteryChargeState,
+    MavBatteryFault, MavBatteryFunction, MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag,
+    MavSysStatusSensor, MavSysStatusSensorExtended, MavType, MavVtolState, MissionState, PROTOCOL_VERSION_DATA,
+    SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
 };
 use crate::sitl::autopilot::fence::Breach;
 use crate::sitl::autopilot::{Landed, Mode};
@@ -130,6 +130,20 @@ pub(super) fn servos(v: &View) -> Option<MavMessage> {
         servo4_raw: pwm(3),
         servo9_raw: if v.vehicle.lamp.flux_lm > 0.0 { lamp } else { 0 },
         ..Default::default()
+    }))
+}
+
+/// The rotors' outputs alone, as pulse widths, us.
+pub(super) fn outputs(v: &View) -> Option<MavMessage> {
+    let rotors = v.vehicle.rotors.len().min(v.actuators.motors.len());
+    let mut actuator = [0.0; 32];
+    for (slot, motor) in actuator.iter_mut().zip(&v.actuators.motors[..rotors]) {
+        *slot = if v.actuators.armed { (1000.0 + 1000.0 * motor) as f32 } else { 900.0 };
+    }
+    Some(MavMessage::ACTUATOR_OUTPUT_STATUS(ACTUATOR_OUTPUT_STATUS_DATA {
+        time_usec: v.boot_us(),
+        active: rotors as u32,
+        actuator,
     }))
 }
 

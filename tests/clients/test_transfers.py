@@ -1,0 +1,97 @@
+"""The mission protocol step by step over UDP with pymavlink: a part of a plan, a cancelled upload, a second station in between."""
+
+import pytest
+from pymavlink import mavutil
+from pymavlink.dialects.v20 import common as mavlink
+
+import spandrel
+from spandrel import wait_for
+
+# Answers come within milliseconds; the limit only keeps a broken run from hanging, wall seconds.
+LIMIT_S = 30
+LAT, LON = 467_052_000, 83_814_000
+
+
+class Station:
+    """A ground station that speaks the mission protocol one message at a time."""
+
+    def __init__(self, port, system):
+        self.link = mavutil.mavlink_connection(f"udpout:127.0.0.1:{port}", dialect="common", source_system=system)
+        wait_for("the vehicle", self.call, limit_s=LIMIT_S)
+
+    def call(self):
+        """Says that it is there; whether the vehicle is."""
+        self.link.mav.heartbeat_send(mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, mavlink.MAV_STATE_ACTIVE)
+        return self.link.recv_match(type="HEARTBEAT", blocking=True, timeout=0.2)
+
+    def hear(self, *kinds):
+        """The next message of some kinds that is meant for this station."""
+        for _ in range(10_000):
+            message = self.link.recv_match(type=list(kinds), blocking=True, timeout=LIMIT_S)
+            assert message is not None, kinds
+            if message.target_system == self.link.source_system:
+                return message
+        raise AssertionError(kinds)
+
+    def count(self, items):
+        """Begins an upload."""
+        self.link.mav.mission_count_send(1, 1, items)
+
+    def item(self, seq, height):
+        """One waypoint."""
+        self.link.mav.mission_item_int_send(1, 1, seq, mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT, mavlink.MAV_CMD_NAV_WAYPOINT, 0, 1,
+                                            0, 0, 0, float("nan"), LAT, LON, height)
+
+    def answer(self, until_seq, height):
+        """Sends what is asked for until an item or an acknowledgement; the acknowledgement's result."""
+        while True:
+            heard = self.hear("MISSION_REQUEST_INT", "MISSION_ACK")
+            if heard.get_type() == "MISSION_ACK":
+                return heard.type
+            if heard.seq == until_seq:
+                return None
+            self.item(heard.seq, height)
+
+    def heights(self):
+        """The plan that the vehicle has."""
+        self.link.mav.mission_request_list_send(1, 1)
+        found = []
+        for seq in range(self.hear("MISSION_COUNT").count):
+            self.link.mav.mission_request_int_send(1, 1, seq)
+            item = self.hear("MISSION_ITEM_INT")
+            assert item.seq == seq
+            found.append(item.z)
+        self.link.mav.mission_ack_send(1, 1, mavlink.MAV_MISSION_ACCEPTED)
+        return found
+
+
+@pytest.mark.timeout(300)
+def test_wire_pymavlink_transfers_survive_parts_cancellations_and_other_stations(tmp_path):
+    """What is not whole changes nothing; who began first ends first."""
+    unused, port = spandrel.free_udp_port(), spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, unused, speed=1, gcs_port=port)
+    try:
+        one, two = Station(port, 250), Station(port, 251)
+        one.count(6)
+        assert one.answer(None, 5.0) == mavlink.MAV_MISSION_ACCEPTED
+        one.link.mav.mission_write_partial_list_send(1, 1, 2, 3)
+        assert one.answer(None, 9.0) == mavlink.MAV_MISSION_ACCEPTED
+        assert two.heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
+        # Cancelled in the middle: the plan stays.
+        one.count(4)
+        assert one.answer(2, 7.0) is None
+        one.link.mav.mission_ack_send(1, 1, mavlink.MAV_MISSION_OPERATION_CANCELLED)
+        assert one.heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
+        # A second station reads in the middle of the first one's upload, and may not write.
+        one.count(3)
+        assert one.answer(1, 8.0) is None
+        assert two.heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
+        two.count(1)
+        assert two.answer(None, 1.0) == mavlink.MAV_MISSION_DENIED
+        one.item(1, 8.0)
+        assert one.answer(None, 8.0) == mavlink.MAV_MISSION_ACCEPTED
+        two.count(1)
+        assert two.answer(None, 1.0) == mavlink.MAV_MISSION_ACCEPTED
+        assert one.heights() == [1.0]
+    finally:
+        spandrel.end(process)
