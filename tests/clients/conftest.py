@@ -8,9 +8,9 @@ import spandrel
 
 
 @pytest.fixture
-def flight(tmp_path):
-    """Simulator and monitor for one test."""
-    flight = spandrel.Flight(tmp_path)
+def flight(request, tmp_path):
+    """Simulator and monitor for one test, in PX4's flavour unless the test says another."""
+    flight = spandrel.Flight(tmp_path, flavour=getattr(request, "param", "px4"))
     yield flight
     flight.close()
     print((tmp_path / "log.txt").read_text(encoding="utf-8")[-4000:])

@@ -14,7 +14,10 @@ from spandrel import wait_for
 
 M = mavutil.mavlink
 CAMERA = 100
-POSITION_MODE = 3  # PX4's main mode number of POSCTL
+# PX4's main mode number of POSCTL, ArduCopter's number of POSHOLD.
+POSITION_MODE = {M.MAV_AUTOPILOT_PX4: 3, M.MAV_AUTOPILOT_ARDUPILOTMEGA: 16}
+# A telemetry rate that a stick loop can live with, Hz of vehicle time.
+RATE_HZ = 50
 EARTH_M_PER_DEG = 111_319.49  # WGS84 equatorial radius times pi / 180
 
 
@@ -23,7 +26,10 @@ class Client:
 
     def __init__(self, port):
         self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
-        self.link.wait_heartbeat(timeout=60)
+        beat = wait_for("a heartbeat", lambda: (b := self.link.wait_heartbeat(timeout=60)) and b.get_srcComponent() == 1 and b)
+        self.autopilot = beat.autopilot
+        if self.autopilot == M.MAV_AUTOPILOT_ARDUPILOTMEGA:
+            self.link.mav.request_data_stream_send(self.link.target_system, 1, M.MAV_DATA_STREAM_ALL, RATE_HZ, 1)
         self.state = {}
         self.texts = []
         self.beat_at = 0.0
@@ -89,6 +95,7 @@ class Client:
         self.wait(f"reaching {target}", step)
 
 
+@pytest.mark.parametrize("flight", ["px4", "ardupilot"], indirect=True)
 @pytest.mark.timeout(900)
 def test_wire_pymavlink_flies_the_first_task_and_is_scored(flight, job):
     """From a standing start to four scores."""
@@ -104,7 +111,7 @@ def test_wire_pymavlink_flies_the_first_task_and_is_scored(flight, job):
         return handpilot.aim(here, defect)[0]
 
     client.sticks((0, 0, 0, 0))
-    assert client.command(M.MAV_CMD_DO_SET_MODE, 1, POSITION_MODE) == M.MAV_RESULT_ACCEPTED
+    assert client.command(M.MAV_CMD_DO_SET_MODE, 1, POSITION_MODE[client.autopilot]) == M.MAV_RESULT_ACCEPTED
     assert client.command(M.MAV_CMD_COMPONENT_ARM_DISARM, 1) == M.MAV_RESULT_ACCEPTED
     for target in plan["out"] + plan["path"]:
         client.fly_to(target, face)
