@@ -384,6 +384,41 @@ fn flight_a_copters_climb_is_as_fast_as_its_parameter_says() {
 }
 
 #[test]
+fn flight_a_copters_fence_acts_while_its_parameter_says_so() {
+    let mut station = copter_at(5.0);
+    let count = MISSION_COUNT_DATA {
+        count: 1,
+        target_system: 1,
+        target_component: 1,
+        mission_type: MavMissionType::MAV_MISSION_TYPE_FENCE,
+        ..Default::default()
+    };
+    station.send(&MavMessage::MISSION_COUNT(count));
+    let circle = MISSION_ITEM_INT_DATA {
+        param1: 30.0,
+        mission_type: MavMissionType::MAV_MISSION_TYPE_FENCE,
+        ..item(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, 0.0, 0.0)
+    };
+    let done = station.ask(&MavMessage::MISSION_ITEM_INT(circle), |m| match m {
+        MavMessage::MISSION_ACK(ack) => Some(ack.mavtype),
+        _ => None,
+    });
+    assert_eq!(done, Some(MavMissionResult::MAV_MISSION_ACCEPTED));
+    let north = PAD.0 + (60.0 / M_PER_E7) as i32;
+    let there = [-1.0, 1.0, 0.0, f32::NAN, (f64::from(north) * 1e-7) as f32, (f64::from(PAD.1) * 1e-7) as f32, 470.0];
+    for (enabled, result) in [(1.0, FAILED), (0.0, ACCEPTED)] {
+        station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
+            target_system: 1,
+            target_component: 1,
+            param_id: "FENCE_ENABLE".into(),
+            param_value: enabled,
+            param_type: MavParamType::MAV_PARAM_TYPE_INT8,
+        }));
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPOSITION, there), result, "enabled {enabled}");
+    }
+}
+
+#[test]
 fn wire_the_packed_parameters_come_whole_over_ftp_and_other_flavours_have_none() {
     for (flavour, there) in [(&ardupilot::FLAVOUR, true), (&px4::FLAVOUR, false), (&generic::FLAVOUR, false)] {
         let mut station = Station::speaking(flavour, "drill-hover", 7);

@@ -264,7 +264,7 @@ impl Autopilot {
     }
 
     fn acts(&self) -> bool {
-        self.fence.on && self.tuning.fence_action != FenceAction::None
+        self.fence.on && self.tuning.fence_enabled && self.tuning.fence_action != FenceAction::None
     }
 
     /// Whether there is a fence at all.

@@ -79,6 +79,8 @@ pub struct Tuning {
     pub disarm_before_flight_s: f64,
     /// `GF_ACTION`: what a breach of the geofence leads to.
     pub fence_action: super::FenceAction,
+    /// `FENCE_ENABLE` (ArduPilot): the geofence acts.
+    pub fence_enabled: bool,
     /// `GF_MAX_HOR_DIST`: farthest from home, m; 0: no limit.
     pub fence_distance_m: f64,
     /// `GF_MAX_VER_DIST`: highest over home, m; 0: no limit.
@@ -140,6 +142,7 @@ impl Default for Tuning {
             disarm_after_landing_s: 2.0,
             disarm_before_flight_s: 10.0,
             fence_action: super::FenceAction::Hold,
+            fence_enabled: true,
             fence_distance_m: 0.0,
             fence_height_m: 0.0,
             stick_takeover: true,

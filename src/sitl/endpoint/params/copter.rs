@@ -22,6 +22,7 @@ const STICK_LOSSES: &[(i32, i32)] = &[(1, 2), (3, 3), (7, 1)];
 const FENCE_ACT: &[(i32, &str)] = &[(0, "Report only"), (1, "Return"), (2, "Land"), (4, "Brake")];
 /// A breach that ours terminates, or only warns of, has no number there.
 const FENCE_ACTS: &[(i32, i32)] = &[(0, 1), (1, 3), (2, 5), (4, 2)];
+const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 const ONE: &[(i32, &str)] = &[(1, "As it is")];
 
 /// Rows, in the order of their names.
@@ -93,11 +94,17 @@ fn acting() -> Vec<Row> {
         out.behind = Behind::Capacity(other);
         out
     };
+    let enable = |name, group, short| {
+        let mut out = row(name, Int(1), (0.0, 1.0), "", group, short).values(OFF_ON);
+        out.wire = INT8;
+        out
+    };
     vec![
         of_capacity("BATT_CRT_MAH", "BAT_CRIT_THR", "Charge left that counts as critical"),
         of_capacity("BATT_LOW_MAH", "BAT_LOW_THR", "Charge left that counts as low"),
         scaled("DISARM_DELAY", "COM_DISARM_PRFLT", 1.0, REAL32, "s", "ARMING"),
         mapped("FENCE_ACTION", "GF_ACTION", FENCE_ACTS, FENCE_ACT, "FENCE"),
+        enable("FENCE_ENABLE", "FENCE", "The geofence acts"),
         scaled("FENCE_ALT_MAX", "GF_MAX_VER_DIST", 1.0, REAL32, "m", "FENCE"),
         scaled("FENCE_RADIUS", "GF_MAX_HOR_DIST", 1.0, REAL32, "m", "FENCE"),
         mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSSES, LOSS, "FS"),

@@ -357,6 +357,7 @@ impl Params {
         tuning.disarm_after_landing_s = self.number("COM_DISARM_LAND");
         tuning.disarm_before_flight_s = self.number("COM_DISARM_PRFLT");
         tuning.fence_action = FenceAction::from_number(self.number("GF_ACTION") as i32).unwrap_or(FenceAction::Hold);
+        tuning.fence_enabled = self.whole("FENCE_ENABLE") != Some(0);
         tuning.fence_distance_m = self.number("GF_MAX_HOR_DIST");
         tuning.fence_height_m = self.number("GF_MAX_VER_DIST");
         tuning.manual_loss = LinkLoss::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLoss::Hold);
