@@ -8,6 +8,7 @@ os.environ["MAVLINK20"] = "1"
 
 import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.action import Action, ActionError, RelayCommand
 from mavsdk.plugins.camera import Camera, CameraError, Mode, Option, PhotosRange, Setting
 from mavsdk.plugins.gimbal import ControlMode, Gimbal, GimbalError, GimbalMode, SendMode
 from mavsdk.plugins.telemetry import Telemetry
@@ -74,16 +75,24 @@ class Station:
 class Rig:
     """MAVSDK's plugins for one vehicle with a zoom lens, and a second station."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, *more):
         port, second = spandrel.free_udp_port(), spandrel.free_udp_port()
         self.station = Station(second)
-        self.process = spandrel.start_sim(folder, port, "--vehicle", "m30", "--gcs", f"127.0.0.1:{second}")
+        self.process = spandrel.start_sim(folder, port, "--vehicle", "m30", "--gcs", f"127.0.0.1:{second}", *more)
         self.mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
         self.mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
         system = self.mavsdk.first_autopilot(60.0)
         assert system is not None, "no vehicle discovered"
-        self.telemetry, self.camera, self.gimbal = Telemetry(system), Camera(system), Gimbal(system)
+        self.action, self.telemetry = Action(system), Telemetry(system)
+        self.camera, self.gimbal = Camera(system), Gimbal(system)
         self.station.wait("heartbeat", lambda: ("HEARTBEAT", CAMERA) in self.station.last)
+
+    def close(self):
+        """Ends the vehicle, then MAVSDK: it must be the last of its things to go."""
+        spandrel.end(self.process)
+        for plugin in ("action", "telemetry", "camera", "gimbal"):
+            getattr(self, plugin).destroy()
+            delattr(self, plugin)
 
 
 @pytest.fixture
@@ -91,11 +100,7 @@ def rig(tmp_path):
     """One simulated vehicle and its two stations."""
     rig = Rig(tmp_path)
     yield rig
-    spandrel.end(rig.process)
-    # MAVSDK itself must be the last of its things to go.
-    for plugin in ("telemetry", "camera", "gimbal"):
-        getattr(rig, plugin).destroy()
-        delattr(rig, plugin)
+    rig.close()
 
 
 def found(rig):
@@ -334,3 +339,29 @@ def test_wire_older_forms_of_camera_mount_and_lamp_commands_are_answered(rig):
         assert station.command(AUTOPILOT, *command) == ok, command
         station.wait(f"lamp {on} by {command}", lambda o=on: lamp() == o)
     assert station.command(AUTOPILOT, M.MAV_CMD_DO_SET_RELAY, 3, 1) == denied
+
+
+@pytest.mark.timeout(300)
+@pytest.mark.parametrize("flavour, output, on, off", [("px4", 1, 1.0, -1.0), ("ardupilot", 9, 1900.0, 1100.0)])
+def test_wire_mavsdk_switches_the_lamp_as_relay_and_actuator(tmp_path, flavour, output, on, off):
+    """set_relay and set_actuator, which MAVSDK sends as another command to an ArduPilot."""
+    rig = Rig(tmp_path, "--flavour", flavour)
+    try:
+        station = rig.station
+
+        def lamp():
+            return station.command(AUTOPILOT, M.MAV_CMD_REQUEST_MESSAGE, 376) == M.MAV_RESULT_ACCEPTED and station.told("RELAY_STATUS", 1).on
+
+        for switch, wanted in [
+            (lambda: rig.action.set_relay(0, RelayCommand.ON), 1),
+            (lambda: rig.action.set_actuator(output, off), 0),
+            (lambda: rig.action.set_actuator(output, on), 1),
+            (lambda: rig.action.set_relay(0, RelayCommand.OFF), 0),
+        ]:
+            switch()
+            wait_for(f"lamp {wanted}", lambda w=wanted: lamp() == w)
+        for refused in (lambda: rig.action.set_relay(1, RelayCommand.ON), lambda: rig.action.set_actuator(2, 1.0)):
+            with pytest.raises(ActionError):
+                refused()
+    finally:
+        rig.close()
