@@ -61,7 +61,10 @@ impl Child {
     pub fn announced(&mut self) -> Result<Value, AppError> {
         let name = self.name;
         let line = self.lines.recv_timeout(START_LIMIT).map_err(|_| match self.ended() {
-            Some(status) => AppError::failed(format!("the {name} did not start ({status}); its message stands above")),
+            Some(status) => {
+                let why = format!("the {name} did not start ({status}); its message stands above");
+                if status.code() == Some(2) { AppError::wrong(why) } else { AppError::failed(why) }
+            }
             None => AppError::failed(format!("the {name} has not started after {} s", START_LIMIT.as_secs())),
         })?;
         serde_json::from_str(&line).map_err(|error| AppError::failed(format!("the {name} announced '{line}': {error}")))

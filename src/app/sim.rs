@@ -129,7 +129,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = Stop::install(args.leash)?;
     let scenario = Arc::new(files::scenario(&args.job.scenario)?.scenario);
     let vehicle = Arc::new(files::vehicle(&args.job.vehicle)?.vehicle);
-    let seed = args.job.seed.or(scenario.seed).unwrap_or_else(args::fresh_seed);
+    let seed = args.job.seed_for(&scenario);
     let signing = signing(args)?;
     let mut doors = (0..args.instances).map(|more| Door::open(args, more)).collect::<Result<Vec<_>, _>>()?;
     let progress = Progress::start("building the site");

@@ -22,19 +22,20 @@ const LIMIT_S: f64 = 1_200.0;
 /// One way of the link.
 struct Way {
     stream: RandomStream,
+    loss: f64,
     under_way: BTreeMap<(i64, u64), Vec<u8>>,
     count: u64,
 }
 
 impl Way {
-    fn new(seed: u64, name: &str) -> Self {
-        Self { stream: RandomStream::new(seed, name), under_way: BTreeMap::new(), count: 0 }
+    fn new(seed: u64, name: &str, loss: f64) -> Self {
+        Self { stream: RandomStream::new(seed, name), loss, under_way: BTreeMap::new(), count: 0 }
     }
 
     fn send(&mut self, bytes: &[u8], now: SimTime) {
         let copies = if self.stream.uniform() < DOUBLED { 2 } else { 1 };
         for _ in 0..copies {
-            if self.stream.uniform() >= LOSS {
+            if self.stream.uniform() >= self.loss {
                 let at = now.ms() + self.stream.range(DELAY_MS.0, DELAY_MS.1) as i64;
                 self.count += 1;
                 self.under_way.insert((at, self.count), bytes.to_vec());
@@ -58,9 +59,14 @@ struct Client {
 
 impl Client {
     fn new(seed: u64) -> Self {
+        Self::losing(seed, LOSS)
+    }
+
+    fn losing(seed: u64, loss: f64) -> Self {
         let mut station = Station::new("drill-hover", 7);
         station.run_ms(2_500);
-        Self { station, there: Way::new(seed, "there"), back: Way::new(seed, "back"), encoder: Encoder::new(255, 190) }
+        let (there, back) = (Way::new(seed, "there", loss), Way::new(seed, "back", loss));
+        Self { station, there, back, encoder: Encoder::new(255, 190) }
     }
 
     /// A millisecond passes; what the client hears.
@@ -103,9 +109,19 @@ fn count(count: u16) -> MavMessage {
 
 #[test]
 fn wire_a_mission_goes_up_and_comes_down_over_a_bad_link() {
-    let mut client = Client::new(1);
+    up_and_down(&mut Client::new(1), 40);
+}
+
+/// What MAVLink's own testing suite asked: 500 items while a quarter of all datagrams is lost.
+#[test]
+fn wire_five_hundred_items_go_up_and_come_down_while_a_quarter_is_lost() {
+    up_and_down(&mut Client::losing(5, 0.25), 500);
+}
+
+fn up_and_down(client: &mut Client, number: u16) {
     let home = home_north(&client.station);
-    let items: Vec<_> = (0..40).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 2.0 * f64::from(k), 6.0)).collect();
+    let waypoint = |k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 2.0 * f64::from(k), 6.0);
+    let items: Vec<_> = (0..number).map(waypoint).collect();
     // The vehicle asks for one item after the other; whatever it asks for last is sent.
     let next = |m: &MavMessage| match m {
         MavMessage::MISSION_REQUEST_INT(r) => Some(Some(r.seq)),
