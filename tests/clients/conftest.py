@@ -3,8 +3,11 @@
 import json
 
 import pytest
+from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.telemetry import Telemetry
 
 import spandrel
+from spandrel import wait_for
 
 
 @pytest.fixture
@@ -20,3 +23,19 @@ def flight(request, tmp_path):
 def job():
     """The job as exported: paths, defects, limits."""
     return json.loads(spandrel.run("export", "two-bridges", "--seed", "7", "--scenario", "-"))
+
+
+@pytest.fixture
+def vehicle(tmp_path):
+    """MAVSDK's system for a simulated vehicle that would arm, and its telemetry."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port)
+    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
+    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
+    system = mavsdk.first_autopilot(60.0)
+    assert system is not None, "no vehicle discovered"
+    telemetry = Telemetry(system)
+    wait_for("health_all_ok", telemetry.health_all_ok)
+    yield system, telemetry
+    mavsdk.destroy()
+    spandrel.end(process)

@@ -5,14 +5,13 @@ import math
 import time
 
 import pytest
-from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action
 from mavsdk.plugins.geofence import Circle, FenceType, Geofence, GeofenceData, Point
 from mavsdk.plugins.gimbal import ControlMode, Gimbal, GimbalMode, SendMode
 from mavsdk.plugins.mission_raw import MissionItem, MissionRaw
 from mavsdk.plugins.offboard import AttitudeRate, Offboard, PositionNedYaw, VelocityBodyYawspeed
 from mavsdk.plugins.param import Param
-from mavsdk.plugins.telemetry import FlightMode, Telemetry
+from mavsdk.plugins.telemetry import FlightMode
 
 import spandrel
 from spandrel import wait_for
@@ -24,21 +23,6 @@ OVER_HOME, ANY = 6, 2
 E7_A_METRE = 1e7 * 360.0 / 40_000_000.0
 # The vehicle's own estimate is compared with what was asked of it, m and m/s.
 NEAR_M, NEAR_M_S = 0.7, 0.4
-
-
-@pytest.fixture
-def vehicle(tmp_path):
-    """MAVSDK's system for a simulated vehicle that would arm."""
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port)
-    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
-    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
-    system = mavsdk.first_autopilot(60.0)
-    assert system is not None, "no vehicle discovered"
-    telemetry = Telemetry(system)
-    wait_for("health_all_ok", telemetry.health_all_ok)
-    yield system, telemetry
-    spandrel.end(process)
 
 
 def place(telemetry):

@@ -5,14 +5,13 @@ import math
 import time
 
 import pytest
-from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action, OrbitYawBehavior, RelayCommand
 from mavsdk.plugins.info import Info, InfoError
 from mavsdk.plugins.manual_control import ManualControl
 from mavsdk.plugins.mission import Mission, MissionItem, MissionPlan
 from mavsdk.plugins.mission_raw import MissionItem as RawItem
 from mavsdk.plugins.mission_raw import MissionRaw
-from mavsdk.plugins.telemetry import FlightMode, LandedState, Telemetry
+from mavsdk.plugins.telemetry import FlightMode, LandedState
 
 import spandrel
 from spandrel import wait_for
@@ -24,22 +23,6 @@ A_METRE = 360.0 / 40_000_000.0
 TRUTH_M = 5.0
 # What was asked against what is told, m.
 NEAR_M = 1.2
-
-
-@pytest.fixture
-def vehicle(tmp_path):
-    """MAVSDK's system for a simulated vehicle that would arm, and its telemetry."""
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port)
-    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
-    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
-    system = mavsdk.first_autopilot(60.0)
-    assert system is not None, "no vehicle discovered"
-    telemetry = Telemetry(system)
-    wait_for("health_all_ok", telemetry.health_all_ok)
-    yield system, telemetry
-    mavsdk.destroy()
-    spandrel.end(process)
 
 
 def take_off(action, telemetry, height_m):
