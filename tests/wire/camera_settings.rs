@@ -152,6 +152,9 @@ fn wire_the_camera_serves_the_file_that_describes_its_settings_and_no_other() {
     for setting in ["CAM_PHOTOQUAL", "CAM_VIDRATE"] {
         assert!(xml.contains(&format!("<parameter name=\"{setting}\" type=\"uint32\"")), "{setting}");
     }
+    // As QGroundControl reads the place.
+    let rooted = transfer(&mut station, CAMERA, Opcode::OpenFileRo, (0, 0), b"/camera.xml", 11);
+    assert_eq!((rooted.opcode, number(&rooted.data)), (ACK, size));
     for (component, path) in [(CAMERA, "/etc/extras/parameter.json.xz"), (CAMERA, "../camera"), (1, "camera.xml")] {
         let refused = transfer(&mut station, component, Opcode::OpenFileRo, (0, 0), path.as_bytes(), path.len() as u8);
         assert_eq!(refused.opcode, NAK, "{component} {path}");
