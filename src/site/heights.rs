@@ -51,6 +51,27 @@ impl Cell {
     }
 }
 
+/// Where a ray is once it has passed over a block.
+struct Passed {
+    column: i64,
+    row: i64,
+    t: f64,
+}
+
+/// Distance along a ray at which it leaves a column or row of cells, through the side that it moves towards.
+fn leaves(cell: i64, from: f64, rate: f64) -> f64 {
+    if rate == 0.0 { f64::INFINITY } else { ((cell + i64::from(rate > 0.0)) as f64 - from) / rate }
+}
+
+/// The row or column in which a ray is after it has crossed all the sides that it crosses before something else.
+fn lane(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i64 {
+    let forward = if rate > 0.0 { 1 } else { -1 };
+    while before(leaves(cell, from, rate)) {
+        cell += forward;
+    }
+    cell
+}
+
 impl HeightGrid {
     /// From heights row by row from the south, each row from the west; the grid is centred on the scenario's origin.
     ///
@@ -246,13 +267,17 @@ impl HeightGrid {
         let (dx, dy) = (direction.east() / self.spacing_m, direction.north() / self.spacing_m);
         let mut column = (x0 + dx * start).floor() as i64;
         let mut row = (y0 + dy * start).floor() as i64;
-        // The ray leaves a cell through the side that it moves towards.
-        let side_at = |cell: i64, from: f64, rate: f64| {
-            if rate == 0.0 { f64::INFINITY } else { ((cell + i64::from(rate > 0.0)) as f64 - from) / rate }
-        };
-        let (mut next_x, mut next_y) = (side_at(column, x0, dx), side_at(row, y0, dy));
+        let (mut next_x, mut next_y) = (leaves(column, x0, dx), leaves(row, y0, dy));
         let mut t = start;
         while t < end {
+            if let Some(over) = self.over_block((origin, direction), (x0, y0), (dx, dy), (column, row), (t, end)) {
+                if over.t >= end {
+                    return None;
+                }
+                (column, row, t) = (over.column, over.row, over.t);
+                (next_x, next_y) = (leaves(column, x0, dx), leaves(row, y0, dy));
+                continue;
+            }
             // Rounding may put a cell's side a hair behind.
             let leave = next_x.min(next_y).min(end).max(t);
             let cell = self.cell(column, row);
@@ -264,14 +289,43 @@ impl HeightGrid {
             }
             if next_x <= next_y {
                 column += if dx > 0.0 { 1 } else { -1 };
-                next_x = side_at(column, x0, dx);
+                next_x = leaves(column, x0, dx);
             } else {
                 row += if dy > 0.0 { 1 } else { -1 };
-                next_y = side_at(row, y0, dy);
+                next_y = leaves(row, y0, dy);
             }
             t = leave;
         }
         None
+    }
+
+    /// Passes over the rest of a block whose ground lies all below the ray, to the very cell that going from cell to cell would come to.
+    fn over_block(
+        &self,
+        (origin, direction): (Vec3<Enu>, Vec3<Enu>),
+        from: (f64, f64),
+        rate: (f64, f64),
+        cell: (i64, i64),
+        (t, end): (f64, f64),
+    ) -> Option<Passed> {
+        let block = (cell.0.div_euclid(BLOCK), cell.1.div_euclid(BLOCK));
+        // The cell of the block that the ray leaves it by, along one axis.
+        let last = |block: i64, rate: f64| block * BLOCK + if rate > 0.0 { BLOCK - 1 } else { 0 };
+        let (last_column, last_row) = (last(block.0, rate.0), last(block.1, rate.1));
+        let (out_x, out_y) = (leaves(last_column, from.0, rate.0), leaves(last_row, from.1, rate.1));
+        let leave = out_x.min(out_y).min(end).max(t);
+        let low = (origin.up() + direction.up() * t).min(origin.up() + direction.up() * leave);
+        if low <= self.block(block.1, block.0).1 {
+            return None;
+        }
+        let forward = |rate: f64| if rate > 0.0 { 1 } else { -1 };
+        let (column, row) = if out_x <= out_y {
+            // Of two sides met at once the eastern or western one is crossed first.
+            (last_column + forward(rate.0), lane(cell.1, from.1, rate.1, |side| side < out_x))
+        } else {
+            (lane(cell.0, from.0, rate.0, |side| side <= out_y), last_row + forward(rate.1))
+        };
+        Some(Passed { column, row, t: leave })
     }
 
     /// The first point at which the ray is no longer over the cell's two triangles, between two distances.
