@@ -4,7 +4,7 @@ use super::{Model, Obstacles, RigidState, State};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::SimTime;
 use crate::site::{Contact, ObjectId, Surface};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Near-contacts are asked for within this beyond one step's travel, m.
 pub const MARGIN_M: f64 = 0.01;
@@ -17,9 +17,9 @@ const SLOP_M: f64 = 1e-5;
 /// Share of the penetration mended a step.
 const MEND: f64 = 0.2;
 /// Rounds of the impulse solver; a resting body starts from the last step's impulses and needs few.
-const ROUNDS: usize = 40;
+const ROUNDS: usize = 16;
 /// An impulse change below this share of the weight's impulse ends the rounds.
-const SETTLED: f64 = 1e-12;
+const SETTLED: f64 = 1e-9;
 /// A rotor that touches loses its speed with this time constant, s (estimate).
 const ROTOR_STRIKE_S: f64 = 0.08;
 
@@ -62,6 +62,8 @@ struct Constraint {
     gap: f64,
     target: f64,
     approach: f64,
+    /// What impulses here do to the body, and how far its own place gives way.
+    gives: Gives,
     inverse_effective: f64,
     impulse: Vector3<f64>,
     active: bool,
@@ -96,26 +98,31 @@ pub fn resolve(model: &Model, state: &mut State, start: &RigidState, obstacles: 
 
 struct Body {
     inverse_mass: f64,
-    inverse_inertia: nalgebra::Matrix3<f64>,
+    inverse_inertia: Matrix3<f64>,
 }
 
 impl Body {
     fn new(model: &Model, rigid: &RigidState) -> Self {
         let r = rigid.attitude.matrix();
-        let inverse_inertia = r * nalgebra::Matrix3::from_diagonal(&model.inverse_inertia) * r.transpose();
+        let inverse_inertia = r * Matrix3::from_diagonal(&model.inverse_inertia) * r.transpose();
         Self { inverse_mass: model.inverse_mass, inverse_inertia }
     }
 
-    /// Velocity change at `arm` along `direction` for a unit impulse there.
-    fn mobility(&self, arm: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
-        let turn = arm.cross(direction);
-        self.inverse_mass + turn.dot(&(self.inverse_inertia * turn))
+    /// How it gives way to impulses at `arm`.
+    fn gives(&self, arm: &Vector3<f64>) -> Gives {
+        let cross = arm.cross_matrix();
+        let spin = self.inverse_inertia * cross;
+        Gives { spin, place: Matrix3::identity() * self.inverse_mass - cross * spin }
     }
+}
 
-    fn apply(&self, v: &mut Vector3<f64>, w: &mut Vector3<f64>, arm: &Vector3<f64>, impulse: &Vector3<f64>) {
-        *v += impulse * self.inverse_mass;
-        *w += self.inverse_inertia * arm.cross(impulse);
-    }
+/// How a body gives way to an impulse at a place of it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Gives {
+    /// Change of its spin.
+    spin: Matrix3<f64>,
+    /// Change of the place's velocity.
+    place: Matrix3<f64>,
 }
 
 fn gather(model: &Model, pose: &RigidState, obstacles: &impl Obstacles, at: SimTime, margin_m: f64) -> Vec<Constraint> {
@@ -138,6 +145,7 @@ fn gather(model: &Model, pose: &RigidState, obstacles: &impl Obstacles, at: SimT
                 gap: contact.gap_m,
                 target: 0.0,
                 approach: 0.0,
+                gives: Gives::default(),
                 inverse_effective: 0.0,
                 impulse: Vector3::zeros(),
                 active: false,
@@ -155,7 +163,8 @@ fn prepare(constraints: &mut [Constraint], body: &Body, rigid: &RigidState, rest
         c.approach = -relative.dot(&c.normal);
         let allowed = c.gap.max(0.0) / dt_s;
         c.target = if c.approach > allowed && c.approach > BOUNCE_M_S { restitution * c.approach } else { -allowed };
-        c.inverse_effective = 1.0 / body.mobility(&c.arm, &c.normal);
+        c.gives = body.gives(&c.arm);
+        c.inverse_effective = 1.0 / c.normal.dot(&(c.gives.place * c.normal));
     }
 }
 
@@ -180,7 +189,8 @@ fn solve(
     let mut v = rigid.velocity_m_s.raw();
     let mut w = (rigid.attitude * rigid.rates_rad_s).raw();
     for c in constraints.iter() {
-        body.apply(&mut v, &mut w, &c.arm, &c.impulse);
+        v += c.impulse * body.inverse_mass;
+        w += c.gives.spin * c.impulse;
     }
     let settled = SETTLED * model.mass_kg * crate::base::math::GRAVITY_M_S2 * dt_s;
     for _ in 0..ROUNDS {
@@ -204,26 +214,25 @@ fn one_contact(c: &mut Constraint, body: &Body, v: &mut Vector3<f64>, w: &mut Ve
     let relative = *v + w.cross(&c.arm) - c.object_velocity;
     let normal_old = old.dot(&c.normal);
     let normal_new = (normal_old + (c.target - relative.dot(&c.normal)) * c.inverse_effective).max(0.0);
-    let change = c.normal * (normal_new - normal_old);
-    body.apply(v, w, &c.arm, &change);
-    let relative = *v + w.cross(&c.arm) - c.object_velocity;
+    let relative = relative + c.gives.place * (c.normal * (normal_new - normal_old));
     let slide = relative - c.normal * relative.dot(&c.normal);
     let tangent_old = old - c.normal * normal_old;
     let speed = slide.norm();
     let mut tangent_new = tangent_old;
     if speed > 0.0 {
         let direction = slide / speed;
-        tangent_new -= direction * (speed / body.mobility(&c.arm, &direction));
+        tangent_new -= direction * (speed / direction.dot(&(c.gives.place * direction)));
     }
     let limit = friction * normal_new;
     let size = tangent_new.norm();
     if size > limit {
         tangent_new *= limit / size;
     }
-    let turn = tangent_new - tangent_old;
-    body.apply(v, w, &c.arm, &turn);
     c.impulse = c.normal * normal_new + tangent_new;
-    (c.impulse - old).norm()
+    let change = c.impulse - old;
+    *v += change * body.inverse_mass;
+    *w += c.gives.spin * change;
+    change.norm()
 }
 
 /// Shift that mends the deepest penetration, without giving speed.
