@@ -141,6 +141,27 @@ fn wire_a_failing_battery_is_told() {
     assert!(left.unwrap() <= 5, "{left:?}");
 }
 
+/// A cell that gives nothing is shown, the pack's voltage falls by it, and it comes back.
+#[test]
+fn wire_a_failing_cell_is_shown_and_missed() {
+    let mut station = holding();
+    let cells = |s: &Station| s.last(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.voltages) } else { None }).unwrap();
+    let pack = |s: &Station| {
+        s.last(|m| if let MavMessage::SYS_STATUS(b) = m { Some(f32::from(b.voltage_battery)) } else { None }).unwrap()
+    };
+    station.run_ms(1_000);
+    let (whole, before) = (cells(&station), pack(&station));
+    assert_eq!(whole.iter().filter(|mv| **mv != u16::MAX).count(), 3, "three cells");
+    assert_eq!(inject(&mut station, BATTERY, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(1_000);
+    assert_eq!((cells(&station)[1], cells(&station)[0] > 3_000), (0, true), "{:?}", cells(&station));
+    assert!((pack(&station) / before - 2.0 / 3.0).abs() < 0.05, "{} of {before} mV", pack(&station));
+    assert_eq!(inject(&mut station, BATTERY, OFF, 4.0), MavResult::MAV_RESULT_DENIED);
+    assert_eq!(inject(&mut station, BATTERY, OK, 2.0), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(1_000);
+    assert!(cells(&station)[1] > 3_000);
+}
+
 #[test]
 fn flight_the_wind_that_an_instructor_sets_blows() {
     let mut station = holding();

@@ -18,8 +18,12 @@ impl Sim {
     pub(super) fn heed_the_instructor(&mut self) {
         while let Some(Injection { unit, kind, instance }) = self.endpoint.poll_injection() {
             self.faults.inject(unit, kind, instance, self.config.vehicle.rotors.len());
-            if unit == Unit::Battery && kind.is_some() {
-                self.state.battery.charge = Faults::charge(self.state.battery.charge);
+            let battery = &mut self.state.battery;
+            match instance.checked_sub(1) {
+                _ if unit != Unit::Battery => {}
+                Some(cell) => battery.fail_cell(cell, kind.is_some()),
+                None if kind.is_some() => battery.charge = Faults::charge(battery.charge),
+                None => battery.dead_cells = 0,
             }
         }
         let changes = self.endpoint.parameter_changes();

@@ -95,6 +95,11 @@ fn inject(c: &Command, x: &mut Context) -> MavResult {
     let (Some(unit), Some(kind)) = (unit, kind) else { return MavResult::MAV_RESULT_UNSUPPORTED };
     let instance = usize::try_from(whole(2).unwrap_or(0)).unwrap_or(usize::MAX);
     let rotors = x.view.vehicle.rotors.len();
+    let cells = x.view.vehicle.battery.cells as usize;
+    if unit == Unit::Battery && instance > cells {
+        x.tell(&format!("No such battery cell: {instance} (1 to {cells}, 0: the whole pack)"));
+        return MavResult::MAV_RESULT_DENIED;
+    }
     if !Faults::new(0).inject(unit, kind, instance, rotors) {
         return MavResult::MAV_RESULT_UNSUPPORTED;
     }

@@ -79,7 +79,9 @@ fn percent(v: &View) -> i8 {
 pub(super) fn battery(v: &View) -> Option<MavMessage> {
     let cells = v.vehicle.battery.cells.clamp(1, 10);
     let mut voltages = [u16::MAX; 10];
-    voltages[..cells as usize].fill((v.battery.voltage_v / f64::from(cells) * 1000.0).round() as u16);
+    let live = v.battery.live_cells(cells).max(1);
+    voltages[..cells as usize].fill((v.battery.voltage_v / f64::from(live) * 1000.0).round() as u16);
+    voltages.iter_mut().take(cells as usize).enumerate().filter(|(cell, _)| v.battery.is_dead(*cell)).for_each(|(_, mv)| *mv = 0);
     let state = match v.battery.remaining_pct() {
         p if p < 7.0 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL,
         p if p < 30.0 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
