@@ -85,12 +85,6 @@ impl Signing {
         Self { key, link_id, newest: stamp, heard: BTreeMap::new() }
     }
 
-    /// The newest timestamp, to be kept for the next start.
-    #[must_use]
-    pub fn newest(&self) -> u64 {
-        self.newest
-    }
-
     /// Signs a whole MAVLink 2 frame of the dialect; every call has a newer timestamp. What is signed already, or is no such frame, is
     /// left as it is.
     #[must_use]

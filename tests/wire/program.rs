@@ -36,6 +36,28 @@ fn wire_wrong_arguments_and_files_end_with_two_and_say_what_is_allowed() {
     }
 }
 
+/// Whoever opens the vehicle to a network without a key is told; on the own machine nobody is.
+#[test]
+fn wire_listening_beyond_the_own_machine_without_signing_is_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let key = folder.path().join("key");
+    std::fs::write(&key, "steelspan").unwrap();
+    let private = std::os::unix::fs::PermissionsExt::from_mode(0o600);
+    std::fs::set_permissions(&key, private).unwrap();
+    let key = key.display().to_string();
+    let alone = ["sim", "--scenario", "drill-hover", "--end-after", "0.1", "--speed", "max", "--gcs", "none", "--sdk", "none"];
+    let ports = ["--gcs-port", "0", "--payload-port", "0", "--tcp-port", "none", "--monitor-port", "none"];
+    for (more, warned) in [
+        (vec![], false),
+        (vec!["--listen", "0.0.0.0"], true),
+        (vec!["--listen", "0.0.0.0", "--signing-key", key.as_str()], false),
+    ] {
+        let (code, _, err) = told(&spandrel(&[&alone[..], &ports[..], &more[..]].concat()));
+        assert_eq!(code, Some(0), "{more:?}: {err}");
+        assert_eq!(err.contains("without --signing-key"), warned, "{more:?}: {err}");
+    }
+}
+
 #[test]
 fn wire_check_reports_every_problem_of_every_file_as_text_and_as_json() {
     let folder = tempfile::tempdir().unwrap();
