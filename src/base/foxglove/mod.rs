@@ -3,6 +3,8 @@
 //!
 //! Frames: `site` is east, north, up about the scenario's origin, m; `drone` forward, left, up; `camera` right, down, ahead.
 
+mod schema;
+
 use super::frames::{Frd, Ned, Rotation, Vec3};
 use super::geodesy::Geo;
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -58,13 +60,13 @@ impl Channel {
 
 /// All channels, in the order of [`Topic`].
 pub const CHANNELS: [Channel; 7] = [
-    Channel { topic: "/tf", schema: "foxglove.FrameTransforms", fields: transforms_schema },
-    Channel { topic: "/fix", schema: "foxglove.LocationFix", fields: fix_schema },
-    Channel { topic: "/log", schema: "foxglove.Log", fields: log_schema },
-    Channel { topic: "/camera", schema: "foxglove.CameraCalibration", fields: camera_schema },
-    Channel { topic: "/site", schema: "foxglove.SceneUpdate", fields: site_schema },
-    Channel { topic: "/battery", schema: "spandrel.Battery", fields: battery_schema },
-    Channel { topic: "/scoring", schema: "spandrel.Scoring", fields: scoring_schema },
+    Channel { topic: "/tf", schema: "foxglove.FrameTransforms", fields: schema::transforms },
+    Channel { topic: "/fix", schema: "foxglove.LocationFix", fields: schema::fix },
+    Channel { topic: "/log", schema: "foxglove.Log", fields: schema::log },
+    Channel { topic: "/camera", schema: "foxglove.CameraCalibration", fields: schema::camera },
+    Channel { topic: "/site", schema: "foxglove.SceneUpdate", fields: schema::site },
+    Channel { topic: "/battery", schema: "spandrel.Battery", fields: schema::battery },
+    Channel { topic: "/scoring", schema: "spandrel.Scoring", fields: schema::scoring },
 ];
 
 /// One message.
@@ -267,124 +269,6 @@ pub fn scoring(unix_ns: u64, s: &Scoring) -> Message {
         "speed_m_s": s.speed_m_s,
     });
     Message::new(Topic::Scoring, unix_ns, &value)
-}
-
-fn object(fields: &[(&str, Value)]) -> Value {
-    let fields: serde_json::Map<_, _> = fields.iter().map(|(name, kind)| ((*name).to_owned(), kind.clone())).collect();
-    json!({ "type": "object", "properties": fields })
-}
-
-fn list(of: &Value) -> Value {
-    json!({ "type": "array", "items": of })
-}
-
-fn kind(name: &str) -> Value {
-    json!({ "type": name })
-}
-
-fn number() -> Value {
-    kind("number")
-}
-
-fn numbers(names: &[&str]) -> Value {
-    object(&names.iter().map(|name| (*name, number())).collect::<Vec<_>>())
-}
-
-fn time_schema() -> Value {
-    object(&[("sec", kind("integer")), ("nsec", kind("integer"))])
-}
-
-fn transforms_schema() -> Value {
-    let one = object(&[
-        ("timestamp", time_schema()),
-        ("parent_frame_id", kind("string")),
-        ("child_frame_id", kind("string")),
-        ("translation", numbers(&["x", "y", "z"])),
-        ("rotation", numbers(&["x", "y", "z", "w"])),
-    ]);
-    object(&[("transforms", list(&one))])
-}
-
-fn fix_schema() -> Value {
-    object(&[
-        ("timestamp", time_schema()),
-        ("frame_id", kind("string")),
-        ("latitude", number()),
-        ("longitude", number()),
-        ("altitude", number()),
-        ("position_covariance", list(&number())),
-        ("position_covariance_type", kind("integer")),
-    ])
-}
-
-fn log_schema() -> Value {
-    object(&[
-        ("timestamp", time_schema()),
-        ("level", kind("integer")),
-        ("message", kind("string")),
-        ("name", kind("string")),
-        ("file", kind("string")),
-        ("line", kind("integer")),
-    ])
-}
-
-fn camera_schema() -> Value {
-    object(&[
-        ("timestamp", time_schema()),
-        ("frame_id", kind("string")),
-        ("width", kind("integer")),
-        ("height", kind("integer")),
-        ("distortion_model", kind("string")),
-        ("D", list(&number())),
-        ("K", list(&number())),
-        ("R", list(&number())),
-        ("P", list(&number())),
-    ])
-}
-
-fn site_schema() -> Value {
-    let pose = object(&[("position", numbers(&["x", "y", "z"])), ("orientation", numbers(&["x", "y", "z", "w"]))]);
-    let model = object(&[
-        ("pose", pose),
-        ("scale", numbers(&["x", "y", "z"])),
-        ("color", numbers(&["r", "g", "b", "a"])),
-        ("override_color", kind("boolean")),
-        ("url", kind("string")),
-        ("media_type", kind("string")),
-        ("data", json!({ "type": "string", "contentEncoding": "base64" })),
-    ]);
-    let pair = object(&[("key", kind("string")), ("value", kind("string"))]);
-    let mut fields = vec![
-        ("timestamp", time_schema()),
-        ("frame_id", kind("string")),
-        ("id", kind("string")),
-        ("lifetime", time_schema()),
-        ("frame_locked", kind("boolean")),
-        ("metadata", list(&pair)),
-    ];
-    // Foxglove wants every list of shapes named; none but models is used.
-    let shapes = ["arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts"];
-    fields.extend(shapes.map(|name| (name, list(&object(&[])))));
-    fields.push(("models", list(&model)));
-    let deletion = object(&[("timestamp", time_schema()), ("type", kind("integer")), ("id", kind("string"))]);
-    object(&[("deletions", list(&deletion)), ("entities", list(&object(&fields)))])
-}
-
-fn battery_schema() -> Value {
-    object(&[("timestamp", time_schema()), ("voltage_v", number()), ("current_a", number()), ("remaining_pct", number())])
-}
-
-fn scoring_schema() -> Value {
-    object(&[
-        ("timestamp", time_schema()),
-        ("clearance_m", number()),
-        ("lux", number()),
-        ("contact", kind("string")),
-        ("hits", kind("integer")),
-        ("respawns", kind("integer")),
-        ("lamp_on", kind("boolean")),
-        ("speed_m_s", number()),
-    ])
 }
 
 #[cfg(test)]
