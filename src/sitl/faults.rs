@@ -158,6 +158,33 @@ impl Faults {
         }
     }
 
+    /// Keeps the last good reading of every sensor that is not stuck.
+    fn hold(&mut self, fresh: &Readings) {
+        let before = self.held;
+        let stuck = |unit| self.sensors[place(unit)] == Some(Kind::Stuck);
+        let [mag, baro, gnss, flow, ranges] =
+            [Unit::Magnetometer, Unit::Barometer, Unit::Gnss, Unit::Flow, Unit::Ranges].map(stuck);
+        let held = &mut self.held;
+        held.keep(fresh);
+        if mag {
+            held.mag_gauss = before.mag_gauss;
+        }
+        if baro {
+            held.baro_up_m = before.baro_up_m;
+        }
+        if gnss {
+            held.gnss = before.gnss;
+        }
+        if flow {
+            held.flow = before.flow;
+        }
+        if ranges {
+            held.range_down_m = before.range_down_m;
+            held.range_up_m = before.range_up_m;
+            held.range_around_m = before.range_around_m;
+        }
+    }
+
     /// Spoils fresh readings.
     pub fn spoil(&mut self, fresh: &mut Readings, now: SimTime) {
         if self.sensors.iter().all(Option::is_none) {
@@ -165,6 +192,7 @@ impl Faults {
             return;
         }
         let kinds = self.sensors;
+        self.hold(fresh);
         let held = self.held;
         let noise = |stream: &mut RandomStream, scale: f64| stream.normal3().map(|x| x * scale);
         if let Some(kind) = kinds[place(Unit::Gnss)]
@@ -272,6 +300,21 @@ mod tests {
         assert_eq!(spoilt(Kind::Wrong, 0), Some(5.0 + RISE_M));
         assert_eq!((spoilt(Kind::Intermittent, 500), spoilt(Kind::Intermittent, 1_500)), (Some(5.0), None));
         assert!(spoilt(Kind::Garbage, 0).is_some_and(|up| up != 5.0));
+    }
+
+    #[test]
+    fn exact_a_sensor_that_sticks_after_another_has_failed_sticks_at_its_last_reading() {
+        let mut faults = Faults::new(1);
+        let reading = |up| Readings { baro_up_m: Some(up), ..Readings::default() };
+        faults.spoil(&mut reading(3.0), SimTime::ZERO);
+        faults.inject(Unit::Magnetometer, Some(Kind::Wrong), 0, 4);
+        faults.spoil(&mut reading(50.0), SimTime::from_ms(60_000));
+        faults.inject(Unit::Barometer, Some(Kind::Stuck), 0, 4);
+        for ms in [60_010, 90_000] {
+            let mut fresh = reading(70.0);
+            faults.spoil(&mut fresh, SimTime::from_ms(ms));
+            assert_eq!(fresh.baro_up_m, Some(50.0));
+        }
     }
 
     #[test]

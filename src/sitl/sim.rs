@@ -137,6 +137,8 @@ macro_rules! view {
             plans: $sim.endpoint.plans(),
             flavour: $sim.endpoint.flavour(),
             chosen: $sim.endpoint.chosen(),
+            system_id: $sim.endpoint.system_id(),
+            flight: $sim.endpoint.flight(),
         }
     };
 }
@@ -281,15 +283,9 @@ impl Sim {
     }
 
     fn look_for_answers(&mut self, link: LinkId, bytes: &[u8]) {
-        use crate::mav::codec::Decoder;
-        use crate::mav::dialect::MavMessage;
-        for frame in Decoder::new().datagram(bytes) {
-            if let Some(MavMessage::TIMESYNC(sync)) = frame.message
-                && sync.tc1 != 0
-                && self.waiting.get(&link) == Some(&sync.ts1)
-            {
-                self.waiting.remove(&link);
-            }
+        let Some(token) = self.waiting.get(&link) else { return };
+        if self.endpoint.answers(link, bytes).contains(token) {
+            self.waiting.remove(&link);
         }
     }
 

@@ -8,6 +8,7 @@ mod failures;
 mod fence;
 mod flavours;
 mod flights;
+mod honest;
 mod impaired;
 mod inspection;
 mod items;

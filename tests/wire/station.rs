@@ -36,20 +36,25 @@ impl Station {
 
     /// On a job and with an aircraft of one's own.
     pub fn of(scenario: Scenario, vehicle: &str, seed: u64) -> Self {
-        Self::start(&flavour::px4::FLAVOUR, scenario, vehicle, seed)
+        Self::start(&flavour::px4::FLAVOUR, scenario, vehicle, seed, 0)
     }
 
     /// As another autopilot.
     pub fn speaking(flavour: &'static Flavour, scenario_name: &str, seed: u64) -> Self {
-        Self::start(flavour, scenario(scenario_name), "phantom2", seed)
+        Self::start(flavour, scenario(scenario_name), "phantom2", seed, 0)
     }
 
-    fn start(flavour: &'static Flavour, scenario: Scenario, vehicle: &str, seed: u64) -> Self {
+    /// As one of several vehicles.
+    pub fn numbered(scenario_name: &str, seed: u64, instance: u8) -> Self {
+        Self::start(&flavour::px4::FLAVOUR, scenario(scenario_name), "phantom2", seed, instance)
+    }
+
+    fn start(flavour: &'static Flavour, scenario: Scenario, vehicle: &str, seed: u64, instance: u8) -> Self {
         let scenario = Arc::new(scenario);
         let file = format!("vehicle-params/{vehicle}.toml");
         let vehicle = Arc::new(spandrel::vehicle::read(&file, &shipped(&file)).unwrap());
         let site = Arc::new(Site::build(&scenario, seed));
-        let mut sim = Sim::new(SimConfig { scenario, vehicle, seed, instance: 0, flavour }, site);
+        let mut sim = Sim::new(SimConfig { scenario, vehicle, seed, instance, flavour }, site);
         sim.open_link(GCS, LinkKind::GroundStation, false);
         Self { sim, encoder: Encoder::new(255, 190), decoder: Decoder::new(), heard: Vec::new() }
     }

@@ -218,6 +218,9 @@ impl Autopilot {
         self.estimate = self.estimator.estimate();
         self.see(readings);
         self.supervise(now);
+        self.status.intended = self.watch.intended;
+        let t = &self.tuning;
+        (self.status.battery_low_pct, self.status.battery_critical_pct) = (t.battery_low_pct, t.battery_critical_pct);
         if !self.status.armed {
             self.status.thrust = 0.0;
             self.status.attitude_target = self.estimate.attitude;
@@ -365,6 +368,9 @@ fn boot_status() -> Status {
     Status {
         armed: false,
         mode: Mode::Position,
+        intended: Mode::Position,
+        battery_low_pct: 0.0,
+        battery_critical_pct: 0.0,
         landed: Landed::OnGround,
         arming_reasons: vec!["Booting".into()],
         failsafe: None,

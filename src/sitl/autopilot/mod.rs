@@ -197,6 +197,12 @@ pub struct Status {
     pub armed: bool,
     /// Mode.
     pub mode: Mode,
+    /// The mode that was asked for; a failsafe may fly another meanwhile.
+    pub intended: Mode,
+    /// Charge below which it warns, and below which it is critical, percent.
+    pub battery_low_pct: f64,
+    /// See `battery_low_pct`.
+    pub battery_critical_pct: f64,
     /// Ground or air.
     pub landed: Landed,
     /// Why arming would be refused now; empty when it would not.

@@ -1,12 +1,9 @@
 //! Buttons of a joystick (MANUAL_CONTROL) and what a press of each does: parameters say so.
 
-use super::Payload;
-use super::commands::{Command, payload};
+use super::commands::Command;
 use super::params::Params;
 use super::streams::AUTOPILOT;
-use super::view::View;
-use crate::mav::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavResult};
-use crate::sitl::autopilot::{Autopilot, Mode, Outcome, Request};
+use crate::mav::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavStandardMode};
 
 /// Buttons that have a parameter; others do nothing.
 pub const COUNT: usize = 16;
@@ -44,60 +41,50 @@ impl Presses {
     }
 }
 
-/// Who pressed, and what may be touched to obey.
-pub(super) struct Press<'a, 'v> {
-    /// Who pressed.
-    pub from: (u8, u8),
-    /// The vehicle now.
-    pub view: &'a View<'v>,
-    /// Camera, gimbal, lamp.
-    pub payload: &'a mut Payload,
-    /// Who flies.
-    pub autopilot: &'a mut Autopilot,
-}
-
-/// Does what a button's parameter says; a refusal comes back as words.
-pub(super) fn press(button: usize, params: &Params, x: &mut Press) -> Option<String> {
-    let (on, pitch_deg) = (x.payload.lamp.on, x.view.gimbal.pitch_rad.to_degrees());
-    let request = match params.whole(NAMES[button])? {
-        1 => Request::Arm { force: false },
-        2 => Request::Disarm { force: false },
-        3 => Request::Takeoff { height_m: None },
-        4 => Request::Land,
-        5 => Request::SetMode(Mode::Return),
-        6 => Request::SetMode(Mode::Hold),
-        7 => Request::SetMode(Mode::Position),
-        8 => Request::SetMode(Mode::Altitude),
-        9 => Request::StartMission { first: None },
-        10 => return x.act(MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0]),
-        11 => return x.act(MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, [f64::from(u8::from(!on)), 0.0, 0.0]),
-        12 => return x.aim(0.0),
-        13 => return x.aim(pitch_deg + STEP_DEG),
-        14 => return x.aim(pitch_deg - STEP_DEG),
-        _ => return None,
-    };
-    match x.autopilot.request(request, x.view.now) {
-        Outcome::Accepted | Outcome::Unsupported => None,
-        Outcome::TemporarilyRejected(why) | Outcome::Denied(why) | Outcome::Failed(why) => Some(why),
-    }
+/// What a press may need to know.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Seen {
+    /// The lamp is on.
+    pub lamp_on: bool,
+    /// Where the gimbal points, degrees about the horizon, and where it can.
+    pub pitch_deg: f64,
+    /// See `pitch_deg`.
+    pub reach_deg: (f64, f64),
+    /// Height of a take-off over home, m.
+    pub take_off_m: f64,
 }
 
 /// A press moves the gimbal by this much, degrees.
 const STEP_DEG: f64 = 10.0;
+/// MAV_FRAME_GLOBAL_RELATIVE_ALT: heights over home.
+const OVER_HOME: u8 = 3;
 
-impl Press<'_, '_> {
-    fn aim(&mut self, pitch_deg: f64) -> Option<String> {
-        let camera = &self.view.vehicle.camera;
-        let (low, high) = (camera.gimbal_pitch_min_rad.to_degrees(), camera.gimbal_pitch_max_rad.to_degrees());
-        self.act(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [pitch_deg.clamp(low, high), f64::NAN, f64::NAN])
-    }
-
-    /// As a command with these first parameters.
-    fn act(&mut self, number: MavCmd, [a, b, c]: [f64; 3]) -> Option<String> {
-        let p = [a, b, c, 0.0, 0.0, 0.0, 0.0];
-        let command =
-            Command { number: number as u16, p, frame: 0, component: AUTOPILOT, system: 0, from: self.from, whole: false };
-        let done = payload::handle(&command, self.view, self.payload);
-        (done != Some(MavResult::MAV_RESULT_ACCEPTED)).then(|| "Button: the payload refuses".to_owned())
-    }
+/// The command that a button's parameter names: it is obeyed and refused as if it had been sent.
+pub(super) fn command(button: usize, params: &Params, seen: &Seen, from: (u8, u8)) -> Option<Command> {
+    use MavCmd as M;
+    let standard = |mode: MavStandardMode| (M::MAV_CMD_DO_SET_STANDARD_MODE, [f64::from(mode as u32), 0.0, 0.0]);
+    let aim = |pitch_deg: f64| {
+        let (low, high) = seen.reach_deg;
+        (M::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [pitch_deg.clamp(low, high), f64::NAN, f64::NAN])
+    };
+    let (number, [a, b, c]) = match params.whole(NAMES[button])? {
+        1 => (M::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0]),
+        2 => (M::MAV_CMD_COMPONENT_ARM_DISARM, [0.0; 3]),
+        3 => (M::MAV_CMD_NAV_TAKEOFF, [0.0; 3]),
+        4 => (M::MAV_CMD_NAV_LAND, [0.0; 3]),
+        5 => (M::MAV_CMD_NAV_RETURN_TO_LAUNCH, [0.0; 3]),
+        6 => (M::MAV_CMD_NAV_LOITER_UNLIM, [0.0; 3]),
+        7 => standard(MavStandardMode::MAV_STANDARD_MODE_POSITION_HOLD),
+        8 => standard(MavStandardMode::MAV_STANDARD_MODE_ALTITUDE_HOLD),
+        9 => (M::MAV_CMD_MISSION_START, [0.0; 3]),
+        10 => (M::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0]),
+        11 => (M::MAV_CMD_ILLUMINATOR_ON_OFF, [f64::from(u8::from(!seen.lamp_on)), 0.0, 0.0]),
+        12 => aim(0.0),
+        13 => aim(seen.pitch_deg + STEP_DEG),
+        14 => aim(seen.pitch_deg - STEP_DEG),
+        _ => return None,
+    };
+    let p = [a, b, c, 0.0, 0.0, 0.0, if number == M::MAV_CMD_NAV_TAKEOFF { seen.take_off_m } else { 0.0 }];
+    let number = number as u16;
+    Some(Command { number, p, frame: OVER_HOME, component: AUTOPILOT, system: 0, from, whole: false, own: false })
 }

@@ -3,13 +3,14 @@
 
 use super::Endpoint;
 use super::arrival::Arrival;
-use super::buttons::{self, Press};
+use super::buttons::{self, Seen};
+use super::commands;
 use super::gimbal::{Aim, DEVICE, Gimbal};
 use super::offboard::{self, Reading};
 use crate::base::frames::{Frd, Ned, Rotation};
 use crate::mav::dialect::{
     GIMBAL_DEVICE_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA,
-    GIMBAL_MANAGER_SET_PITCHYAW_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavModeFlag, MavSeverity, MavType,
+    GIMBAL_MANAGER_SET_PITCHYAW_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavModeFlag, MavResult, MavSeverity, MavType,
     RC_CHANNELS_OVERRIDE_DATA, SET_ATTITUDE_TARGET_DATA, SET_MODE_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA,
     SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
@@ -53,9 +54,18 @@ pub(super) fn channels(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut 
 
 fn press_buttons(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut Arrival) {
     for button in e.manual.presses.of(m) {
-        let mut press = Press { from: a.from, view: a.view, payload: &mut e.payload, autopilot: a.autopilot };
-        if let Some(refusal) = buttons::press(button, &e.params, &mut press) {
-            e.tell(MavSeverity::MAV_SEVERITY_CRITICAL, &refusal);
+        let camera = &a.view.vehicle.camera;
+        let seen = Seen {
+            lamp_on: e.payload.lamp.on,
+            pitch_deg: e.payload.gimbal.pitch_rad.to_degrees(),
+            reach_deg: (camera.gimbal_pitch_min_rad.to_degrees(), camera.gimbal_pitch_max_rad.to_degrees()),
+            take_off_m: a.autopilot.tuning.takeoff_height_m,
+        };
+        let Some(command) = buttons::command(button, &e.params, &seen, a.from) else { continue };
+        let refused = e.obey(&command, a).is_some_and(|result| result != MavResult::MAV_RESULT_ACCEPTED);
+        if refused && commands::payload::handles(&command) {
+            let why = commands::payload::why(&command, a.view, &e.payload);
+            e.tell(MavSeverity::MAV_SEVERITY_CRITICAL, &format!("Button: {why}"));
         }
     }
 }

@@ -262,6 +262,10 @@ pub(super) fn hand_over(e: &mut Endpoint, kind: MavMissionType, view: &View, aut
 }
 
 pub(super) fn timesync(e: &mut Endpoint, sync: &TIMESYNC_DATA, a: &mut Arrival) {
+    // An answer to somebody's question, not one.
+    if sync.tc1 != 0 {
+        return;
+    }
     let (target_system, target_component) = a.from;
     let tc1 = a.view.now.ns().max(1);
     e.answer(a.link, &MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: sync.ts1, target_system, target_component }));

@@ -27,8 +27,9 @@ fn span(value: f32, (low, high): (f32, f32), wrong: MavMissionResult) -> Legal {
     if value.is_nan() || (low..=high).contains(&value) { Ok(()) } else { Err(wrong) }
 }
 
-/// Refuses what could never be flown, naming the parameter that is wrong. `total` is the number of items that the plan will have.
-pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, total: u16, plane: &LocalPlane) -> Legal {
+/// Refuses what could never be flown, naming the parameter that is wrong. `flown` are the numbers of the items that
+/// the plan will fly.
+pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, plane: &LocalPlane) -> Legal {
     use MavMissionResult as R;
     if item.mission_type != MavMissionType::MAV_MISSION_TYPE_MISSION {
         return areas::legal(item, plane);
@@ -52,7 +53,7 @@ pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, total: u16, plane: &LocalPlane
         }
         MavCmd::MAV_CMD_CONDITION_YAW => turn(item),
         MavCmd::MAV_CMD_DO_JUMP => {
-            let inside = (0.0..f32::from(total)).contains(&item.param1);
+            let inside = (f32::from(flown.start)..f32::from(flown.end)).contains(&item.param1);
             if inside {
                 span(item.param2, (-1.0, 1e6), R::MAV_MISSION_INVALID_PARAM2)
             } else {

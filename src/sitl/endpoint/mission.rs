@@ -258,7 +258,7 @@ impl Plans {
         let kept = slot(upload.kind).map_or(0, |slot| self.kept[slot].len());
         let total = if upload.part { kept as u16 + lead } else { upload.count };
         // Home is the vehicle's own, whatever is sent for it.
-        let refusal = if wanted < lead { None } else { items::legal(item, total, plane).err() };
+        let refusal = if wanted < lead { None } else { items::legal(item, lead..total, plane).err() };
         if let Some(result) = refusal {
             let kind = upload.kind;
             self.upload = None;
@@ -304,7 +304,8 @@ impl Plans {
         let same = |last: &MISSION_ITEM_INT_DATA| {
             (last.seq + lead, last.command, last.frame, last.x, last.y) == (item.seq, item.command, item.frame, item.x, item.y)
         };
-        self.done == Some((from, item.mission_type, item.seq)) && kept.is_some_and(same)
+        // Home is not kept: whatever is sent for it is the same.
+        self.done == Some((from, item.mission_type, item.seq)) && (item.seq < lead || kept.is_some_and(same))
     }
 
     /// An item that the dialect cannot hold (unknown command or frame) ends the upload.

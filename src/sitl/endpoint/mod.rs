@@ -126,6 +126,12 @@ impl Context<'_, '_> {
         }
     }
 
+    /// Refuses, and says why.
+    pub fn deny(&mut self, why: &str) -> MavResult {
+        self.tell(why);
+        MavResult::MAV_RESULT_DENIED
+    }
+
     /// Says to everybody who this is.
     pub fn introduce(&mut self) {
         let room = MOST_TEXTS.saturating_sub(self.texts.len());
@@ -184,6 +190,8 @@ pub struct Endpoint {
     bad_bytes: u64,
     gone_dropped: u64,
     row_buffer: Vec<usize>,
+    flight: view::Flight,
+    was_armed: bool,
 }
 
 /// Texts that wait for the next tick; a flood of refusals says no more than these.
@@ -225,6 +233,8 @@ impl Endpoint {
             bad_bytes: 0,
             gone_dropped: 0,
             row_buffer: Vec::new(),
+            flight: view::Flight::default(),
+            was_armed: false,
         }
     }
 
@@ -297,6 +307,18 @@ impl Endpoint {
     #[must_use]
     pub fn chosen(&self) -> u32 {
         self.chosen
+    }
+
+    /// MAVLink system id.
+    #[must_use]
+    pub fn system_id(&self) -> u8 {
+        self.system_id
+    }
+
+    /// The flight of now, or the last.
+    #[must_use]
+    pub fn flight(&self) -> view::Flight {
+        self.flight
     }
 
     /// A fresh autopilot gets what its flavour has otherwise than it.
@@ -401,6 +423,7 @@ impl Endpoint {
     /// What is due now goes out.
     pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
         self.chosen = view.mode_row().number;
+        self.flight.follow(std::mem::replace(&mut self.was_armed, view.status.armed), view.status, view.now);
         self.take_picture(view);
         if self.pace != self.told_pace {
             self.told_pace = self.pace;
@@ -479,10 +502,9 @@ impl Endpoint {
         if let Some(result) = commands::payload::handle(&command, view, &mut self.payload)
             && result != MavResult::MAV_RESULT_ACCEPTED
         {
-            self.tell(
-                MavSeverity::MAV_SEVERITY_WARNING,
-                &format!("Mission item {} was refused by the payload", seq + usize::from(view.plans.lead)),
-            );
+            let why = commands::payload::why(&command, view, &self.payload);
+            let text = format!("Mission item {}: {why}", seq + usize::from(view.plans.lead));
+            self.tell(MavSeverity::MAV_SEVERITY_WARNING, &text);
         }
     }
 

@@ -8,7 +8,7 @@ use super::streams::{AUTOPILOT, CAMERA};
 use super::view::View;
 use super::{Context, Endpoint, LinkId, camera_params, control, exchange, ftp};
 use crate::base::time::SimTime;
-use crate::mav::codec::Received;
+use crate::mav::codec::{Decoder, Received};
 use crate::mav::dialect::*;
 use crate::mav::router;
 use crate::sitl::autopilot::Autopilot;
@@ -70,22 +70,41 @@ handlers! {
 }
 
 impl Endpoint {
-    /// Reads a datagram of a link. Returns the tokens of lockstep answers that it held.
-    pub fn receive(&mut self, id: LinkId, bytes: &[u8], view: &View, autopilot: &mut Autopilot) -> Vec<i64> {
-        let Some(link) = self.links.get_mut(&id) else { return Vec::new() };
+    /// The tokens of lockstep answers to us in a datagram, of those who may speak. It acts later, by `receive`.
+    #[must_use]
+    pub fn answers(&self, id: LinkId, bytes: &[u8]) -> Vec<i64> {
+        let Some(link) = self.links.get(&id) else { return Vec::new() };
+        // A copy judges: what it remembers of the frame must not make it a repetition when it acts.
+        let mut guard = self.guard.clone();
+        let mut admitted = |frame: &Received| guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(frame, link.kind));
+        let frames = Decoder::new().datagram(bytes);
+        frames
+            .iter()
+            .filter_map(|frame| Some((frame, self.step_token(link.lockstep, frame)?)))
+            .filter(|(frame, _)| admitted(frame) == Admitted::Acts)
+            .map(|(_, token)| token)
+            .collect()
+    }
+
+    /// The token of a frame that answers our question on a link in step.
+    fn step_token(&self, lockstep: bool, frame: &Received) -> Option<i64> {
+        let Some(MavMessage::TIMESYNC(sync)) = &frame.message else { return None };
+        let ours = matches!(sync.target_system, 0) || sync.target_system == self.system_id;
+        (lockstep && ours && sync.tc1 != 0).then_some(sync.ts1)
+    }
+
+    /// Reads a datagram of a link.
+    pub fn receive(&mut self, id: LinkId, bytes: &[u8], view: &View, autopilot: &mut Autopilot) {
+        let Some(link) = self.links.get_mut(&id) else { return };
         let before = link.decoder.bad_bytes();
-        let kind = link.kind;
+        let (kind, lockstep) = (link.kind, link.lockstep);
         let frames = link.decoder.datagram(bytes);
         self.bad_bytes += link.decoder.bad_bytes() - before;
-        let mut answers = Vec::new();
         for frame in frames {
-            if let Some(MavMessage::TIMESYNC(sync)) = &frame.message
-                && sync.tc1 != 0
-            {
-                answers.push(sync.ts1);
+            let admitted = self.guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(&frame, kind));
+            if admitted == Admitted::Acts && self.step_token(lockstep, &frame).is_some() {
                 continue;
             }
-            let admitted = self.guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(&frame, kind));
             if admitted != Admitted::No {
                 self.route(id, &frame, view.now);
             }
@@ -93,7 +112,6 @@ impl Endpoint {
                 self.act(id, &frame, view, autopilot);
             }
         }
-        answers
     }
 
     fn route(&mut self, from: LinkId, frame: &Received, now: SimTime) {
@@ -145,8 +163,9 @@ impl Endpoint {
         }
     }
 
-    fn command(&mut self, command: &Command, a: &mut Arrival) {
-        let Some(link) = self.links.get_mut(&a.link) else { return };
+    /// Carries out a command, whether it came by the wire or by a button; `None` when its link is gone.
+    pub(super) fn obey(&mut self, command: &Command, a: &mut Arrival) -> Option<MavResult> {
+        let link = self.links.get_mut(&a.link)?;
         let mut context = Context {
             view: a.view.with(&self.payload),
             autopilot: &mut *a.autopilot,
@@ -164,6 +183,11 @@ impl Endpoint {
         if self.params.changes() != before {
             self.parameters_changed(a.autopilot);
         }
+        Some(result)
+    }
+
+    fn command(&mut self, command: &Command, a: &mut Arrival) {
+        let Some(result) = self.obey(command, a) else { return };
         let component = if command.component == CAMERA { CAMERA } else { AUTOPILOT };
         let number = command.number.to_le_bytes();
         // Laid out by hand: the number may be one that the dialect does not know.

@@ -38,5 +38,24 @@ fn pieces(text: &str) -> Vec<String> {
         let last = out.len() - 1;
         out[last].push(character);
     }
+    // A full piece says that more follows: the last of several must not be full.
+    if out.len() > 1 && out.last().is_some_and(|last| last.len() == LONGEST) {
+        out.push(String::new());
+    }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_last_of_several_pieces_is_never_full() {
+        for (long, count) in [(0, 1), (49, 1), (50, 1), (51, 2), (99, 2), (100, 3), (150, 4)] {
+            let text = "x".repeat(long);
+            let pieces = pieces(&text);
+            assert_eq!((pieces.len(), pieces.concat()), (count, text), "{long}");
+            assert!(count == 1 || pieces[count - 1].len() < 50, "{long}");
+        }
+    }
 }

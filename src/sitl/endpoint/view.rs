@@ -8,7 +8,7 @@ use super::payload::Payload;
 use crate::base::frames::{Frd, Ned, Rotation, Vec3};
 use crate::base::geodesy::{Geo, LocalPlane};
 use crate::base::time::SimTime;
-use crate::sitl::autopilot::{Estimate, Status, Sticks};
+use crate::sitl::autopilot::{Estimate, Landed, Status, Sticks};
 use crate::sitl::physics::{Actuators, RigidState, battery};
 use crate::sitl::sensors::Readings;
 use crate::vehicle::{Camera, Vehicle};
@@ -56,6 +56,39 @@ pub struct View<'a> {
     pub flavour: &'static Flavour,
     /// The flavour's number of the mode that was asked for last.
     pub chosen: u32,
+    /// MAVLink system id.
+    pub system_id: u8,
+    /// The flight of now, or the last.
+    pub flight: Flight,
+}
+
+/// When a flight began and ended, simulation time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Flight {
+    /// Which since the start, from 1; 0 before the first.
+    pub number: u64,
+    /// Motors armed.
+    pub armed: Option<SimTime>,
+    /// Left the ground.
+    pub took_off: Option<SimTime>,
+    /// Stood on it again.
+    pub landed: Option<SimTime>,
+}
+
+impl Flight {
+    /// Follows what the autopilot says; `was_armed` is what it said before.
+    pub fn follow(&mut self, was_armed: bool, status: &Status, now: SimTime) {
+        if status.armed && !was_armed {
+            *self = Self { number: self.number + 1, armed: Some(now), ..Self::default() };
+        }
+        let grounded = status.landed == Landed::OnGround;
+        if status.armed && !grounded {
+            self.took_off.get_or_insert(now);
+            self.landed = None;
+        } else if grounded && self.took_off.is_some() {
+            self.landed.get_or_insert(now);
+        }
+    }
 }
 
 /// The camera's counters.

@@ -13,14 +13,18 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     use MavCmd as M;
     const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
     let request = match c.number {
-        n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => match arm(c, x)? {
-            Request::Arm { force } => return Some(arm_motors(force, x)),
-            other => other,
+        n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => match arm(c, x) {
+            Some(Request::Arm { force }) => return Some(arm_motors(force, x)),
+            Some(other) => other,
+            None => return Some(x.deny("Arming: 1 arms, 0 disarms")),
         },
         n if n == M::MAV_CMD_DO_SET_MODE as u16 => return Some(set_mode(c, x)),
         n if n == M::MAV_CMD_DO_SET_STANDARD_MODE as u16 => {
             let row = c.given(0).and_then(|number| x.view.flavour.standard(number as u32));
-            return Some(row.map_or(DENIED, |row| enter(row, x)));
+            return Some(match row {
+                Some(row) => enter(row, x),
+                None => x.deny(&format!("No such standard mode {}", c.p[0])),
+            });
         }
         n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => match (x.view.flavour.take_off)(c, x) {
             Ok(height_m) => Request::Takeoff { height_m },
@@ -41,27 +45,32 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             Request::StartMission { first: c.given(0).filter(|f| *f > 0.0).map(|f| index(f, x)) }
         }
         // Climbing and sinking have parameters of their own.
-        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.given(0).is_some_and(|kind| kind > 1.0) => return Some(DENIED),
+        n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.given(0).is_some_and(|kind| kind > 1.0) => {
+            return Some(x.deny("Speed: types 0, 1; climb and sink are parameters"));
+        }
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.given(1) {
             // -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
             Some(-1.0) => return Some(MavResult::MAV_RESULT_ACCEPTED),
             Some(-2.0) => Request::SetSpeed(x.params.cruise_m_s()),
             Some(speed) if speed > 0.0 => Request::SetSpeed(speed),
-            _ => return Some(DENIED),
+            _ => return Some(x.deny("Speed: above 0 m/s, -1 as it is, -2 the usual")),
         },
         n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, x) {
             Some(wish) => Request::Orbit(wish),
-            None => return Some(DENIED),
+            None => return Some(x.deny("Orbit: place within 20 km, yaw behaviour 0 to 5")),
         },
-        n if n == M::MAV_CMD_CONDITION_YAW as u16 => turn(c, x)?,
+        n if n == M::MAV_CMD_CONDITION_YAW as u16 => match turn(c, x) {
+            Some(request) => request,
+            None => return Some(x.deny("Turn: the angle is not a number")),
+        },
         n if n == M::MAV_CMD_DO_SET_HOME as u16 => match home(c, x) {
             Some(request) => request,
-            None => return Some(DENIED),
+            None => return Some(x.deny("Home: latitude, longitude, altitude within 20 km")),
         },
         n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
             0.0 => Request::EnableFence(false),
             1.0 => Request::EnableFence(true),
-            _ => return Some(DENIED),
+            _ => return Some(x.deny("Fence: 0 switches off, 1 on")),
         },
         n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 => match c.p[0] {
             p if p > 0.5 => Request::Disarm { force: true },
@@ -76,7 +85,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         }
         n if n == M::MAV_CMD_DO_SET_MISSION_CURRENT as u16 => {
             let known = c.given(0).is_some_and(|seq| seq >= 0.0 && x.autopilot.set_mission_current(index(seq, x)));
-            return Some(if known { MavResult::MAV_RESULT_ACCEPTED } else { DENIED });
+            return Some(if known { MavResult::MAV_RESULT_ACCEPTED } else { x.deny("No such mission item") });
         }
         _ => return None,
     };
@@ -140,7 +149,7 @@ fn arm_motors(force: bool, x: &mut Context) -> MavResult {
     {
         let row = flavour.row_of(x.autopilot.status().mode, *x.chosen);
         let mut reasons = if force { Vec::new() } else { x.autopilot.arming_reasons(now) };
-        if !row.armable {
+        if !row.armable && !force {
             reasons.insert(0, format!("{} mode not armable", row.name.to_uppercase()));
         }
         if !reasons.is_empty() {
@@ -183,8 +192,10 @@ fn index(seq: f64, x: &Context) -> usize {
 fn go(c: &Command, x: &mut Context) -> MavResult {
     let changes = c.given(1).is_some_and(|flags| (flags as i64) & 1 == 1);
     let errands = x.view.flavour.errands;
-    let request = reposition(c, x).filter(|_| errands.is_none() || changes || x.in_errands());
-    let Some(request) = request else { return MavResult::MAV_RESULT_DENIED };
+    if !(errands.is_none() || changes || x.in_errands()) {
+        return x.deny("Go-to: not in this mode, nor asked to change it");
+    }
+    let Some(request) = reposition(c, x) else { return x.deny("Go-to: place out of range (20 km) or frame unknown") };
     let outcome = x.autopilot.request(request, x.view.now);
     if outcome == Outcome::Accepted {
         *x.chosen = errands.unwrap_or(*x.chosen);

@@ -25,7 +25,7 @@ pub(super) const ROWS: &[Row] = &[
 
 fn aim(aim: Aim, c: &Command, view: &View, payload: &mut Payload) -> MavResult {
     let gimbal = &mut payload.gimbal;
-    verdict(gimbal.obeys(c.from) && gimbal.set(aim, &view.vehicle.camera))
+    verdict((c.own || gimbal.obeys(c.from)) && gimbal.set(aim, &view.vehicle.camera))
 }
 
 /// The device in parameter 7: this one, or all.
@@ -134,7 +134,7 @@ fn mount_configure(c: &Command, view: &View, payload: &mut Payload) -> MavResult
     let done = match MountMode::of(c.p[0]) {
         Some(MountMode::Neutral) => aim(Aim::Neutral, c, view, payload),
         Some(MountMode::Home) => look_home(c, view, payload),
-        Some(MountMode::Targeting | MountMode::Point) => verdict(payload.gimbal.obeys(c.from)),
+        Some(MountMode::Targeting | MountMode::Point) => verdict(c.own || payload.gimbal.obeys(c.from)),
         None => DENIED,
     };
     if done == ACCEPTED {

@@ -33,6 +33,8 @@ pub struct Command {
     pub from: (u8, u8),
     /// Parameters 5 and 6 came as whole numbers, scaled as places are.
     pub whole: bool,
+    /// The vehicle's own order (an item of its mission): nobody keeps it from its gimbal.
+    pub own: bool,
 }
 
 const LONG: u32 = 76;
@@ -53,7 +55,7 @@ impl Command {
         let number = u16::from_le_bytes([b[28], b[29]]);
         let mut p = [real(0), real(4), real(8), real(12), real(16), real(20), real(24)];
         if frame.message_id == LONG {
-            return Some(Self { number, p, frame: 0, component: b[31], system: b[30], from, whole: false });
+            return Some(Self { number, p, frame: 0, component: b[31], system: b[30], from, whole: false, own: false });
         }
         let scaled = |at: usize| {
             let whole = i32::from_le_bytes(four(at));
@@ -61,7 +63,7 @@ impl Command {
             if NOT_GIVEN.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
         };
         (p[4], p[5]) = (scaled(16), scaled(20));
-        Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from, whole: true })
+        Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from, whole: true, own: false })
     }
 
     /// From an item of a mission, as its vehicle gives it to itself.
@@ -70,7 +72,16 @@ impl Command {
         let [x, y] = [item.x, item.y].map(|scaled| f64::from(scaled) * 1e-7);
         let p = [item.param1, item.param2, item.param3, item.param4].map(f64::from);
         let p = [p[0], p[1], p[2], p[3], x, y, f64::from(item.z)];
-        Self { number: item.command as u16, p, frame: item.frame as u8, component: from.1, system: from.0, from, whole: true }
+        Self {
+            number: item.command as u16,
+            p,
+            frame: item.frame as u8,
+            component: from.1,
+            system: from.0,
+            from,
+            whole: true,
+            own: true,
+        }
     }
 
     /// Whether its height counts from home; `None` for a frame that is no place over the ground.

@@ -42,6 +42,28 @@ pub(in super::super) fn handle(c: &Command, view: &View, payload: &mut Payload) 
     camera(c, view, payload).or_else(|| Some(mounted()?(c, view, payload)))
 }
 
+/// True for a command that the payload does.
+pub(in super::super) fn handles(c: &Command) -> bool {
+    camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known as u16 == c.number)
+}
+
+/// Why a command was refused, in words.
+pub(in super::super) fn why(c: &Command, view: &View, payload: &Payload) -> String {
+    if row(c.number, gimbal::ROWS).is_some() {
+        let (gimbal, camera) = (&payload.gimbal, &view.vehicle.camera);
+        if !(c.own || gimbal.obeys(c.from)) {
+            return format!("gimbal is controlled by {}/{}", gimbal.control.0, gimbal.control.1);
+        }
+        let [low, high] = [camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad].map(f64::to_degrees);
+        return format!("gimbal pitches {low:.0} to {high:.0} deg, no yaw or retract");
+    }
+    if row(c.number, lamp::ROWS).is_some() {
+        let there = view.vehicle.lamp.flux_lm > 0.0;
+        return if there { "lamp is relay 0, servo 9, on or off" } else { "this aircraft has no lamp" }.into();
+    }
+    "camera cannot do it with these values or in this mode".into()
+}
+
 /// Where a command makes the vehicle look: `None` for another command or no usable place, `Some(None)` for looking nowhere any more.
 pub(in super::super) fn looked_at(c: &Command, view: &View) -> Option<Option<Vec3<Ned>>> {
     match c.number {

@@ -144,5 +144,9 @@ fn from_guided(c: &Command, x: &mut Context) -> Result<Option<f64>, MavResult> {
     if c.whole && c.over_home() != Some(true) {
         return Err(MavResult::MAV_RESULT_DENIED);
     }
-    c.given(6).filter(|height| *height > 0.0 && *height <= HIGHEST_M).map(Some).ok_or(FAILED)
+    let height = c.given(6).filter(|height| *height > 0.0 && *height <= HIGHEST_M);
+    if height.is_none() {
+        x.tell("Take-off height: above 0, at most 500 m over home");
+    }
+    height.map(Some).ok_or(FAILED)
 }

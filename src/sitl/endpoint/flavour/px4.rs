@@ -123,5 +123,9 @@ pub(super) fn over_sea(c: &Command, x: &mut Context) -> Result<Option<f64>, MavR
     let relative = c.over_home().ok_or(DENIED)?;
     let Some(z) = c.given(6) else { return Ok(None) };
     let height_m = if relative { z } else { z - x.view.plane.origin().altitude_m - home_up };
-    if height_m > HIGHEST_M { Err(DENIED) } else { Ok(Some(height_m).filter(|h| *h >= LOWEST_M)) }
+    if height_m > HIGHEST_M {
+        Err(x.deny("Take-off height: at most 500 m over home"))
+    } else {
+        Ok(Some(height_m).filter(|h| *h >= LOWEST_M))
+    }
 }

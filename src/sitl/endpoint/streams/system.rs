@@ -3,6 +3,7 @@
 
 use super::super::params::metadata;
 use super::super::view::View;
+use crate::base::time::SimTime;
 use crate::mav::dialect::{
     ACTUATOR_OUTPUT_STATUS_DATA, AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, COMPONENT_INFORMATION_DATA,
     COMPONENT_METADATA_DATA, CURRENT_MODE_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags,
@@ -83,8 +84,8 @@ pub(super) fn battery(v: &View) -> Option<MavMessage> {
     voltages[..cells as usize].fill((v.battery.voltage_v / f64::from(live) * 1000.0).round() as u16);
     voltages.iter_mut().take(cells as usize).enumerate().filter(|(cell, _)| v.battery.is_dead(*cell)).for_each(|(_, mv)| *mv = 0);
     let state = match v.battery.remaining_pct() {
-        p if p < 7.0 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL,
-        p if p < 30.0 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
+        p if p < v.status.battery_critical_pct => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL,
+        p if p < v.status.battery_low_pct => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
         _ => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK,
     };
     Some(MavMessage::BATTERY_STATUS(BATTERY_STATUS_DATA {
@@ -226,17 +227,28 @@ pub(super) fn fence(v: &View) -> Option<MavMessage> {
 
 pub(super) fn current_mode(v: &View) -> Option<MavMessage> {
     let row = v.mode_row();
+    let acts = v.status.failsafe.is_some();
+    let intended = if acts { v.flavour.row_of(v.status.intended, v.chosen) } else { row };
     Some(MavMessage::CURRENT_MODE(CURRENT_MODE_DATA {
         custom_mode: row.number,
-        intended_custom_mode: row.number,
+        intended_custom_mode: intended.number,
         standard_mode: row.standard,
     }))
 }
 
+/// Our own marks, "SP" and "TR" (trainer): no registered USB numbers are claimed by them.
+const VENDOR: u16 = 0x5350;
+const PRODUCT: u16 = 0x5452;
+/// The first simulated board, of no type in the registered lists.
+const BOARD: u32 = 1 << 8;
+
 pub(super) fn version(v: &View) -> Option<MavMessage> {
     Some(MavMessage::AUTOPILOT_VERSION(AUTOPILOT_VERSION_DATA {
         capabilities: v.flavour.capabilities,
-        uid: 0x5350_414e_4452_454c + u64::from(v.scoring.seed.unsigned_abs()),
+        uid: 0x5350_414e_4452_454c + u64::from(v.scoring.seed.unsigned_abs()) + (u64::from(v.system_id) << 32),
+        vendor_id: VENDOR,
+        product_id: PRODUCT,
+        board_version: BOARD,
         flight_sw_version: v.flavour.software_version,
         middleware_sw_version: v.flavour.software_version,
         ..Default::default()
@@ -271,5 +283,13 @@ pub(super) fn protocol(_: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn flight(v: &View) -> Option<MavMessage> {
-    Some(MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { time_boot_ms: v.boot_ms(), ..Default::default() }))
+    let us = |at: Option<SimTime>| at.map_or(0, |at| at.us().max(1).cast_unsigned());
+    // Times since boot, and a number, whatever the fields are called (MAVLink common).
+    Some(MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA {
+        arming_time_utc: us(v.flight.armed),
+        takeoff_time_utc: us(v.flight.took_off),
+        flight_uuid: v.flight.number,
+        time_boot_ms: v.boot_ms(),
+        landing_time: v.flight.landed.map_or(0, |at| at.ms() as u32),
+    }))
 }
