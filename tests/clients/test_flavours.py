@@ -22,6 +22,8 @@ LIMIT_S = 120
 # A height counts as reached within this, m.
 NEAR_M = 0.8
 NAN = float("nan")
+# Two metres in 1e-7 degrees of latitude.
+PLACE = 180
 
 
 class Script:
@@ -215,6 +217,12 @@ def test_wire_mavsdk_takes_it_for_an_ardupilot(vehicle):
     mission.upload_mission(items)
     back = mission.download_mission()
     assert [item.command for item in back] == [16, 22, 16] and back[2].x == items[2].x
+    action.arm()
+    mission.start_mission()
+    wait_for("the last place", lambda: telemetry.position().latitude_deg * 1e7 > items[2].x - PLACE, LIMIT_S)
+    wait_for("the mission's end", lambda: mission.mission_progress().current == mission.mission_progress().total, LIMIT_S)
+    action.return_to_launch()
+    wait_for("home again", lambda: not telemetry.armed(), LIMIT_S)
     action.set_takeoff_altitude(4.0)
     action.arm()
     action.takeoff()
