@@ -114,3 +114,17 @@ def test_wire_mavsdk_reads_what_the_parameters_mean(tmp_path):
         assert described["GF_ACTION"]["max"] == 5 and described["MPC_XY_CRUISE"]["units"] == "m/s"
     finally:
         spandrel.end(process)
+
+
+def test_wire_what_one_station_sets_the_other_hears(tmp_path):
+    """Two ground stations on links of their own: a change by one is told to both."""
+    ports = [spandrel.free_udp_port(), spandrel.free_udp_port()]
+    process = spandrel.start_sim(tmp_path, ports[0], "--gcs", f"127.0.0.1:{ports[1]}")
+    try:
+        one, other = (connect(port) for port in ports)
+        put(one, "MPC_XY_CRUISE", 6.25, REAL32)
+        for connection in (one, other):
+            told = answer(connection, "PARAM_VALUE")
+            assert (told.param_id, told.param_value) == ("MPC_XY_CRUISE", 6.25)
+    finally:
+        spandrel.end(process)
