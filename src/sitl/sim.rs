@@ -115,7 +115,7 @@ pub struct Sim {
 
 /// One instant of the vehicle, borrowing each of its parts on its own, so that endpoint and autopilot stay free to change.
 macro_rules! view {
-    ($sim:expr, $estimate:expr, $status:expr) => {
+    ($sim:expr, $estimate:expr, $status:expr, $fence_enabled:expr) => {
         View {
             now: $sim.now,
             start_unix_s: $sim.config.scenario.light.start_unix_s,
@@ -139,6 +139,7 @@ macro_rules! view {
             chosen: $sim.endpoint.chosen(),
             system_id: $sim.endpoint.system_id(),
             flight: $sim.endpoint.flight(),
+            fence_enabled: $fence_enabled,
         }
     };
 }
@@ -362,7 +363,7 @@ impl Sim {
     fn read(&mut self, link: LinkId, bytes: &[u8]) {
         let Backend::Builtin(autopilot) = &mut self.backend;
         let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
-        let view = view!(self, &estimate, &status);
+        let view = view!(self, &estimate, &status, autopilot.tuning.fence_enabled);
         self.endpoint.receive(link, bytes, &view, autopilot);
         if self.endpoint.take_restart() {
             self.restart_autopilot();
@@ -374,7 +375,7 @@ impl Sim {
         let Backend::Builtin(autopilot) = &mut self.backend;
         **autopilot = fresh_autopilot(&self.config);
         let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
-        let view = view!(self, &estimate, &status);
+        let view = view!(self, &estimate, &status, autopilot.tuning.fence_enabled);
         self.endpoint.boot(&view, autopilot);
         self.keep_pace();
     }
@@ -429,7 +430,7 @@ impl Sim {
     fn speak(&mut self) {
         let Backend::Builtin(autopilot) = &mut self.backend;
         let (events, reached) = (autopilot.drain_events(), autopilot.drain_reached());
-        let view = view!(self, autopilot.estimate(), autopilot.status());
+        let view = view!(self, autopilot.estimate(), autopilot.status(), autopilot.tuning.fence_enabled);
         let texts: Vec<(u8, &str)> = events.iter().map(|event| (event.severity.number(), event.text.as_str())).collect();
         self.recorder.observe(&view, &texts, || self.endpoint.parameters().map(|(name, value)| (name, value.into())));
         self.endpoint.observe(&view, events, reached);

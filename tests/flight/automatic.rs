@@ -106,7 +106,7 @@ fn point(north: f64, east: f64, up: f64) -> MissionStep {
 fn flight_a_mission_is_flown_in_order_and_ends_on_the_ground() {
     let mut bench = Bench::new(&vehicle("phantom2"), 7);
     bench.autopilot.set_mission(vec![
-        MissionStep::Takeoff { up_m: 5.0 },
+        MissionStep::Takeoff { up_m: Some(5.0) },
         MissionStep::Speed(Some(4.0)),
         point(15.0, 0.0, 5.0),
         MissionStep::Payload,

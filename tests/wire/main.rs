@@ -12,6 +12,7 @@ mod honest;
 mod impaired;
 mod inspection;
 mod items;
+mod lasting;
 mod manual;
 mod mount;
 mod network;

@@ -41,8 +41,7 @@ impl Autopilot {
 
     pub(super) fn go_within(&mut self, speed: Option<f64>, up: f64, down: f64, dt_s: f64) -> Wanted {
         let l = &self.airframe.limits;
-        let cruise =
-            speed.unwrap_or(self.tuning.cruise_m_s).min(self.tuning.horizontal_speed_max_m_s).min(l.forward_m_s).max(0.1);
+        let cruise = speed.unwrap_or(self.cruise_m_s()).min(self.tuning.horizontal_speed_max_m_s).min(l.forward_m_s).max(0.1);
         let (up, down) = (up.min(l.climb_m_s), down.min(l.descend_m_s));
         let target = self.course.target_m;
         let here = self.estimate.position_m;

@@ -40,13 +40,14 @@ impl Autopilot {
             return Outcome::TemporarilyRejected(format!("Arming denied: {}", reasons.join(", ")));
         }
         self.status.armed = true;
-        self.mission.left_at = None;
+        self.mission.begin_anew();
+        self.status.mission_paused = false;
         self.status.landed = Landed::OnGround;
         self.watch.standing_since = now;
         self.watch.flown = false;
         self.watch.upset_since = None;
         self.watch.aim_cosine = 1.0;
-        if self.estimate.position_valid {
+        if self.estimate.position_valid && !self.home_is_set {
             self.move_home(self.estimate.position_m);
         }
         // Nobody at the sticks: what flies by itself flies.
@@ -179,7 +180,7 @@ impl Autopilot {
         let (n, e) = north_east_m.unwrap_or((held.north(), held.east()));
         self.course.target_m = Vec3::new(n, e, up_m.map_or(held.down(), |u| -u));
         self.course.target_yaw_rad = yaw_rad;
-        self.course.speed_m_s = Some(speed_m_s.filter(|s| *s > 0.0).unwrap_or(self.tuning.cruise_m_s));
+        self.course.speed_m_s = Some(speed_m_s.filter(|s| *s > 0.0).unwrap_or(self.cruise_m_s()));
         Outcome::Accepted
     }
 
@@ -198,19 +199,19 @@ impl Autopilot {
         if self.mission.is_empty() {
             return Outcome::Denied("Mission start denied: no mission".into());
         }
-        if first.is_some_and(|index| !self.set_mission_current(index)) {
+        if first.is_some_and(|index| !self.set_mission_current(index, false)) {
             return Outcome::Denied("No such mission item".into());
         }
         self.set_mode(Mode::Mission, now)
     }
 
-    fn set_speed(&mut self, speed: f64) -> Outcome {
-        if !(speed.is_finite() && speed > 0.0) {
+    fn set_speed(&mut self, speed_m_s: Option<f64>) -> Outcome {
+        if speed_m_s.is_some_and(|speed| !(speed.is_finite() && speed > 0.0)) {
             return Outcome::Denied("Speed out of range".into());
         }
-        self.tuning.cruise_m_s = speed.min(self.tuning.horizontal_speed_max_m_s);
+        self.commanded_m_s = speed_m_s;
         if self.course.speed_m_s.is_some() {
-            self.course.speed_m_s = Some(self.tuning.cruise_m_s);
+            self.course.speed_m_s = Some(self.cruise_m_s());
         }
         Outcome::Accepted
     }
@@ -220,6 +221,7 @@ impl Autopilot {
             return Outcome::Denied("Home out of range".into());
         }
         self.move_home(home_m);
+        self.home_is_set = true;
         Outcome::Accepted
     }
 

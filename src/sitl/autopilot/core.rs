@@ -102,6 +102,10 @@ pub struct Autopilot {
     pub(super) orbit: Option<Orbit>,
     /// Automatic modes turn towards this place, m.
     pub(super) look_at_m: Option<Vec3<Ned>>,
+    /// Cruise speed of a command, for this flight, m/s.
+    pub(super) commanded_m_s: Option<f64>,
+    /// Home was put where it is by a command: arming leaves it there.
+    pub(super) home_is_set: bool,
     /// Places to return to beside home.
     pub(super) refuges: Vec<Refuge>,
     pub(super) links: Links,
@@ -144,6 +148,8 @@ impl Autopilot {
             fence: Fence::default(),
             orbit: None,
             look_at_m: None,
+            commanded_m_s: None,
+            home_is_set: false,
             refuges: Vec::new(),
             links: Links::default(),
             seen: Seen::default(),
@@ -180,6 +186,7 @@ impl Autopilot {
     /// Replaces the mission; the first item becomes current.
     pub fn set_mission(&mut self, steps: Vec<MissionStep>) {
         self.mission = Mission::new(steps);
+        self.look_at_m = None;
         self.status.mission_current = 0;
         self.status.mission_finished = false;
         self.status.mission_paused = false;
@@ -199,10 +206,13 @@ impl Autopilot {
         self.mission.hang_on_home(over_home);
     }
 
-    /// Jumps to a mission item; false when there is none.
-    pub fn set_mission_current(&mut self, index: usize) -> bool {
+    /// Jumps to a mission item, with `anew` as if nothing had been flown before it; false when there is none.
+    pub fn set_mission_current(&mut self, index: usize, anew: bool) -> bool {
         let known = self.mission.jump(index);
         if known {
+            if anew {
+                self.mission.forget();
+            }
             self.status.mission_current = index;
             self.status.mission_finished = false;
             self.status.mission_paused = false;
@@ -344,6 +354,17 @@ impl Autopilot {
     #[must_use]
     pub fn estimator(&self) -> &Estimator {
         &self.estimator
+    }
+
+    /// When it last stepped.
+    #[must_use]
+    pub fn now(&self) -> SimTime {
+        self.last_step
+    }
+
+    /// Speed of missions, returns and go-to: a command's, else the parameter's, m/s.
+    pub(super) fn cruise_m_s(&self) -> f64 {
+        self.commanded_m_s.unwrap_or(self.tuning.cruise_m_s).min(self.tuning.horizontal_speed_max_m_s)
     }
 
     /// What the autopilot tells the world.

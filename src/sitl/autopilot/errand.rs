@@ -29,6 +29,9 @@ impl Autopilot {
         }
         if !self.mission.begun {
             self.begin_step(&step);
+            if let Some(left) = self.mission.left_wait.take() {
+                self.mission.wait_until = Some(now + left);
+            }
         }
         if let MissionStep::Land { .. } | MissionStep::Return = step {
             return self.fly_down(&step, dt_s);
@@ -40,7 +43,7 @@ impl Autopilot {
                 self.end_mission(now);
             }
         }
-        let speed = self.mission.speed_m_s.or(Some(self.tuning.cruise_m_s));
+        let speed = self.mission.speed_m_s.or(Some(self.cruise_m_s()));
         circle.unwrap_or_else(|| self.go(speed, dt_s))
     }
 
@@ -88,7 +91,7 @@ impl Autopilot {
             self.mission.left_at = None;
             self.say(Severity::Info, "Mission goes on where it was left");
         }
-        self.go(self.mission.speed_m_s.or(Some(self.tuning.cruise_m_s)), dt_s)
+        self.go(self.mission.speed_m_s.or(Some(self.cruise_m_s())), dt_s)
     }
 
     pub(super) fn begin_step(&mut self, step: &MissionStep) {
@@ -101,6 +104,7 @@ impl Autopilot {
                 self.course.target_yaw_rad = yaw_rad;
             }
             MissionStep::Takeoff { up_m } => {
+                let up_m = up_m.unwrap_or_else(|| self.usual_takeoff_up_m());
                 self.course.target_m = Vec3::new(here.north(), here.east(), -up_m);
                 self.course.target_yaw_rad = None;
             }

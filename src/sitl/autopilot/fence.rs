@@ -135,16 +135,9 @@ pub struct FenceState {
 }
 
 /// The areas.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fence {
     zones: Vec<Zone>,
-    on: bool,
-}
-
-impl Default for Fence {
-    fn default() -> Self {
-        Self { zones: Vec::new(), on: true }
-    }
 }
 
 impl Fence {
@@ -180,7 +173,7 @@ impl Autopilot {
 
     /// Switches the fence on or off.
     pub(super) fn enable_fence(&mut self, on: bool) -> Outcome {
-        self.fence.on = on;
+        self.tuning.fence_enabled = on;
         self.say(Severity::Info, if on { "Geofence on" } else { "Geofence off" });
         Outcome::Accepted
     }
@@ -246,7 +239,7 @@ impl Autopilot {
                 MissionStep::Circle { centre_m, .. } => centre_m,
                 MissionStep::Takeoff { up_m } => {
                     let over = from.unwrap_or(home);
-                    Vec3::new(over.north(), over.east(), -up_m)
+                    Vec3::new(over.north(), over.east(), -up_m.unwrap_or_else(|| self.usual_takeoff_up_m()))
                 }
                 _ => continue,
             };
@@ -264,7 +257,7 @@ impl Autopilot {
     }
 
     fn acts(&self) -> bool {
-        self.fence.on && self.tuning.fence_enabled && self.tuning.fence_action != FenceAction::None
+        self.tuning.fence_enabled && self.tuning.fence_action != FenceAction::None
     }
 
     /// Whether there is a fence at all.
@@ -343,7 +336,6 @@ mod tests {
                 zone(circle(60.0, 5.0), true),
                 zone(circle(0.0, 2.0), false),
             ],
-            on: true,
         };
         for (from, to, allowed) in [
             ((-5.0, 5.0), (5.0, 5.0), true),
@@ -363,10 +355,8 @@ mod tests {
     fn exact_flight_is_allowed_in_any_inclusion_and_in_no_exclusion() {
         let zone = |outline, inclusion| Zone { outline, inclusion };
         let circle = |n, radius_m| Outline::Circle { centre_m: (n, 0.0), radius_m };
-        let fence = Fence {
-            zones: vec![zone(square(10.0), true), zone(circle(100.0, 5.0), true), zone(circle(0.0, 2.0), false)],
-            on: true,
-        };
+        let fence =
+            Fence { zones: vec![zone(square(10.0), true), zone(circle(100.0, 5.0), true), zone(circle(0.0, 2.0), false)] };
         for (place, allowed) in [((5.0, 5.0), true), ((0.0, 0.0), false), ((50.0, 0.0), false), ((100.0, 0.0), true)] {
             assert_eq!(fence.allows(place), allowed, "{place:?}");
         }

@@ -132,6 +132,11 @@ impl Autopilot {
         self.contact = GroundContact::default();
         self.watch.flown = false;
         self.watch.upset_since = None;
+        // What was asked for in a flight ends with it.
+        self.look_at_m = None;
+        self.commanded_m_s = None;
+        self.course.takeoff_up_m = None;
+        self.tuning.fence_enabled |= !self.tuning.fence_switch_stays;
         self.say(Severity::Info, why);
         if !self.watch.intended.is_manual() {
             self.watch.intended = Mode::Hold;

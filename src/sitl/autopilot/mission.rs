@@ -30,6 +30,17 @@ pub struct Mission {
     pub orders: Vec<MissionStep>,
     /// Where it was left on its way, m: it goes on from there.
     pub left_at: Option<Vec3<Ned>>,
+    /// What was left then of the current step's waiting.
+    pub left_wait: Option<SimTime>,
+    /// What was left then of the current step's circle, rad.
+    pub left_rad: Option<f64>,
+}
+
+impl MissionStep {
+    /// Left in the middle it goes on there; others begin anew.
+    pub(super) fn goes_on(&self) -> bool {
+        matches!(self, Self::Waypoint { .. } | Self::Circle { .. } | Self::Delay(_) | Self::Near(_) | Self::Turn { .. })
+    }
 }
 
 impl Mission {
@@ -55,10 +66,16 @@ impl Mission {
         self.steps.is_empty()
     }
 
-    /// On the way to a waypoint.
-    #[must_use]
-    pub fn is_on_the_way(&self) -> bool {
-        self.begun && matches!(self.step(), Some(MissionStep::Waypoint { .. }))
+    /// It is left in the middle of a step, and will go on here.
+    pub fn leave(&mut self, place_m: Vec3<Ned>, left_rad: Option<f64>, now: SimTime) {
+        self.left_at = Some(place_m);
+        self.left_wait = self.wait_until.map(|until| until.saturating_sub(now));
+        self.left_rad = left_rad;
+    }
+
+    /// What was left of the current step counts no more.
+    pub fn begin_anew(&mut self) {
+        (self.left_at, self.left_wait, self.left_rad) = (None, None, None);
     }
 
     /// Places that the steps fly to, m.
@@ -88,9 +105,14 @@ impl Mission {
 
     /// From the beginning, as if it had never been flown.
     pub fn restart(&mut self) {
+        self.forget();
+        self.jump(0);
+    }
+
+    /// Nothing has been flown yet: jumps count from the beginning, the speed is the usual one.
+    pub fn forget(&mut self) {
         self.jumps_done.fill(0);
         self.speed_m_s = None;
-        self.jump(0);
     }
 
     /// The step to fly now; `None` at the end.
@@ -106,7 +128,7 @@ impl Mission {
             MissionStep::Waypoint { position_m, accept_m, hold_s, yaw_rad } => {
                 MissionStep::Waypoint { position_m: position_m - Vec3::new(0.0, 0.0, rise_m), accept_m, hold_s, yaw_rad }
             }
-            MissionStep::Takeoff { up_m } => MissionStep::Takeoff { up_m: up_m + rise_m },
+            MissionStep::Takeoff { up_m } => MissionStep::Takeoff { up_m: up_m.map(|up_m| up_m + rise_m) },
             MissionStep::Circle { centre_m, radius_m, turns } => {
                 MissionStep::Circle { centre_m: centre_m - Vec3::new(0.0, 0.0, rise_m), radius_m, turns }
             }
@@ -124,7 +146,7 @@ impl Mission {
             self.current = index;
             self.wait_until = None;
             self.begun = false;
-            self.left_at = None;
+            self.begin_anew();
         }
         known
     }
@@ -165,6 +187,7 @@ impl Mission {
         self.current += 1;
         self.wait_until = None;
         self.begun = false;
+        self.begin_anew();
     }
 
     fn repeat(&mut self, to: usize, times: u32) {

@@ -110,8 +110,8 @@ pub enum Request {
         /// First item, or `None` to go on.
         first: Option<usize>,
     },
-    /// Cruise speed for automatic modes, m/s.
-    SetSpeed(f64),
+    /// Cruise speed for automatic modes until the end of the flight, m/s; `None`: the parameter's again.
+    SetSpeed(Option<f64>),
     /// Home position about the origin, m.
     SetHome(Vec3<Ned>),
     /// Circle a place.
@@ -247,8 +247,8 @@ pub enum MissionStep {
     },
     /// Take off to a height, m up about the origin.
     Takeoff {
-        /// Height, m up about the origin.
-        up_m: f64,
+        /// Height, m up about the origin; `None`: the parameter's over home.
+        up_m: Option<f64>,
     },
     /// Land at a point; `None`: here.
     Land {

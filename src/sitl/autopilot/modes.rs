@@ -95,6 +95,10 @@ impl Autopilot {
     /// Begins a mode (again).
     pub(super) fn enter(&mut self, mode: Mode, now: SimTime) {
         self.leave_mission(mode);
+        // A failsafe that breaks a take-off off gives it back.
+        if self.watch.intended != Mode::Takeoff {
+            self.course.takeoff_up_m = None;
+        }
         self.status.orbit = None;
         self.status.mode = mode;
         self.links.sticks_then = self.links.sticks;
@@ -104,11 +108,12 @@ impl Autopilot {
     /// A mission that is left on its way goes on from here later.
     fn leave_mission(&mut self, next: Mode) {
         let flying = self.status.armed && self.status.landed == Landed::InAir && self.estimate.position_valid;
-        let under_way = self.status.mode == Mode::Mission && next != Mode::Mission && self.mission.is_on_the_way();
-        if flying && under_way && self.mission.left_at.is_none() {
-            self.mission.left_at = Some(self.estimate.position_m);
+        let under_way = self.status.mode == Mode::Mission && self.mission.begun && self.mission.step().is_some();
+        let left = flying && under_way && next != Mode::Mission;
+        if left && self.mission.left_at.is_none() && self.mission.step().is_some_and(|step| step.goes_on()) {
+            self.mission.leave(self.estimate.position_m, self.status.orbit.map(|orbit| orbit.left_rad), self.last_step);
         }
-        self.status.mission_paused = next != Mode::Mission && self.mission.left_at.is_some();
+        self.status.mission_paused = next != Mode::Mission && (left || self.status.mission_paused);
     }
 
     pub(super) fn begin_course(&mut self, now: SimTime) {
@@ -140,10 +145,14 @@ impl Autopilot {
     }
 
     fn begin_takeoff(&mut self) {
-        let home_up = self.status.home_m.map_or(0.0, |h| -h.down());
-        let up = self.course.takeoff_up_m.unwrap_or(home_up + self.tuning.takeoff_height_m);
+        let up = self.course.takeoff_up_m.unwrap_or_else(|| self.usual_takeoff_up_m());
         let here = self.estimate.position_m;
         self.course.target_m = Vec3::new(here.north(), here.east(), (-up).min(here.down()));
+    }
+
+    /// Height of a take-off that names none, m up about the origin.
+    pub(super) fn usual_takeoff_up_m(&self) -> f64 {
+        self.status.home_m.map_or(0.0, |h| -h.down()) + self.tuning.takeoff_height_m
     }
 
     /// Home or the nearest rally point.

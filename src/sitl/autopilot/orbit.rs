@@ -128,9 +128,9 @@ impl Autopilot {
 
     /// Sets up a circle of a mission: as fast as the mission flies, the nose to the middle or to what is looked at.
     pub(super) fn begin_circle(&mut self, centre_m: Vec3<Ned>, radius_m: f64, turns: f64) {
-        let speed = self.mission.speed_m_s.unwrap_or(self.tuning.cruise_m_s).min(self.fastest_on(radius_m.abs()));
+        let speed = self.mission.speed_m_s.unwrap_or(self.cruise_m_s()).min(self.fastest_on(radius_m.abs()));
         let speed_m_s = speed * radius_m.signum();
-        let left_rad = turns * 2.0 * math::PI;
+        let left_rad = self.mission.left_rad.take().unwrap_or(turns * 2.0 * math::PI);
         self.orbit =
             Some(Orbit { centre_m, radius_m: radius_m.abs(), speed_m_s, yaw: OrbitYaw::Centre, left_rad, trim_m_s: 0.0 });
         self.course.target_m = centre_m;
@@ -145,7 +145,7 @@ impl Autopilot {
         let away = if distance > 1e-3 { out.unit() } else { Vec3::new(1.0, 0.0, 0.0) };
         let along = Vec3::<Ned>::new(-away.east(), away.north(), 0.0);
         let error = distance - orbit.radius_m;
-        let cruise = self.tuning.cruise_m_s.min(self.airframe.limits.forward_m_s);
+        let cruise = self.cruise_m_s().min(self.airframe.limits.forward_m_s);
         // Far from the circle the way is towards it; on it, around.
         let on_it = (1.0 - error.abs() / orbit.radius_m.max(2.0)).clamp(0.0, 1.0);
         let flat = along * (orbit.speed_m_s * on_it) - away * (CLOSE_IN_PER_S * error + orbit.trim_m_s).clamp(-cruise, cruise);

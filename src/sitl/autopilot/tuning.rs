@@ -79,8 +79,10 @@ pub struct Tuning {
     pub disarm_before_flight_s: f64,
     /// `GF_ACTION`: what a breach of the geofence leads to.
     pub fence_action: super::FenceAction,
-    /// `FENCE_ENABLE` (ArduPilot): the geofence acts.
+    /// `FENCE_ENABLE` (ArduPilot): the geofence acts. A command or an item of a mission switches it, too.
     pub fence_enabled: bool,
+    /// The switch is a parameter that stations see, and stays as it is; otherwise the fence acts again after the flight. (ArduPilot)
+    pub fence_switch_stays: bool,
     /// `GF_MAX_HOR_DIST`: farthest from home, m; 0: no limit.
     pub fence_distance_m: f64,
     /// `GF_MAX_VER_DIST`: highest over home, m; 0: no limit.
@@ -143,6 +145,7 @@ impl Default for Tuning {
             disarm_before_flight_s: 10.0,
             fence_action: super::FenceAction::Hold,
             fence_enabled: true,
+            fence_switch_stays: false,
             fence_distance_m: 0.0,
             fence_height_m: 0.0,
             stick_takeover: true,

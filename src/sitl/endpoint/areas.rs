@@ -19,6 +19,7 @@ pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<
         MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_EXCLUSION => {
             CORNERS.contains(&item.param1) && item.param1.fract() == 0.0
         }
+        MavCmd::MAV_CMD_NAV_FENCE_RETURN_POINT => true,
         MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION => RADII_M.contains(&item.param1),
         _ => return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED),
     };
@@ -44,6 +45,11 @@ pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> Result<(), MavMissionRes
     Ok(())
 }
 
+/// A place to return to after a breach: kept with the fence, and not used, as a return goes to home or a rally point.
+pub(super) fn is_return(item: &MISSION_ITEM_INT_DATA) -> bool {
+    item.command == MavCmd::MAV_CMD_NAV_FENCE_RETURN_POINT
+}
+
 /// Items that make up the area that begins with this one.
 fn corners(item: &MISSION_ITEM_INT_DATA) -> usize {
     match item.command {
@@ -61,6 +67,10 @@ pub(super) fn zones(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane) -> Vec<
     let mut at = 0;
     while let Some(item) = items.get(at) {
         let corners = corners(item);
+        if is_return(item) {
+            at += corners;
+            continue;
+        }
         let inclusion = matches!(
             item.command,
             MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION

@@ -31,6 +31,11 @@ fn param_at(e: &Endpoint, index: Option<usize>) -> Option<MavMessage> {
     Some(param_value(e.params.told(index)?, index, e.params.count() as u16))
 }
 
+/// PARAM_VALUE by name.
+pub(super) fn param_named(e: &Endpoint, name: &str) -> Option<MavMessage> {
+    param_at(e, place_of(e, name))
+}
+
 fn place_of(e: &Endpoint, name: &str) -> Option<usize> {
     e.params.find(name).map(|(index, ..)| index)
 }
@@ -80,6 +85,7 @@ pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut Arrival)
         e.param_lists.remove(&a.link);
         return;
     }
+    e.note_fence_switch(a.autopilot.tuning.fence_enabled);
     match e.params.set(name, set.param_value, set.param_type) {
         Err(refusal) => {
             let error = match refusal {
@@ -92,7 +98,7 @@ pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut Arrival)
         }
         Ok(()) => {
             e.apply_parameters(a.autopilot);
-            if let Some(message) = param_at(e, place_of(e, name)) {
+            if let Some(message) = param_named(e, name) {
                 e.broadcast(AUTOPILOT, &message);
             }
         }
@@ -101,7 +107,7 @@ pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut Arrival)
 
 fn refuse_param(e: &mut Endpoint, name: &str, error: MavParamError, a: &Arrival) {
     e.answer(a.link, &param_error(a.from, name, -1, error));
-    if let Some(message) = param_at(e, place_of(e, name)) {
+    if let Some(message) = param_named(e, name) {
         e.answer(a.link, &message);
     }
 }
@@ -194,7 +200,7 @@ pub(super) fn mission_ack(e: &mut Endpoint, _: &MISSION_ACK_DATA, a: &mut Arriva
 
 /// Answered by MISSION_CURRENT, after a refusal where there is no such item.
 pub(super) fn mission_set_current(e: &mut Endpoint, c: &MISSION_SET_CURRENT_DATA, a: &mut Arrival) {
-    if !a.autopilot.set_mission_current(usize::from(c.seq.saturating_sub(a.view.plans.lead))) {
+    if !a.autopilot.set_mission_current(usize::from(c.seq.saturating_sub(a.view.plans.lead)), false) {
         let result = MavMissionResult::MAV_MISSION_INVALID_SEQUENCE;
         let refusal = ack(a.from, MavMissionType::MAV_MISSION_TYPE_MISSION, result);
         e.answer(a.link, &refusal);
@@ -240,6 +246,9 @@ fn carry_out(e: &mut Endpoint, reply: Reply, a: &mut Arrival) {
         Reply::New(kind, message) => {
             hand_over(e, kind, a.view, a.autopilot);
             e.answer(a.link, &message);
+            if kind == MavMissionType::MAV_MISSION_TYPE_FENCE && e.plans.has_fence_return() {
+                e.tell(MavSeverity::MAV_SEVERITY_INFO, "Fence return point not used: a breach returns to home or a rally point");
+            }
         }
         Reply::Nothing => {}
     }
@@ -250,7 +259,7 @@ pub(super) fn hand_over(e: &mut Endpoint, kind: MavMissionType, view: &View, aut
     let is = |one| kind == one || kind == MavMissionType::MAV_MISSION_TYPE_ALL;
     let home_up = view.status.home_m.map_or(0.0, |h| -h.down());
     if is(MavMissionType::MAV_MISSION_TYPE_MISSION) {
-        autopilot.set_mission(e.plans.steps(view.plane, home_up, autopilot.tuning.accept_radius_m));
+        autopilot.set_mission(e.plans.steps(view.plane, home_up));
         autopilot.hang_mission_on_home(e.plans.over_home());
     }
     if is(MavMissionType::MAV_MISSION_TYPE_FENCE) {

@@ -16,8 +16,6 @@ const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=1_000.0;
 const RADIUS_M: f64 = 5.0;
 /// Speeds that an item may ask for, m/s; -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
 const SPEEDS_M_S: (f32, f32) = (0.1, 100.0);
-/// Height of a take-off that names none, m over home.
-const TAKE_OFF_M: f64 = 2.5;
 /// Repetitions from which a jump counts as endless.
 const ENDLESS: f32 = 64.0;
 
@@ -39,6 +37,12 @@ pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, p
             span(item.param1, (0.0, LONGEST_S), R::MAV_MISSION_INVALID_PARAM1)?;
             flyable(item, plane)
         }
+        MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT => {
+            span(item.param1, (0.0, LONGEST_S), R::MAV_MISSION_INVALID_PARAM1)?;
+            flyable(item, plane)
+        }
+        MavCmd::MAV_CMD_NAV_LOITER_TO_ALT | MavCmd::MAV_CMD_CONDITION_GATE => flyable(item, plane),
+        MavCmd::MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET => straight(item),
         MavCmd::MAV_CMD_NAV_LOITER_TURNS => circle(item).and_then(|()| flyable(item, plane)),
         MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND if placeless(item) => {
             if relative(item.frame).is_none() && item.frame != MavFrame::MAV_FRAME_MISSION {
@@ -110,7 +114,9 @@ fn speed(item: &MISSION_ITEM_INT_DATA) -> Legal {
 /// Refuses a mission in which endless jumps lead from one to the other with nothing to fly or to wait for between them.
 pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> Legal {
     let idle = |item: &MISSION_ITEM_INT_DATA| {
-        (item.command as u16) > NAV_LAST && !matches!(item.command, MavCmd::MAV_CMD_CONDITION_DELAY if item.param1 > 0.0)
+        (item.command as u16) > NAV_LAST
+            && item.command != MavCmd::MAV_CMD_CONDITION_GATE
+            && !matches!(item.command, MavCmd::MAV_CMD_CONDITION_DELAY if item.param1 > 0.0)
     };
     let endless =
         |item: &MISSION_ITEM_INT_DATA| item.command == MavCmd::MAV_CMD_DO_JUMP && !(0.0..ENDLESS).contains(&item.param2);
@@ -133,16 +139,49 @@ pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> Legal {
 /// MAV_CMD_NAV_LAST: commands up to this number fly or wait.
 const NAV_LAST: u16 = 95;
 
-/// An item as the autopilot flies it. `home_up_m` is home's height about the origin, `accept_m` the usual radius of acceptance.
-pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64, accept_m: f64) -> MissionStep {
+/// An item of a mission with what it aims at: the next place, where it is to look there.
+pub(super) fn aimed(items: &[MISSION_ITEM_INT_DATA], index: usize) -> Option<MISSION_ITEM_INT_DATA> {
+    let item = items.get(index)?;
+    if item.command != MavCmd::MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET {
+        return Some(item.clone());
+    }
+    let flown = |item: &&MISSION_ITEM_INT_DATA| is_flown(item.command) && !placeless(item);
+    let command = MavCmd::MAV_CMD_DO_SET_ROI_LOCATION;
+    let next = items.iter().skip(index + 1).find(flown);
+    // Behind the last place there is nothing to look at.
+    let none = || MISSION_ITEM_INT_DATA { command: MavCmd::MAV_CMD_DO_SET_ROI_NONE, ..item.clone() };
+    Some(next.map_or_else(none, |next| MISSION_ITEM_INT_DATA { command, ..next.clone() }))
+}
+
+fn is_flown(command: MavCmd) -> bool {
+    (command as u16) <= NAV_LAST || command == MavCmd::MAV_CMD_CONDITION_GATE
+}
+
+/// Looks at the next place itself: pitch and yaw beside it in parameters 5 and 7, roll in 6, must not be asked for.
+fn straight(item: &MISSION_ITEM_INT_DATA) -> Legal {
+    use MavMissionResult as R;
+    let none = |offset: i32| matches!(offset, 0 | i32::MAX);
+    match (none(item.x), none(item.y), item.z == 0.0 || item.z.is_nan()) {
+        (false, ..) => Err(R::MAV_MISSION_INVALID_PARAM5_X),
+        (_, false, _) => Err(R::MAV_MISSION_INVALID_PARAM6_Y),
+        (.., false) => Err(R::MAV_MISSION_INVALID_PARAM7),
+        _ => Ok(()),
+    }
+}
+
+/// An item as the autopilot flies it. `home_up_m` is home's height about the origin.
+pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> MissionStep {
     let number = |x: f32, or: f64| if x.is_finite() { f64::from(x) } else { or };
     let somewhere = |make: fn(crate::base::frames::Vec3<crate::base::frames::Ned>) -> MissionStep| {
         place(item, plane, home_up_m).map_or(MissionStep::Payload, make)
     };
     match item.command {
-        MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM => {
-            waypoint(item, plane, home_up_m, accept_m)
-        }
+        MavCmd::MAV_CMD_NAV_WAYPOINT
+        | MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT
+        | MavCmd::MAV_CMD_NAV_LOITER_TIME
+        | MavCmd::MAV_CMD_NAV_LOITER_UNLIM
+        | MavCmd::MAV_CMD_NAV_LOITER_TO_ALT
+        | MavCmd::MAV_CMD_CONDITION_GATE => waypoint(item, plane, home_up_m),
         MavCmd::MAV_CMD_NAV_LOITER_TURNS => match place(item, plane, home_up_m) {
             Some(centre_m) => MissionStep::Circle {
                 centre_m,
@@ -154,7 +193,7 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
         MavCmd::MAV_CMD_NAV_TAKEOFF => {
             let over_sea = relative(item.frame) == Some(false);
             let base = if over_sea { -plane.origin().altitude_m } else { home_up_m };
-            MissionStep::Takeoff { up_m: if item.z.is_nan() { home_up_m + TAKE_OFF_M } else { base + f64::from(item.z) } }
+            MissionStep::Takeoff { up_m: (!item.z.is_nan()).then(|| base + f64::from(item.z)) }
         }
         MavCmd::MAV_CMD_NAV_LAND => {
             MissionStep::Land { position_m: if placeless(item) { None } else { place(item, plane, home_up_m) } }
@@ -181,13 +220,16 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
     }
 }
 
-fn waypoint(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64, accept_m: f64) -> MissionStep {
+/// The first parameter of a height to loiter to and of a gate is no time to stay.
+fn waypoint(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> MissionStep {
     let Some(position_m) = place(item, plane, home_up_m) else { return MissionStep::Payload };
     let passes = item.command == MavCmd::MAV_CMD_NAV_WAYPOINT;
-    let stay_s = if item.param1.is_finite() { f64::from(item.param1).max(0.0) } else { 0.0 };
+    let stays = !matches!(item.command, MavCmd::MAV_CMD_NAV_LOITER_TO_ALT | MavCmd::MAV_CMD_CONDITION_GATE);
+    let stay_s = if stays && item.param1.is_finite() { f64::from(item.param1).max(0.0) } else { 0.0 };
     MissionStep::Waypoint {
         position_m,
-        accept_m: if passes && item.param2.is_finite() && item.param2 > 0.0 { f64::from(item.param2) } else { accept_m },
+        // 0: the parameter's of then.
+        accept_m: if passes && item.param2.is_finite() && item.param2 > 0.0 { f64::from(item.param2) } else { 0.0 },
         hold_s: if item.command == MavCmd::MAV_CMD_NAV_LOITER_UNLIM { f64::INFINITY } else { stay_s },
         yaw_rad: (passes && item.param4.is_finite()).then(|| f64::from(item.param4).to_radians()),
     }

@@ -34,11 +34,13 @@ pub struct Plans {
     pace: f64,
     /// Items of the wire's mission before the first that is flown.
     lead: u16,
+    /// Splines are taken.
+    splines: bool,
 }
 
 impl Default for Plans {
     fn default() -> Self {
-        Self { kept: Default::default(), ids: [0; 3], upload: None, done: None, pace: 1.0, lead: 0 }
+        Self { kept: Default::default(), ids: [0; 3], upload: None, done: None, pace: 1.0, lead: 0, splines: false }
     }
 }
 
@@ -113,6 +115,18 @@ impl Plans {
     #[must_use]
     pub fn led_by(lead: u16) -> Self {
         Self { lead, ..Self::default() }
+    }
+
+    /// Whether splines are taken in missions.
+    #[must_use]
+    pub fn with_splines(self, splines: bool) -> Self {
+        Self { splines, ..self }
+    }
+
+    /// The fence names a place to return to.
+    #[must_use]
+    pub fn has_fence_return(&self) -> bool {
+        self.kept[1].iter().any(areas::is_return)
     }
 
     /// Items of a plan as the wire counts them.
@@ -258,7 +272,9 @@ impl Plans {
         let kept = slot(upload.kind).map_or(0, |slot| self.kept[slot].len());
         let total = if upload.part { kept as u16 + lead } else { upload.count };
         // Home is the vehicle's own, whatever is sent for it.
-        let refusal = if wanted < lead { None } else { items::legal(item, lead..total, plane).err() };
+        let spline = item.command == MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT && !self.splines;
+        let unknown = spline.then_some(MavMissionResult::MAV_MISSION_UNSUPPORTED);
+        let refusal = if wanted < lead { None } else { unknown.or_else(|| items::legal(item, lead..total, plane).err()) };
         if let Some(result) = refusal {
             let kind = upload.kind;
             self.upload = None;
@@ -356,8 +372,9 @@ impl Plans {
 
     /// The mission as the autopilot flies it. `home_up_m` is home's height about the origin.
     #[must_use]
-    pub fn steps(&self, plane: &LocalPlane, home_up_m: f64, accept_m: f64) -> Vec<MissionStep> {
-        self.kept[0].iter().map(|item| items::step(item, plane, home_up_m, accept_m)).collect()
+    pub fn steps(&self, plane: &LocalPlane, home_up_m: f64) -> Vec<MissionStep> {
+        let all = &self.kept[0];
+        (0..all.len()).filter_map(|k| Some(items::step(&items::aimed(all, k)?, plane, home_up_m))).collect()
     }
 
     /// Which items of the mission give their height over home.

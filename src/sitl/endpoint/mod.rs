@@ -219,7 +219,7 @@ impl Endpoint {
             injections: VecDeque::new(),
             sticks_pass: true,
             params,
-            plans: Plans::led_by(u16::from(flavour.home_item)),
+            plans: Plans::led_by(u16::from(flavour.home_item)).with_splines(flavour.splines),
             manual: Manual::default(),
             payload: Payload::new(),
             texts: Vec::new(),
@@ -424,6 +424,7 @@ impl Endpoint {
     pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
         self.chosen = view.mode_row().number;
         self.flight.follow(std::mem::replace(&mut self.was_armed, view.status.armed), view.status, view.now);
+        self.note_fence_switch(view.fence_enabled);
         self.take_picture(view);
         if self.pace != self.told_pace {
             self.told_pace = self.pace;
@@ -497,8 +498,8 @@ impl Endpoint {
 
     /// Items of the mission that are the payload's act when they are passed.
     fn mission_payload(&mut self, seq: usize, view: &View) {
-        let Some(item) = self.plans.mission().get(seq) else { return };
-        let command = commands::Command::of_item(item, (self.system_id, AUTOPILOT));
+        let Some(item) = items::aimed(self.plans.mission(), seq) else { return };
+        let command = commands::Command::of_item(&item, (self.system_id, AUTOPILOT));
         if let Some(result) = commands::payload::handle(&command, view, &mut self.payload)
             && result != MavResult::MAV_RESULT_ACCEPTED
         {

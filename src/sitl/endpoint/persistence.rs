@@ -2,7 +2,7 @@
 
 use super::streams::AUTOPILOT;
 use super::{Endpoint, Wish, exchange, params};
-use crate::sitl::autopilot::Autopilot;
+use crate::sitl::autopilot::{Autopilot, Request};
 
 /// Parameters sent to a link in one tick of the list.
 const PARAMS_A_TICK: usize = 2;
@@ -40,9 +40,23 @@ impl Endpoint {
         self.storage.wish.take()
     }
 
+    /// The geofence was switched by a command or a mission: the parameter for it follows, and everybody is told.
+    pub(super) fn note_fence_switch(&mut self, enabled: bool) {
+        if self.params.fence_enabled().is_some_and(|shown| shown != enabled)
+            && self.params.set_value(params::FENCE_SWITCH, params::Value::Int(i32::from(enabled))).is_ok()
+            && let Some(message) = exchange::param_named(self, params::FENCE_SWITCH)
+        {
+            self.broadcast(AUTOPILOT, &message);
+        }
+    }
+
     /// The parameters act.
     pub(super) fn apply_parameters(&mut self, autopilot: &mut Autopilot) {
+        let cruise_m_s = autopilot.tuning.cruise_m_s;
         self.params.apply(&mut autopilot.tuning);
+        if autopilot.tuning.cruise_m_s != cruise_m_s {
+            autopilot.request(Request::SetSpeed(None), autopilot.now());
+        }
         (self.flavour.tune)(&mut autopilot.tuning);
         self.manual.let_go_s = autopilot.tuning.manual_patience_s();
         self.manual.policy = self.params.stick_policy();

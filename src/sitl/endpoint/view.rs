@@ -56,6 +56,8 @@ pub struct View<'a> {
     pub flavour: &'static Flavour,
     /// The flavour's number of the mode that was asked for last.
     pub chosen: u32,
+    /// The geofence is switched on.
+    pub fence_enabled: bool,
     /// MAVLink system id.
     pub system_id: u8,
     /// The flight of now, or the last.

@@ -51,8 +51,8 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.given(1) {
             // -1 changes nothing, -2 goes back to the parameter's (MAVLink common).
             Some(-1.0) => return Some(MavResult::MAV_RESULT_ACCEPTED),
-            Some(-2.0) => Request::SetSpeed(x.params.cruise_m_s()),
-            Some(speed) if speed > 0.0 => Request::SetSpeed(speed),
+            Some(-2.0) => Request::SetSpeed(None),
+            Some(speed) if speed > 0.0 => Request::SetSpeed(Some(speed)),
             _ => return Some(x.deny("Speed: above 0 m/s, -1 as it is, -2 the usual")),
         },
         n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, x) {
@@ -84,8 +84,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             return Some(reboot(c, x));
         }
         n if n == M::MAV_CMD_DO_SET_MISSION_CURRENT as u16 => {
-            let known = c.given(0).is_some_and(|seq| seq >= 0.0 && x.autopilot.set_mission_current(index(seq, x)));
-            return Some(if known { MavResult::MAV_RESULT_ACCEPTED } else { x.deny("No such mission item") });
+            return Some(if set_current(c, x) { MavResult::MAV_RESULT_ACCEPTED } else { x.deny("No such mission item") });
         }
         _ => return None,
     };
@@ -186,6 +185,16 @@ fn set_mode(c: &Command, x: &mut Context) -> MavResult {
 /// An item's place among those that are flown.
 fn index(seq: f64, x: &Context) -> usize {
     (seq as usize).saturating_sub(usize::from(x.view.plans.lead))
+}
+
+/// Parameter 1 the item, -1 for the present one; with 1 in parameter 2 the mission is as if it had not been flown.
+fn set_current(c: &Command, x: &mut Context) -> bool {
+    let item = match c.given(0) {
+        Some(-1.0) => x.autopilot.status().mission_current,
+        Some(seq) if seq >= 0.0 => index(seq, x),
+        _ => return false,
+    };
+    x.autopilot.set_mission_current(item, c.is_one(1))
 }
 
 /// DO_REPOSITION. Where one mode flies errands it must be flown, or parameter 2 must ask for it (MAV_DO_REPOSITION_FLAGS_CHANGE_MODE).

@@ -2,7 +2,7 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::super::Payload;
-use super::super::gimbal::{Aim, DEVICE};
+use super::super::gimbal::{Aim, DEVICE, Gimbal};
 use super::super::view::View;
 use super::Command;
 use super::payload::{ACCEPTED, DENIED, Row, place, verdict};
@@ -23,9 +23,14 @@ pub(super) const ROWS: &[Row] = &[
     (MavCmd::MAV_CMD_DO_SET_ROI_NONE, |c, v, p| aim(Aim::Angle(0.0), c, v, p)),
 ];
 
+/// The vehicle's own mission is always in control, whoever else is.
+fn may_move(c: &Command, gimbal: &Gimbal) -> bool {
+    c.own || gimbal.obeys(c.from)
+}
+
 fn aim(aim: Aim, c: &Command, view: &View, payload: &mut Payload) -> MavResult {
     let gimbal = &mut payload.gimbal;
-    verdict((c.own || gimbal.obeys(c.from)) && gimbal.set(aim, &view.vehicle.camera))
+    verdict(may_move(c, gimbal) && gimbal.set(aim, &view.vehicle.camera))
 }
 
 /// The device in parameter 7: this one, or all.
@@ -76,6 +81,9 @@ fn configure(c: &Command, payload: &mut Payload) -> MavResult {
 }
 
 fn roi(c: &Command, view: &View, payload: &mut Payload) -> MavResult {
+    if c.clears_interest() {
+        return aim(Aim::Angle(0.0), c, view, payload);
+    }
     let place = c.given(6).and_then(|altitude_m| place(c, view, altitude_m));
     place.map_or(DENIED, |place| aim(Aim::Place(place), c, view, payload))
 }
@@ -134,7 +142,7 @@ fn mount_configure(c: &Command, view: &View, payload: &mut Payload) -> MavResult
     let done = match MountMode::of(c.p[0]) {
         Some(MountMode::Neutral) => aim(Aim::Neutral, c, view, payload),
         Some(MountMode::Home) => look_home(c, view, payload),
-        Some(MountMode::Targeting | MountMode::Point) => verdict(c.own || payload.gimbal.obeys(c.from)),
+        Some(MountMode::Targeting | MountMode::Point) => verdict(may_move(c, &payload.gimbal)),
         None => DENIED,
     };
     if done == ACCEPTED {

@@ -69,19 +69,11 @@ impl Command {
     /// From an item of a mission, as its vehicle gives it to itself.
     #[must_use]
     pub fn of_item(item: &MISSION_ITEM_INT_DATA, from: (u8, u8)) -> Self {
-        let [x, y] = [item.x, item.y].map(|scaled| f64::from(scaled) * 1e-7);
+        let [x, y] = [item.x, item.y].map(|scaled| if scaled == i32::MAX { f64::NAN } else { f64::from(scaled) * 1e-7 });
         let p = [item.param1, item.param2, item.param3, item.param4].map(f64::from);
         let p = [p[0], p[1], p[2], p[3], x, y, f64::from(item.z)];
-        Self {
-            number: item.command as u16,
-            p,
-            frame: item.frame as u8,
-            component: from.1,
-            system: from.0,
-            from,
-            whole: true,
-            own: true,
-        }
+        let (number, frame, (system, component)) = (item.command as u16, item.frame as u8, from);
+        Self { number, p, frame, component, system, from, whole: true, own: true }
     }
 
     /// Whether its height counts from home; `None` for a frame that is no place over the ground.
@@ -104,6 +96,12 @@ impl Command {
     #[must_use]
     pub fn given(&self, k: usize) -> Option<f64> {
         Some(self.p[k]).filter(|v| v.is_finite())
+    }
+
+    /// A place of interest at 0 north, 0 east is none: clients end it so. An item of a mission may leave the place out besides.
+    #[must_use]
+    pub fn clears_interest(&self) -> bool {
+        [4, 5].iter().all(|k| self.p[*k] == 0.0 || (self.own && self.p[*k].is_nan()))
     }
 
     /// A small whole number that is no place, when it is given: as 5 and 6 of COMMAND_INT and of a mission's item it is not scaled, but some
@@ -133,8 +131,13 @@ pub fn handle(c: &Command, x: &mut Context) -> MavResult {
 fn look(c: &Command, x: &mut Context) -> Option<MavResult> {
     let place = payload::looked_at(c, &x.view)?;
     let done = payload::handle(c, &x.view, x.payload);
-    if done == Some(MavResult::MAV_RESULT_ACCEPTED) {
+    let obeyed = done == Some(MavResult::MAV_RESULT_ACCEPTED);
+    if obeyed || place.is_none() {
         x.autopilot.request(Request::LookAt(place), x.view.now);
+    }
+    if !obeyed && place.is_none() {
+        x.tell("The vehicle looks nowhere any more; the gimbal stays with who controls it");
+        return Some(MavResult::MAV_RESULT_ACCEPTED);
     }
     done
 }

@@ -69,7 +69,11 @@ pub(in super::super) fn looked_at(c: &Command, view: &View) -> Option<Option<Vec
     match c.number {
         n if n == MavCmd::MAV_CMD_DO_SET_ROI_NONE as u16 => Some(None),
         n if n == MavCmd::MAV_CMD_DO_SET_ROI_LOCATION as u16 || n == MavCmd::MAV_CMD_DO_SET_ROI as u16 => {
-            Some(Some(place(c, view, c.given(6)?)?.ned()))
+            if c.clears_interest() {
+                Some(None)
+            } else {
+                Some(Some(place(c, view, c.given(6)?)?.ned()))
+            }
         }
         _ => None,
     }

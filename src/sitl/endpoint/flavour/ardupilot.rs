@@ -99,6 +99,7 @@ pub static FLAVOUR: Flavour = Flavour {
         (11, &[74]),
         (12, &[2, 147, 231, 241, 230, 132, 285]),
     ],
+    splines: true,
     home_item: true,
     float_items: true,
     params: &face::COPTER,
@@ -106,6 +107,7 @@ pub static FLAVOUR: Flavour = Flavour {
         tuning.setpoints_end = true;
         tuning.arm_throttle_down = true;
         tuning.first_item = 1;
+        tuning.fence_switch_stays = true;
     },
 };
 

@@ -41,6 +41,7 @@ pub static FLAVOUR: Flavour = Flavour {
     banner: &[],
     asks_first: false,
     groups: px4::GROUPS,
+    splines: false,
     home_item: false,
     float_items: false,
     params: &face::GENERIC,

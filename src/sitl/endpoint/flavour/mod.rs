@@ -102,6 +102,8 @@ pub struct Flavour {
     pub asks_first: bool,
     /// REQUEST_DATA_STREAM: groups and the messages in them.
     pub groups: &'static [(u8, &'static [u32])],
+    /// NAV_SPLINE_WAYPOINT is taken in missions; it is flown as a waypoint.
+    pub splines: bool,
     /// Item 0 of a mission is home.
     pub home_item: bool,
     /// MISSION_REQUEST is answered with MISSION_ITEM.

@@ -70,6 +70,7 @@ pub static FLAVOUR: Flavour = Flavour {
     banner: &[],
     asks_first: false,
     groups: GROUPS,
+    splines: false,
     home_item: false,
     float_items: false,
     params: &face::PX4,

@@ -59,6 +59,8 @@ impl Value {
 
 /// PX4's name for the checksum over all parameters.
 pub const HASH: &str = "_HASH_CHECK";
+/// The parameter that switches the geofence, where a flavour has one.
+pub const FENCE_SWITCH: &str = "FENCE_ENABLE";
 /// Why a parameter was not set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
@@ -334,6 +336,12 @@ impl Params {
         }
     }
 
+    /// Whether the geofence acts, where a parameter says so.
+    #[must_use]
+    pub fn fence_enabled(&self) -> Option<bool> {
+        self.whole(FENCE_SWITCH).map(|value| value != 0)
+    }
+
     fn number(&self, name: &str) -> f64 {
         self.values.get(name).map_or(0.0, |v| v.number())
     }
@@ -357,7 +365,7 @@ impl Params {
         tuning.disarm_after_landing_s = self.number("COM_DISARM_LAND");
         tuning.disarm_before_flight_s = self.number("COM_DISARM_PRFLT");
         tuning.fence_action = FenceAction::from_number(self.number("GF_ACTION") as i32).unwrap_or(FenceAction::Hold);
-        tuning.fence_enabled = self.whole("FENCE_ENABLE") != Some(0);
+        tuning.fence_enabled = self.fence_enabled().unwrap_or(tuning.fence_enabled);
         tuning.fence_distance_m = self.number("GF_MAX_HOR_DIST");
         tuning.fence_height_m = self.number("GF_MAX_VER_DIST");
         tuning.manual_loss = LinkLoss::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLoss::Hold);
