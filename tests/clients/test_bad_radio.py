@@ -14,6 +14,7 @@ from mavsdk.plugins.param import Param
 from pymavlink import mavutil
 
 import spandrel
+import test_mavproxy as mavproxy
 from spandrel import wait_for
 
 NAN = float("nan")
@@ -99,6 +100,28 @@ def test_wire_a_pymavlink_script_moves_a_plan_and_parameters_over_a_bad_radio(tm
         script.ask(lambda: link.mav.param_set_send(1, 1, b"MPC_XY_CRUISE", 4.5, mav.MAV_PARAM_TYPE_REAL32), ["PARAM_VALUE"], fits)
         assert link.packet_loss() > LOSS_PCT / 4, "the radio is not a bad one"
     finally:
+        spandrel.end(process)
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavproxy_loads_a_plan_and_parameters_over_a_bad_radio(tmp_path):
+    """What a person types arrives, by MAVProxy's own repetitions or by typing again."""
+    process, port = bad_radio(tmp_path)
+    typed = mavproxy.Console(port, tmp_path)
+    try:
+        typed.wait("parameters to")
+        typed.say("param set MPC_XY_CRUISE 4", None)
+        typed.until("param fetch MPC_XY_CRUISE", "MPC_XY_CRUISE = 4.0")
+        nothing = (0.0, 0.0, 0.0, 0.0)
+        rows = [(3, 22, nothing, 0, 5)] + [(3, 16, nothing, k, 6) for k in range(1, 20)] + [(3, 21, nothing, 0, 0)]
+        mission = mavproxy.plan(tmp_path, "mission.txt", rows)
+        typed.say(f"wp load {mission}", "Loaded 21 waypoints")
+        typed.wait("Got MISSION_ACK: TYPE_MISSION: ACCEPTED")
+        typed.say("wp list", "Requesting 21 waypoints")
+        typed.wait("Saved 21 waypoints")
+        typed.until("arm throttle", "ARMED")
+    finally:
+        typed.close()
         spandrel.end(process)
 
 

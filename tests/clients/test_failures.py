@@ -51,3 +51,26 @@ def test_wire_failures_are_off_unless_a_parameter_allows_them(tmp_path):
             Failure(system).inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
     finally:
         spandrel.end(process)
+
+
+@pytest.mark.timeout(300)
+def test_wire_mavsdk_breaks_the_compass_a_motor_and_the_battery(tmp_path):
+    """Each is taken and can be taken back, an empty battery is told; a motor that there is not is no motor."""
+    file = tmp_path / "drone.params"
+    file.write_text("1\t1\tSYS_FAILURE_EN\t1\t6\n", encoding="utf-8")
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, "--params", str(file))
+    try:
+        _mavsdk, system, telemetry = connect(port)
+        failure = Failure(system)
+        failure.inject(FailureUnit.SENSOR_MAG, FailureType.OFF, 0)
+        failure.inject(FailureUnit.SENSOR_MAG, FailureType.OK, 0)
+        with pytest.raises(Exception, match="UNSUPPORTED"):
+            failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OFF, 9)
+        failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OFF, 1)
+        failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OK, 1)
+        before = telemetry.battery().remaining_percent
+        failure.inject(FailureUnit.SYSTEM_BATTERY, FailureType.OFF, 0)
+        wait_for("an empty battery", lambda: telemetry.battery().remaining_percent < before - 20.0)
+    finally:
+        spandrel.end(process)
