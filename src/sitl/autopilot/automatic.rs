@@ -139,7 +139,8 @@ impl Autopilot {
         };
         match setpoint.yaw_rate_rad_s {
             Some(rate) if setpoint.yaw_rad.is_none() => self.turn_at(rate, dt_s),
-            _ => self.turn_to(setpoint.yaw_rad, dt_s),
+            // Where a set-point leaves the heading open, a command may say it, as in ArduPilot's GUIDED.
+            _ => self.turn_to(setpoint.yaw_rad.or(self.course.target_yaw_rad), dt_s),
         }
         if let Some((attitude, thrust)) = setpoint.attitude {
             let thrust_n = (thrust.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n);

@@ -186,7 +186,7 @@ impl Autopilot {
 
     /// The mode stays: a mission flies on, a person keeps the sticks.
     fn turn_by_command(&mut self, yaw_rad: f64) -> Outcome {
-        let automatic = matches!(self.status.mode, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Mission);
+        let automatic = matches!(self.status.mode, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Mission | Mode::Offboard);
         if !self.status.armed || self.status.landed == Landed::OnGround || !automatic {
             return Outcome::TemporarilyRejected("Not flying by itself".into());
         }
