@@ -22,6 +22,8 @@ NAN = float("nan")
 LOSS_PCT, DELAY_MS = 5.0, 40
 # Wall seconds after which a client asks again, and how often it does so: forty losses in a row do not happen.
 AGAIN_S, TIMES = 0.5, 40
+# A person types again what has not arrived after this, wall seconds.
+PATIENCE_S = 10
 
 
 def bad_radio(folder, *more):
@@ -110,15 +112,12 @@ def test_wire_mavproxy_loads_a_plan_and_parameters_over_a_bad_radio(tmp_path):
     typed = mavproxy.Console(port, tmp_path)
     try:
         typed.wait("parameters to")
-        typed.say("param set MPC_XY_CRUISE 4", None)
-        typed.until("param fetch MPC_XY_CRUISE", "MPC_XY_CRUISE = 4.0")
+        typed.until("param set MPC_XY_CRUISE 4\nparam fetch MPC_XY_CRUISE", "MPC_XY_CRUISE = 4.0", PATIENCE_S)
         nothing = (0.0, 0.0, 0.0, 0.0)
         rows = [(3, 22, nothing, 0, 5)] + [(3, 16, nothing, k, 6) for k in range(1, 20)] + [(3, 21, nothing, 0, 0)]
         mission = mavproxy.plan(tmp_path, "mission.txt", rows)
-        typed.say(f"wp load {mission}", "Loaded 21 waypoints")
-        typed.wait("Got MISSION_ACK: TYPE_MISSION: ACCEPTED")
-        typed.say("wp list", "Requesting 21 waypoints")
-        typed.wait("Saved 21 waypoints")
+        typed.until(f"wp load {mission}", "Got MISSION_ACK: TYPE_MISSION: ACCEPTED", 3 * PATIENCE_S)
+        typed.until("wp list", "Saved 21 waypoints", 3 * PATIENCE_S)
         typed.until("arm throttle", "ARMED")
     finally:
         typed.close()

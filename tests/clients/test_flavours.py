@@ -114,8 +114,15 @@ def test_wire_a_script_for_the_standard_flies(vehicle):
     standard = {1: "position hold", 5: "safe recovery", 7: "land", 8: "take-off"}
     modes, total = {}, 1
     while len(modes) < total:
-        assert script.command(M.MAV_CMD_REQUEST_MESSAGE, 435, len(modes) + 1) == M.MAV_RESULT_ACCEPTED
-        mode = script.link.messages["AVAILABLE_MODES"]
+        wanted = len(modes) + 1
+
+        def answer():
+            mode = script.link.messages.get("AVAILABLE_MODES")
+            return mode if mode and mode.mode_index == wanted else script.link.recv_match(blocking=True, timeout=0.1) and None
+
+        assert script.command(M.MAV_CMD_REQUEST_MESSAGE, 435, wanted) == M.MAV_RESULT_ACCEPTED
+        # The answer may come before its acknowledgement or after it.
+        mode = wait_for(f"mode {wanted}", answer, LIMIT_S)
         modes[mode.mode_index], total = mode, mode.number_modes
     offered = {mode.standard_mode for mode in modes.values() if not mode.properties & M.MAV_MODE_PROPERTY_NOT_USER_SELECTABLE}
     assert set(standard) <= offered and 0 not in offered

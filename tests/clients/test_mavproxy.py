@@ -5,6 +5,7 @@ import queue
 import subprocess
 import sys
 import threading
+import time
 
 import pytest
 
@@ -49,14 +50,15 @@ class Console:
         self.process.stdin.flush()
         return self.wait(answer) if answer else None
 
-    def until(self, command, answer):
+    def until(self, command, answer, patience_s=1):
         """Types a command again and again until its answer comes: MAVProxy does what was typed before in its own time."""
-        for _ in range(LIMIT_S):
+        for _ in range(LIMIT_S // patience_s):
             self.process.stdin.write(command + "\n")
             self.process.stdin.flush()
+            end = time.monotonic() + patience_s
             try:
                 while True:
-                    self.heard.append(self.lines.get(timeout=1))
+                    self.heard.append(self.lines.get(timeout=max(end - time.monotonic(), 0.01)))
                     if answer in self.heard[-1]:
                         return
             except queue.Empty:
