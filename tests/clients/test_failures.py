@@ -20,13 +20,18 @@ def connect(port):
     return mavsdk, system, telemetry
 
 
+def failing(folder):
+    """A simulator whose parameter allows failures, and its port."""
+    file = folder / "drone.params"
+    file.write_text("1\t1\tSYS_FAILURE_EN\t1\t6\n", encoding="utf-8")
+    port = spandrel.free_udp_port()
+    return spandrel.start_sim(folder, port, "--params", str(file)), port
+
+
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_takes_the_gnss_away_and_gives_it_back(tmp_path):
     """The vehicle's health tells both; a failure that there is not is told as such."""
-    file = tmp_path / "drone.params"
-    file.write_text("1\t1\tSYS_FAILURE_EN\t1\t6\n", encoding="utf-8")
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--params", str(file))
+    process, port = failing(tmp_path)
     try:
         _mavsdk, system, telemetry = connect(port)
         failure = Failure(system)
@@ -56,10 +61,7 @@ def test_wire_failures_are_off_unless_a_parameter_allows_them(tmp_path):
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_breaks_the_compass_a_motor_and_the_battery(tmp_path):
     """Each is taken and can be taken back, an empty battery is told; a motor that there is not is no motor."""
-    file = tmp_path / "drone.params"
-    file.write_text("1\t1\tSYS_FAILURE_EN\t1\t6\n", encoding="utf-8")
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--params", str(file))
+    process, port = failing(tmp_path)
     try:
         _mavsdk, system, telemetry = connect(port)
         failure = Failure(system)

@@ -10,7 +10,6 @@ import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action, ActionError, RelayCommand
 from mavsdk.plugins.camera import Camera, CameraError, Mode, Option, PhotosRange, Setting
-from mavsdk.plugins.gimbal import ControlMode, Gimbal, GimbalError, GimbalMode, SendMode
 from mavsdk.plugins.telemetry import Telemetry
 from pymavlink import mavutil
 
@@ -84,7 +83,7 @@ class Rig:
         system = self.mavsdk.first_autopilot(60.0)
         assert system is not None, "no vehicle discovered"
         self.action, self.telemetry = Action(system), Telemetry(system)
-        self.camera, self.gimbal = Camera(system), Gimbal(system)
+        self.camera = Camera(system)
         self.station.wait("heartbeat", lambda: ("HEARTBEAT", CAMERA) in self.station.last)
 
     def close(self):
@@ -250,11 +249,6 @@ def test_wire_mavsdk_changes_every_setting_to_every_option_and_back(rig):
             assert setting(rig, name) == value, name
     with pytest.raises(CameraError):
         rig.camera.set_setting(camera, Setting(setting_id="CAM_PHOTOQUAL", option=Option(option_id="7")))
-
-
-def pitch_deg(rig, gimbal):
-    """Pitch over the horizon."""
-    return rig.gimbal.get_attitude(gimbal).euler_angle_forward.pitch_deg
 
 
 @pytest.mark.timeout(300)

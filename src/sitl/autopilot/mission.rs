@@ -78,11 +78,6 @@ impl Mission {
         (self.left_at, self.left_wait, self.left_rad) = (None, None, None);
     }
 
-    /// Places that the steps fly to, m.
-    pub fn places(&self) -> impl Iterator<Item = (usize, Vec3<Ned>)> {
-        (0..self.steps.len()).filter_map(|k| Some((k, self.place_at(k)?)))
-    }
-
     fn place_at(&self, index: usize) -> Option<Vec3<Ned>> {
         match self.step_at(index)? {
             MissionStep::Waypoint { position_m, .. } => Some(position_m),
