@@ -1,9 +1,5 @@
 """The same vehicle as other autopilots: scripts for ArduCopter, MAVProxy as its users type, MAVSDK, and the standard alone."""
 
-import os
-
-os.environ["MAVLINK20"] = "1"
-
 import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action
@@ -12,13 +8,13 @@ from mavsdk.plugins.param import Param
 from mavsdk.plugins.telemetry import FlightMode, Telemetry
 from pymavlink import mavutil
 
+import asking
 import spandrel
 from spandrel import wait_for
 from test_mavproxy import LAT, LON, Console, plan
 
 M = mavutil.mavlink
-# Wall seconds for an answer of a simulator on a busy machine, ten times over.
-LIMIT_S = 120
+LIMIT_S = asking.LIMIT_S
 # A height counts as reached within this, m.
 NEAR_M = 0.8
 NAN = float("nan")
@@ -30,17 +26,15 @@ class Script:
     """What scripts on pymavlink do, whatever the autopilot."""
 
     def __init__(self, port):
-        self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
-        assert self.link.wait_heartbeat(timeout=LIMIT_S) is not None
+        self.link = asking.connect(port)
 
     def wait(self, kind, condition=lambda message: True):
         """The next message of a kind that meets a condition."""
-        return wait_for(kind, lambda: (m := self.link.recv_match(type=kind, blocking=True, timeout=1)) and condition(m) and m, LIMIT_S)
+        return asking.hear(self.link, kind, condition)
 
     def command(self, number, *params):
         """The result of a command."""
-        self.link.mav.command_long_send(1, 1, number, 0, *(list(params) + [0] * 7)[:7])
-        return self.wait("COMMAND_ACK", lambda ack: ack.command == number).result
+        return asking.command(self.link, number, *params)
 
     def ready(self):
         """Asks for everything at 10 Hz, as scripts do, and waits until the vehicle would arm."""
@@ -78,14 +72,10 @@ def test_wire_a_script_for_arducopter_flies(vehicle):
     link = script.link
     assert link.mode_mapping()["GUIDED"] == 4
     script.ready()
-    link.mav.param_request_list_send(1, 1)
-    values, count = {}, None
-    while count is None or len(values) < count:
-        message = script.wait("PARAM_VALUE")
-        values[message.param_id], count = message.param_value, message.param_count
+    values = {name: value.param_value for name, value in asking.parameters(link).items()}
     assert (values["FRAME_CLASS"], values["RTL_ALT"]) == (1.0, 3000.0)
-    link.param_set_send("RTL_ALT", 1200)
-    assert script.wait("PARAM_VALUE", lambda v: v.param_id == "RTL_ALT").param_value == 1200.0
+    set_to = asking.ask(link, lambda: link.param_set_send("RTL_ALT", 1200), "PARAM_VALUE", lambda v: v.param_id == "RTL_ALT")
+    assert set_to.param_value == 1200.0
     link.set_mode("GUIDED")
     script.wait("HEARTBEAT", lambda b: b.get_srcComponent() == 1 and b.custom_mode == 4)
     assert link.flightmode == "GUIDED"
@@ -115,14 +105,7 @@ def test_wire_a_script_for_the_standard_flies(vehicle):
     modes, total = {}, 1
     while len(modes) < total:
         wanted = len(modes) + 1
-
-        def answer():
-            mode = script.link.messages.get("AVAILABLE_MODES")
-            return mode if mode and mode.mode_index == wanted else script.link.recv_match(blocking=True, timeout=0.1) and None
-
-        assert script.command(M.MAV_CMD_REQUEST_MESSAGE, 435, wanted) == M.MAV_RESULT_ACCEPTED
-        # The answer may come before its acknowledgement or after it.
-        mode = wait_for(f"mode {wanted}", answer, LIMIT_S)
+        mode = asking.message(script.link, 435, "AVAILABLE_MODES", lambda m: m.mode_index == wanted, wanted)
         modes[mode.mode_index], total = mode, mode.number_modes
     offered = {mode.standard_mode for mode in modes.values() if not mode.properties & M.MAV_MODE_PROPERTY_NOT_USER_SELECTABLE}
     assert set(standard) <= offered and 0 not in offered

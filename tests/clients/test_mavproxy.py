@@ -13,6 +13,8 @@ import spandrel
 
 # Wall seconds for a line of MAVProxy's on a busy machine, ten times over.
 LIMIT_S = 120
+# Wall seconds for MAVProxy to end by itself.
+END_S = 10
 # 1e-5 degrees of latitude are about a metre; the drill's pad.
 LAT, LON = 46.70520, 8.38140
 
@@ -66,10 +68,14 @@ class Console:
         raise AssertionError(f"never said '{answer}':\n" + "\n".join(self.heard[-60:]))
 
     def close(self):
-        """Ends it."""
+        """Ends it; MAVProxy joins its threads when it is asked to stop, and now and then one of them never comes."""
         self.process.stdin.close()
         self.process.terminate()
-        self.process.wait(timeout=LIMIT_S)
+        try:
+            self.process.wait(timeout=END_S)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
 
 
 @pytest.fixture

@@ -12,23 +12,13 @@ import tty
 import pytest
 from pymavlink import mavutil
 
+import asking
 import spandrel
 
-# Wall seconds for an answer of a simulator on a busy machine, ten times over.
-LIMIT_S = 60
+LIMIT_S = asking.LIMIT_S
 BAUD = 57600
 # Start, eight bits, stop.
 BYTES_S = BAUD / 10
-
-
-def wait_for(connection, kind, condition=lambda message: True):
-    """The next message of a kind that meets a condition."""
-    end = time.monotonic() + LIMIT_S
-    while time.monotonic() < end:
-        message = connection.recv_match(type=kind, blocking=True, timeout=1)
-        if message is not None and condition(message):
-            return message
-    raise AssertionError(f"no {kind} within {LIMIT_S} s")
 
 
 def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
@@ -78,19 +68,17 @@ def test_wire_three_vehicles_in_one_process_are_flown_apart(tmp_path):
     try:
         connection = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
         for system in (1, 2, 3):
-            wait_for(connection, "HEARTBEAT", lambda beat, system=system: beat.get_srcSystem() == system)
+            asking.hear(connection, "HEARTBEAT", lambda beat, system=system: beat.get_srcSystem() == system)
         prearm = mavutil.mavlink.MAV_SYS_STATUS_PREARM_CHECK
-        wait_for(
+        asking.hear(
             connection, "SYS_STATUS", lambda m: m.get_srcSystem() == 2 and m.onboard_control_sensors_health & prearm,
         )
         # pymavlink sends to everybody who has called; only the one that is meant acts.
-        connection.mav.command_long_send(2, 1, mavutil.mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0, 1, 0, 0, 0, 0, 0, 0)
-        ack = wait_for(connection, "COMMAND_ACK")
-        assert (ack.get_srcSystem(), ack.result) == (2, 0)
+        assert asking.command(connection, mavutil.mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1, system=2) == 0
         armed = mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED
-        wait_for(connection, "HEARTBEAT", lambda beat: beat.get_srcSystem() == 2 and beat.base_mode & armed)
+        asking.hear(connection, "HEARTBEAT", lambda beat: beat.get_srcSystem() == 2 and beat.base_mode & armed)
         for system in (1, 3):
-            beat = wait_for(
+            beat = asking.hear(
                 connection, "HEARTBEAT", lambda beat, system=system: beat.get_srcSystem() == system and beat.get_srcComponent() == 1,
             )
             assert not beat.base_mode & armed
@@ -120,9 +108,9 @@ def test_wire_tcp_clients_come_and_go_and_the_vehicle_flies_on(tmp_path):
         rude.sendall(b"\xfd\xff\x00")
         rude.close()
         connection = mavutil.mavlink_connection(f"tcp:127.0.0.1:{port}", source_system=255, source_component=190)
-        wait_for(connection, "HEARTBEAT")
-        connection.mav.param_request_read_send(1, 1, b"MIS_TAKEOFF_ALT", -1)
-        wait_for(connection, "PARAM_VALUE", lambda value: value.param_id == "MIS_TAKEOFF_ALT")
+        asking.hear(connection, "HEARTBEAT")
+        send = lambda: connection.mav.param_request_read_send(1, 1, b"MIS_TAKEOFF_ALT", -1)  # noqa: E731
+        asking.ask(connection, send, "PARAM_VALUE", lambda value: value.param_id == "MIS_TAKEOFF_ALT")
         assert sim.poll() is None
     finally:
         sim.send_signal(signal.SIGINT)

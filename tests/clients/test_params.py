@@ -9,32 +9,25 @@ from mavsdk.plugins.component_metadata import ComponentMetadata, MetadataType
 from mavsdk.plugins.param import Param
 from pymavlink import mavutil
 
+import asking
 import spandrel
 from spandrel import wait_for
 
 INT32, REAL32 = mavutil.mavlink.MAV_PARAM_TYPE_INT32, mavutil.mavlink.MAV_PARAM_TYPE_REAL32
-# Wall seconds for an answer of a simulator on a busy machine, ten times over.
-LIMIT_S = 60
+LIMIT_S = asking.LIMIT_S
 
 
-def connect(port):
-    """pymavlink, after the first heartbeat."""
-    connection = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
-    assert connection.wait_heartbeat(timeout=LIMIT_S) is not None
-    return connection
-
-
-def answer(connection, *kinds):
-    """The next message of these kinds."""
-    message = connection.recv_match(type=list(kinds), blocking=True, timeout=LIMIT_S)
-    assert message is not None, kinds
-    return message
-
-
-def put(connection, name, value, kind):
-    """PARAM_SET, byte-wise for whole numbers as PX4 asks."""
+def put(connection, name, value, kind, answers="PARAM_VALUE", fits=None):
+    """The answer to PARAM_SET, byte-wise for whole numbers as PX4 asks."""
     wire = struct.unpack("<f", struct.pack("<i", value))[0] if kind == INT32 else value
-    connection.mav.param_set_send(1, 1, name.encode(), wire, kind)
+    send = lambda: connection.mav.param_set_send(1, 1, name.encode(), wire, kind)  # noqa: E731
+    return asking.ask(connection, send, answers, fits or (lambda message: message.param_id == name))
+
+
+def read(connection, name):
+    """The answer to PARAM_REQUEST_READ."""
+    send = lambda: connection.mav.param_request_read_send(1, 1, name.encode(), -1)  # noqa: E731
+    return asking.ask(connection, send, "PARAM_VALUE", lambda message: message.param_id == name)
 
 
 def test_wire_the_list_is_whole_by_index_and_by_name_and_ranges_hold(tmp_path):
@@ -42,23 +35,15 @@ def test_wire_the_list_is_whole_by_index_and_by_name_and_ranges_hold(tmp_path):
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port)
     try:
-        connection = connect(port)
-        connection.mav.param_request_list_send(1, 1)
-        values, count = {}, None
-        while count is None or len(values) < count:
-            message = answer(connection, "PARAM_VALUE")
-            if message.param_index != 65535:
-                values[message.param_id], count = message.param_index, message.param_count
-        assert sorted(values.values()) == list(range(count))
+        connection = asking.connect(port)
+        values = asking.parameters(connection)
+        assert sorted(v.param_index for v in values.values()) == list(range(len(values)))
         for name in ("GF_ACTION", "MPC_XY_CRUISE"):
-            connection.mav.param_request_read_send(1, 1, name.encode(), -1)
-            assert answer(connection, "PARAM_VALUE").param_index == values[name]
-        put(connection, "MPC_XY_CRUISE", 7.5, REAL32)
-        assert answer(connection, "PARAM_VALUE").param_value == 7.5
-        put(connection, "MPC_XY_CRUISE", 900.0, REAL32)
-        refusal, old = answer(connection, "PARAM_ERROR"), answer(connection, "PARAM_VALUE")
+            assert read(connection, name).param_index == values[name].param_index
+        assert put(connection, "MPC_XY_CRUISE", 7.5, REAL32).param_value == 7.5
+        refusal = put(connection, "MPC_XY_CRUISE", 900.0, REAL32, "PARAM_ERROR")
         assert refusal.error == mavutil.mavlink.MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE
-        assert (old.param_id, old.param_value) == ("MPC_XY_CRUISE", 7.5)
+        assert put(connection, "MPC_XY_CRUISE", 900.0, REAL32).param_value == 7.5, "the old value is told too"
     finally:
         spandrel.end(process)
 
@@ -71,18 +56,13 @@ def test_wire_parameters_outlive_the_run_in_their_file(tmp_path):
         port = spandrel.free_udp_port()
         process = spandrel.start_sim(tmp_path, port, "--params", str(file))
         try:
-            connection = connect(port)
-            connection.mav.param_request_read_send(1, 1, b"MIS_TAKEOFF_ALT", -1)
-            assert answer(connection, "PARAM_VALUE").param_value == expected
+            connection = asking.connect(port)
+            assert read(connection, "MIS_TAKEOFF_ALT").param_value == expected
             if then is not None:
-                put(connection, "MIS_TAKEOFF_ALT", then, REAL32)
-                assert answer(connection, "PARAM_VALUE").param_value == then
+                assert put(connection, "MIS_TAKEOFF_ALT", then, REAL32).param_value == then
                 continue
-            storage = mavutil.mavlink.MAV_CMD_PREFLIGHT_STORAGE
-            connection.mav.command_long_send(1, 1, storage, 0, 2, -1, 0, 0, 0, 0, 0)
-            assert answer(connection, "COMMAND_ACK").result == 0
-            reset = lambda: answer(connection, "PARAM_VALUE")  # noqa: E731
-            wait_for("the default again", lambda: (v := reset()).param_id == "MIS_TAKEOFF_ALT" and v.param_value == 2.5, LIMIT_S)
+            assert asking.command(connection, mavutil.mavlink.MAV_CMD_PREFLIGHT_STORAGE, 2, -1) == 0
+            assert read(connection, "MIS_TAKEOFF_ALT").param_value == 2.5
         finally:
             spandrel.end(process)
     assert "\tMIS_TAKEOFF_ALT\t2.5\t9" in file.read_text(encoding="utf-8")
@@ -121,10 +101,9 @@ def test_wire_what_one_station_sets_the_other_hears(tmp_path):
     ports = [spandrel.free_udp_port(), spandrel.free_udp_port()]
     process = spandrel.start_sim(tmp_path, ports[0], "--gcs", f"127.0.0.1:{ports[1]}")
     try:
-        one, other = (connect(port) for port in ports)
-        put(one, "MPC_XY_CRUISE", 6.25, REAL32)
-        for connection in (one, other):
-            told = answer(connection, "PARAM_VALUE")
-            assert (told.param_id, told.param_value) == ("MPC_XY_CRUISE", 6.25)
+        one, other = (asking.connect(port) for port in ports)
+        assert put(one, "MPC_XY_CRUISE", 6.25, REAL32).param_value == 6.25
+        told = asking.hear(other, "PARAM_VALUE")
+        assert (told.param_id, told.param_value) == ("MPC_XY_CRUISE", 6.25)
     finally:
         spandrel.end(process)

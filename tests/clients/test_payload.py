@@ -13,6 +13,7 @@ from mavsdk.plugins.camera import Camera, CameraError, Mode, Option, PhotosRange
 from mavsdk.plugins.telemetry import Telemetry
 from pymavlink import mavutil
 
+import asking
 import spandrel
 from spandrel import wait_for
 
@@ -55,12 +56,16 @@ class Station:
         params = list(params) + [0] * (7 - len(params))
         self.pump()
         self.heard.clear()
-        self.link.mav.command_long_send(1, component, number, 0, *params)
+        again_at = 0.0
 
         def answer():
+            nonlocal again_at
             for message in self.heard:
                 if message.get_type() == "COMMAND_ACK" and message.command == number and message.target_system == 254:
                     return message
+            if time.monotonic() > again_at:
+                again_at = time.monotonic() + asking.AGAIN_S
+                self.link.mav.command_long_send(1, component, number, 0, *params)
             return None
 
         return self.wait(f"acknowledgement of {number}", answer).result
@@ -89,7 +94,7 @@ class Rig:
     def close(self):
         """Ends the vehicle, then MAVSDK: it must be the last of its things to go."""
         spandrel.end(self.process)
-        for plugin in ("action", "telemetry", "camera", "gimbal"):
+        for plugin in ("action", "telemetry", "camera"):
             getattr(self, plugin).destroy()
             delattr(self, plugin)
 

@@ -9,6 +9,7 @@ os.environ["MAVLINK20"] = "1"
 import pytest
 from pymavlink import mavutil
 
+import asking
 import handpilot
 from spandrel import wait_for
 
@@ -62,11 +63,17 @@ class Client:
         """Sends a command and returns the result of its acknowledgement."""
         params = list(params) + [0] * (7 - len(params))
         self.state.pop("COMMAND_ACK", None)
-        self.link.mav.command_long_send(self.link.target_system, component, number, 0, *params)
+        again_at = 0.0
 
         def answered():
+            nonlocal again_at
             ack = self.state.get("COMMAND_ACK")
-            return ack if ack and ack.command == number else None
+            if ack and ack.command == number:
+                return ack
+            if time.monotonic() > again_at:
+                again_at = time.monotonic() + asking.AGAIN_S
+                self.link.mav.command_long_send(self.link.target_system, component, number, 0, *params)
+            return None
 
         return self.wait(f"acknowledgement of {number}", answered).result
 

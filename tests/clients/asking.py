@@ -1,0 +1,71 @@
+"""What every script on pymavlink needs: UDP may lose a datagram on a busy machine, so whoever asks asks again until it is answered."""
+
+import os
+import time
+
+os.environ["MAVLINK20"] = "1"
+
+from pymavlink import mavutil
+
+# Wall seconds for an answer of a simulator on a busy machine, ten times over.
+LIMIT_S = 120
+# Wall seconds after which a question is put again; answers come within milliseconds.
+AGAIN_S = 2.0
+
+
+def connect(port, system=255, kind="udpin", **more):
+    """pymavlink on a link, after the first heartbeat."""
+    link = mavutil.mavlink_connection(f"{kind}:127.0.0.1:{port}", source_system=system, source_component=190, **more)
+    assert link.wait_heartbeat(timeout=LIMIT_S) is not None, "no heartbeat"
+    return link
+
+
+def hear(link, kinds, fits=lambda message: True, limit_s=LIMIT_S):
+    """The next message of some kinds that fits."""
+    end = time.monotonic() + limit_s
+    while (left := end - time.monotonic()) > 0:
+        message = link.recv_match(type=kinds, blocking=True, timeout=left)
+        if message is not None and fits(message):
+            return message
+    raise AssertionError(f"no {kinds} within {limit_s} s")
+
+
+def ask(link, send, kinds, fits=lambda message: True, again_s=AGAIN_S):
+    """The answer that fits to a question that is put again until there is one."""
+    end = time.monotonic() + LIMIT_S
+    while time.monotonic() < end:
+        send()
+        try:
+            return hear(link, kinds, fits, again_s)
+        except AssertionError:
+            pass
+    raise AssertionError(f"no {kinds} within {LIMIT_S} s, asked every {again_s} s")
+
+
+def command(link, number, *params, system=1, component=1):
+    """The result of a command."""
+    values = (list(params) + [0] * 7)[:7]
+    send = lambda: link.mav.command_long_send(system, component, number, 0, *values)  # noqa: E731
+    return ask(link, send, "COMMAND_ACK", lambda ack: ack.command == number and ack.get_srcSystem() == system).result
+
+
+def message(link, number, kind, fits=lambda message: True, param=0):
+    """A message that is asked for by its number."""
+    send = lambda: link.mav.command_long_send(1, 1, mavutil.mavlink.MAV_CMD_REQUEST_MESSAGE, 0, number, param, 0, 0, 0, 0, 0)  # noqa: E731
+    return ask(link, send, kind, fits)
+
+
+def parameters(link):
+    """Every parameter by name, as its PARAM_VALUE; what got lost of the list is asked for by its index."""
+    found = {}
+    first = ask(link, lambda: link.mav.param_request_list_send(1, 1), "PARAM_VALUE", lambda m: m.param_index < m.param_count)
+    found[first.param_index] = first
+    while len(found) < first.param_count:
+        value = link.recv_match(type="PARAM_VALUE", blocking=True, timeout=AGAIN_S)
+        if value is None:
+            missing = next(k for k in range(first.param_count) if k not in found)
+            send = lambda: link.mav.param_request_read_send(1, 1, b"", missing)  # noqa: B023, E731
+            value = ask(link, send, "PARAM_VALUE", lambda m: m.param_index == missing)  # noqa: B023
+        if value.param_index < first.param_count:
+            found[value.param_index] = value
+    return {value.param_id: value for value in found.values()}
