@@ -1,7 +1,7 @@
 //! Recordings in MCAP, and the recovery of one that broke off.
 //!
-//! A chunk goes to the disk whole once it has gathered [`CHUNK`] bytes or a second of the flight, so that a program that is killed loses
-//! no more than that; a file without its end is read up to its last whole chunk.
+//! A chunk goes to the disk whole once it has gathered 16 KiB or a second of the flight, so that a program that is killed loses no more than
+//! that; a file without its end is read up to its last whole chunk.
 
 use crate::base::foxglove::{CHANNELS, Message};
 use base64::Engine;
