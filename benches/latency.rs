@@ -1,5 +1,6 @@
-//! How soon a running simulator answers over loopback, in real time: command to acknowledgement, stick to first changed telemetry; and
-//! whether a peer that floods it makes it miss ticks. Beside each figure stands the control tick, 2.5 ms.
+//! How soon a running simulator answers over loopback, in real time: command to acknowledgement, stick to first changed telemetry (their
+//! echo, and in flight the roll rate); and whether a peer that floods it makes it miss ticks. Beside each figure stands the control tick,
+//! 2.5 ms.
 
 use spandrel::mav::codec::{Decoder, Encoder};
 use spandrel::mav::dialect::*;
@@ -22,6 +23,18 @@ const FLOOD_HZ: u64 = 50_000;
 const FLOOD_FOR: Duration = Duration::from_secs(5);
 /// Simulation time that passes under the flood, as a share of wall time: the floor.
 const PACE_FLOOR: f64 = 0.99;
+
+/// Steps of the stick in flight, and how long it is centred before each, so that the vehicle is at rest.
+const STEPS: usize = 150;
+const CENTRED_FOR: Duration = Duration::from_millis(400);
+/// A ground station's sticks in flight.
+const STICKS_EVERY: Duration = Duration::from_millis(20);
+/// A roll rate this many standard deviations off its mean at rest is an answer.
+const SIGMAS: f64 = 6.0;
+/// PX4's numbers: automatic take-off and holding, altitude by hand.
+const TAKE_OFF: [f32; 3] = [1.0, 4.0, 2.0];
+const HOLDING: u32 = 4 << 16 | 3 << 24;
+const ALTITUDE: [f32; 3] = [1.0, 2.0, 0.0];
 
 struct Running(Child);
 
@@ -79,11 +92,12 @@ fn start() -> (Running, u16) {
     (Running(child), announced["gcs_port"].as_u64().expect("a port") as u16)
 }
 
-fn long(command: MavCmd, p: [f32; 2]) -> MavMessage {
+fn long(command: MavCmd, p: [f32; 3]) -> MavMessage {
     MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
         command,
         param1: p[0],
         param2: p[1],
+        param3: p[2],
         target_system: 1,
         target_component: 1,
         ..Default::default()
@@ -110,7 +124,7 @@ fn commands(client: &mut Client) -> (f64, f64) {
         std::thread::sleep(PAUSE);
         let command = MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF;
         let begin = now();
-        client.send(&long(command, [(k % 2) as f32, 0.0]));
+        client.send(&long(command, [(k % 2) as f32, 0.0, 0.0]));
         client.wait(|m| if let MavMessage::COMMAND_ACK(ack) = m { (ack.command == command).then_some(()) } else { None });
         ms(begin)
     };
@@ -119,17 +133,70 @@ fn commands(client: &mut Client) -> (f64, f64) {
 
 fn sticks(client: &mut Client) -> (f64, f64) {
     // RC_CHANNELS as often as the control loop runs.
-    client.send(&long(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [65.0, 2_500.0]));
+    client.send(&long(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [65.0, 2_500.0, 0.0]));
     let one = |k: usize| {
         std::thread::sleep(PAUSE);
         let y = if k.is_multiple_of(2) { 400 } else { -400 };
         let begin = now();
-        client.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() }));
+        client.send(&stick(y));
         let wanted = (1_500 + y / 2) as u16;
         client.wait(|m| if let MavMessage::RC_CHANNELS(c) = m { (c.chan1_raw == wanted).then_some(()) } else { None });
         ms(begin)
     };
     spread((0..ROUNDS).map(one).collect())
+}
+
+fn stick(y: i16) -> MavMessage {
+    MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() })
+}
+
+fn order(client: &mut Client, command: MavCmd, p: [f32; 3]) {
+    client.send(&long(command, p));
+    let result =
+        client.wait(|m| if let MavMessage::COMMAND_ACK(ack) = m { (ack.command == command).then_some(ack.result) } else { None });
+    assert_eq!(result, MavResult::MAV_RESULT_ACCEPTED, "{command:?}");
+}
+
+fn roll_rate(client: &mut Client) -> f64 {
+    client.wait(|m| if let MavMessage::ATTITUDE(a) = m { Some(f64::from(a.rollspeed)) } else { None })
+}
+
+/// Roll rates while the stick is centred, rad/s.
+fn at_rest(client: &mut Client, time: Duration) -> Vec<f64> {
+    let (begin, mut sent) = (now(), None::<Instant>);
+    let mut rates = Vec::new();
+    while begin.elapsed() < time {
+        if sent.is_none_or(|sent| sent.elapsed() >= STICKS_EVERY) {
+            client.send(&stick(0));
+            sent = Some(now());
+        }
+        rates.push(roll_rate(client));
+    }
+    rates
+}
+
+/// From a step of the stick in flight to the first roll rate that is no noise: rotors and airframe are in it.
+fn rates(client: &mut Client) -> (f64, f64) {
+    order(client, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [30.0, 2_500.0, 0.0]);
+    order(client, MavCmd::MAV_CMD_DO_SET_MODE, TAKE_OFF);
+    order(client, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0]);
+    client.wait(|m| if let MavMessage::HEARTBEAT(beat) = m { (beat.custom_mode == HOLDING).then_some(()) } else { None });
+    client.send(&stick(0));
+    order(client, MavCmd::MAV_CMD_DO_SET_MODE, ALTITUDE);
+    let calm = at_rest(client, FLOOD_FOR);
+    let mean = calm.iter().sum::<f64>() / calm.len() as f64;
+    let deviation = (calm.iter().map(|rate| (rate - mean) * (rate - mean)).sum::<f64>() / calm.len() as f64).sqrt();
+    let one = |k: usize| {
+        at_rest(client, CENTRED_FOR);
+        std::thread::sleep(PAUSE);
+        let begin = now();
+        client.send(&stick(if k.is_multiple_of(2) { 500 } else { -500 }));
+        while (roll_rate(client) - mean).abs() < SIGMAS * deviation {}
+        ms(begin)
+    };
+    let spread = spread((0..STEPS).map(one).collect());
+    println!("roll rate at rest in flight: {deviation:.4} rad/s (1 sigma)");
+    spread
 }
 
 /// Simulation time in a second of wall time, as a calm peer sees it while another floods; and messages sent a second.
@@ -175,7 +242,7 @@ fn main() {
     client.wait(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(()));
     let mut good = true;
     for (what, (median, p99)) in
-        [("command to acknowledgement", commands(&mut client)), ("stick to changed telemetry", sticks(&mut client))]
+        [("command to acknowledgement", commands(&mut client)), ("stick to its echo in telemetry", sticks(&mut client))]
     {
         println!(
             "{what}: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks; target 2)",
@@ -184,6 +251,12 @@ fn main() {
         );
         good &= p99 <= TARGET_MS;
     }
+    let (median, p99) = rates(&mut client);
+    println!(
+        "stick to the roll rate's first change: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks)",
+        median / TICK_MS,
+        p99 / TICK_MS
+    );
     let (pace, rate) = under_flood(&mut client, port);
     println!("under {rate:.0} messages a second of one peer: {pace:.4} s of simulation time in a second (floor {PACE_FLOOR})");
     good &= pace >= PACE_FLOOR;

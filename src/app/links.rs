@@ -107,7 +107,7 @@ impl Links {
         let fixed = fixed.chain(monitor.map(|peer| (payload.or(gcs), peer))).chain(args.sdk().map(|peer| (sdk, peer)));
         for (socket, peer) in fixed {
             if let Some(socket) = socket {
-                links.add(socket, peer, true);
+                links.add(socket, peer, None);
             }
         }
         links.all_in_step_are_called()?;
@@ -130,7 +130,7 @@ impl Links {
             return;
         }
         if let Some(arrival) = self.hub.next(wait) {
-            self.take(arrival);
+            self.take(arrival, self.watch.elapsed());
         }
     }
 
@@ -144,7 +144,10 @@ impl Links {
 
     /// Forgets learned peers that have gone silent.
     pub fn forget_silent(&mut self) {
-        let wall = self.watch.elapsed();
+        self.forget(self.watch.elapsed());
+    }
+
+    fn forget(&mut self, wall: Duration) {
         let silent = |(link, route): (&u32, &Route)| match route {
             Route::Learned { heard, .. } if wall.saturating_sub(*heard) > FORGET => Some(*link),
             Route::Learned { .. } | Route::Fixed { .. } | Route::Stream { .. } => None,
@@ -183,10 +186,10 @@ impl Links {
         self.opened
     }
 
-    fn add(&mut self, socket: SocketId, peer: SocketAddr, fixed: bool) -> u32 {
+    /// A peer that is called unasked, or one that was heard at a time.
+    fn add(&mut self, socket: SocketId, peer: SocketAddr, heard: Option<Duration>) -> u32 {
         let link = self.number();
-        let heard = self.watch.elapsed();
-        let route = if fixed { Route::Fixed { socket, peer } } else { Route::Learned { socket, peer, heard } };
+        let route = heard.map_or(Route::Fixed { socket, peer }, |heard| Route::Learned { socket, peer, heard });
         self.routes.insert(link, route);
         self.by_peer.insert((socket, peer), link);
         let kind = self.kinds.get(&socket).copied().unwrap_or(LinkKind::GroundStation);
@@ -195,9 +198,9 @@ impl Links {
         link
     }
 
-    fn take(&mut self, arrival: Arrival) {
+    fn take(&mut self, arrival: Arrival, wall: Duration) {
         match arrival {
-            Arrival::Datagram { socket, from, bytes } => self.take_datagram(socket, from, bytes),
+            Arrival::Datagram { socket, from, bytes } => self.take_datagram(socket, from, bytes, wall),
             Arrival::Connected(stream, origin) => self.take_stream(stream, &origin),
             Arrival::Bytes(stream, bytes) => {
                 let Some(link) = self.by_stream.get(&stream).copied() else { return };
@@ -232,7 +235,7 @@ impl Links {
         self.changes.push_back(Change::Opened { link, kind, lockstep: false, limit });
     }
 
-    fn take_datagram(&mut self, socket: SocketId, from: SocketAddr, bytes: Vec<u8>) {
+    fn take_datagram(&mut self, socket: SocketId, from: SocketAddr, bytes: Vec<u8>, wall: Duration) {
         let link = match self.by_peer.get(&(socket, from)) {
             Some(link) => *link,
             None if self.by_peer.len() >= LEARNED_MAX => {
@@ -241,10 +244,9 @@ impl Links {
             }
             None => {
                 tracing::info!("{from} has dialled in");
-                self.add(socket, from, false)
+                self.add(socket, from, Some(wall))
             }
         };
-        let wall = self.watch.elapsed();
         if let Some(Route::Learned { heard, .. }) = self.routes.get_mut(&link) {
             *heard = wall;
         }
@@ -291,5 +293,54 @@ mod tests {
         let args = parse(&["--ports", "ephemeral", "--gcs", "127.0.0.1:9"]);
         let mut links = Links::open(&args, &[local(9)]).unwrap();
         assert_eq!(links.poll(), Some(Change::Opened { link: 1, kind: LinkKind::GroundStation, lockstep: true, limit: None }));
+    }
+
+    /// Links with one peer that is called, and the socket for those who dial in.
+    fn called(peer: &str) -> (Links, SocketId) {
+        let mut links = Links::open(&parse(&["--ports", "ephemeral", "--gcs", peer]), &[]).unwrap();
+        assert!(matches!(links.poll(), Some(Change::Opened { link: 1, .. })));
+        let socket = *links.kinds.iter().find(|(_, kind)| **kind == LinkKind::GroundStation).unwrap().0;
+        (links, socket)
+    }
+
+    /// The link that speaks up at a time, and whether it is new.
+    fn hear(links: &mut Links, socket: SocketId, port: u16, at_s: u64) -> Option<(u32, bool)> {
+        links.take(Arrival::Datagram { socket, from: local(port), bytes: vec![1] }, Duration::from_secs(at_s));
+        let new = matches!(links.changes.front(), Some(Change::Opened { .. }));
+        let changes = std::mem::take(&mut links.changes);
+        changes.iter().find_map(|change| if let Change::Bytes { link, .. } = change { Some((*link, new)) } else { None })
+    }
+
+    #[test]
+    fn exact_a_silent_peer_is_forgotten_one_that_speaks_is_not_and_one_that_is_called_never() {
+        let (mut links, socket) = called("127.0.0.1:9");
+        let (silent, speaking) = (4_001, 4_002);
+        assert_eq!(hear(&mut links, socket, silent, 100), Some((2, true)));
+        assert_eq!(hear(&mut links, socket, speaking, 100), Some((3, true)));
+        assert_eq!(hear(&mut links, socket, speaking, 110), Some((3, false)));
+        links.forget(Duration::from_secs(100) + FORGET);
+        assert!(links.changes.is_empty(), "not yet");
+        links.forget(Duration::from_secs(101) + FORGET);
+        assert_eq!(std::mem::take(&mut links.changes), [Change::Closed { link: 2 }]);
+        assert_eq!(hear(&mut links, socket, silent, 120), Some((4, true)), "it is new again");
+        links.forget(Duration::from_secs(1_000_000));
+        let closed = [3, 4].map(|link| Change::Closed { link });
+        assert_eq!(std::mem::take(&mut links.changes), closed, "but not the one that is called");
+        assert_eq!(hear(&mut links, socket, 9, 2_000_000), Some((1, false)));
+    }
+
+    #[test]
+    fn exact_a_flood_of_new_peers_is_bounded_and_keeps_nobody_out_for_ever() {
+        let (mut links, socket) = called("127.0.0.1:9");
+        assert_eq!(hear(&mut links, socket, 4_000, 1), Some((2, true)));
+        let taken: usize = (10_000..60_000).filter_map(|port| hear(&mut links, socket, port, 2)).count();
+        assert_eq!((taken, links.routes.len(), links.by_peer.len()), (LEARNED_MAX - 2, LEARNED_MAX, LEARNED_MAX));
+        assert_eq!(hear(&mut links, socket, 4_000, 3), Some((2, false)), "who was there before is heard");
+        assert_eq!(hear(&mut links, socket, 9, 3), Some((1, false)), "and so is who is called");
+        assert_eq!(hear(&mut links, socket, 4_003, 3), None, "a stranger is not");
+        links.forget(Duration::from_secs(3) + FORGET);
+        links.changes.clear();
+        assert_eq!((links.routes.len(), links.by_peer.len()), (2, 2), "the flood has ebbed away");
+        assert!(hear(&mut links, socket, 4_003, 19).is_some_and(|(_, new)| new));
     }
 }

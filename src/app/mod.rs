@@ -10,6 +10,7 @@ mod demo;
 mod errors;
 mod export;
 mod files;
+mod heard;
 mod key;
 mod links;
 mod logging;

@@ -222,8 +222,9 @@ fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathB
 }
 
 /// Writes beside and renames, so that a reader or a kill never sees half a file.
-fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
-    let beside = path.with_extension("new");
+pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
+    let mut beside = path.to_path_buf().into_os_string();
+    beside.push(".new");
     std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path)).map_err(|error| cannot(path, &error))
 }
 

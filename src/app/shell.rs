@@ -2,6 +2,7 @@
 
 use super::clock::{self, Stopwatch};
 use super::errors::AppError;
+use super::heard::HeardFile;
 use super::links::{Change, Links};
 use super::pace::{PATIENCE, Pace, Patience, Speed};
 use super::params::ParamFile;
@@ -25,6 +26,8 @@ pub struct Kept {
     pub store: Option<Store>,
     /// Parameters.
     pub params: Option<ParamFile>,
+    /// What was heard with the signing key.
+    pub heard: Option<HeardFile>,
 }
 
 /// Signatures that are demanded.
@@ -46,16 +49,16 @@ pub struct Shell {
     patience: Patience,
     store: Option<Store>,
     params: Option<ParamFile>,
-    signs: bool,
+    heard: Option<HeardFile>,
 }
 
 impl Shell {
     /// Time begins now.
     ///
     /// # Errors
-    /// When the parameter file is wrong.
+    /// When a file that is kept is wrong.
     pub fn new(mut core: Sim, links: Links, speed: Speed, kept: Kept, signing: Option<Signing>) -> Result<Self, AppError> {
-        let Kept { store, mut params } = kept;
+        let Kept { store, mut params, heard } = kept;
         let watch = Stopwatch::start();
         core.set_pace(speed.client_pace());
         if store.is_some() {
@@ -69,12 +72,16 @@ impl Shell {
             }
             file.holds = core.parameter_changes();
         }
-        let signs = signing.is_some();
         if let Some(Signing { key, unsigned }) = signing {
             core.demand_signatures(key, stamp(clock::unix_us()), &unsigned);
         }
+        if let Some(file) = &heard
+            && let Some(memory) = file.text()?
+        {
+            core.recall_signing(&memory).map_err(|line| file.wrong(line))?;
+        }
         let pace = Pace::new(speed, watch.elapsed());
-        Ok(Self { core, links, pace, watch, patience: Patience::default(), store, params, signs })
+        Ok(Self { core, links, pace, watch, patience: Patience::default(), store, params, heard })
     }
 
     /// Takes in what has come, lets time pass, sends what is due, rests.
@@ -86,7 +93,7 @@ impl Shell {
             self.apply(change);
         }
         self.links.forget_silent();
-        if self.signs {
+        if self.heard.is_some() {
             self.core.tell_stamp(stamp(clock::unix_us()));
         }
         let wall = self.watch.elapsed();
@@ -96,6 +103,7 @@ impl Shell {
         }
         self.keep_files();
         self.keep_parameters();
+        self.keep_heard(false);
         while let Some(datagram) = self.core.poll_transmit() {
             self.links.send(datagram.link.0, datagram.bytes);
         }
@@ -134,6 +142,16 @@ impl Shell {
         file.holds = self.core.parameter_changes();
         if let Err(error) = told {
             tracing::warn!("the parameters are not kept: {error}");
+        }
+    }
+
+    /// Writes what was heard with the signing key, now and then or at the end.
+    fn keep_heard(&mut self, at_once: bool) {
+        let wall = self.watch.elapsed();
+        if let Some(file) = self.heard.as_mut().filter(|file| at_once || file.is_due(wall))
+            && let Some(memory) = self.core.signing_memory()
+        {
+            file.keep(memory, wall);
         }
     }
 
@@ -186,6 +204,7 @@ impl Shell {
     pub fn farewell(&mut self) {
         self.core.stop_recording();
         self.keep_files();
+        self.keep_heard(true);
         let slipped = self.pace.slipped();
         if slipped >= Duration::from_secs(1) {
             tracing::warn!("the machine could not keep up: {:.1} s of wall time were lost", slipped.as_secs_f64());

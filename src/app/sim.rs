@@ -3,6 +3,7 @@
 use super::args::{self, JobArgs};
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
+use super::heard::HeardFile;
 use super::key;
 use super::links::Links;
 use super::pace::Speed;
@@ -65,7 +66,8 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     params: Option<PathBuf>,
     /// File with the MAVLink signing key, readable by its owner alone: 64 hexadecimal digits, or a passphrase as MAVProxy takes it. What
-    /// is not signed with it does nothing [default: no signatures]
+    /// is not signed with it does nothing. What was heard with it is kept beside it, in FILE.heard.N for system N, so that nothing acts
+    /// twice, not even across a restart [default: no signatures]
     #[arg(long, value_name = "FILE")]
     signing_key: Option<PathBuf>,
     /// Kind of link whose frames act without a signature all the same; may be repeated. Only links that nobody else can reach should
@@ -195,7 +197,8 @@ impl Door {
         let store = args.files.as_ref().map(folder).map(|folder| Store::open(&folder)).transpose()?;
         let params =
             args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { numbered(path, instance + 1) });
-        let kept = Kept { store, params: params.map(ParamFile::new) };
+        let heard = args.signing_key.as_ref().map(|key| HeardFile::of(key, instance + 1));
+        let kept = Kept { store, params: params.map(ParamFile::new), heard };
         Ok(Self { links: Links::open(&ports, &args.lockstep)?, kept, instance })
     }
 }

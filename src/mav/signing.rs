@@ -55,6 +55,10 @@ pub fn stamp(unix_us: u64) -> u64 {
     unix_us.saturating_sub(EPOCH_UNIX_US) / 10
 }
 
+fn is_stamp(stamp: &u64) -> bool {
+    *stamp < 1 << 48
+}
+
 /// What a frame is worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
@@ -107,6 +111,40 @@ impl Signing {
         frame
     }
 
+    /// Newest timestamp sent or heard.
+    #[must_use]
+    pub fn newest(&self) -> u64 {
+        self.newest
+    }
+
+    /// What the next start with this key must know, so that nothing heard until now is taken once more: the newest timestamp, then system,
+    /// component, link id and newest timestamp of each stream whose frames would otherwise still be new enough. One line each.
+    #[must_use]
+    pub fn memory(&self) -> String {
+        let streams = self.heard.iter().filter(|(_, last)| **last + SLACK >= self.newest);
+        let lines = streams.map(|((system, component, link), last)| format!("{system} {component} {link} {last}\n"));
+        std::iter::once(format!("{}\n", self.newest)).chain(lines).collect()
+    }
+
+    /// Takes up such a memory.
+    ///
+    /// # Errors
+    /// The number of the first line that is no such line, from 1; then nothing is taken up.
+    pub fn recall(&mut self, memory: &str) -> Result<(), usize> {
+        let stream = |line: &str| -> Option<((u8, u8, u8), u64)> {
+            let words: Vec<&str> = line.split(' ').collect();
+            let [system, component, link, last] = words.as_slice() else { return None };
+            Some(((system.parse().ok()?, component.parse().ok()?, link.parse().ok()?), last.parse().ok().filter(is_stamp)?))
+        };
+        let mut lines = memory.lines();
+        let newest = lines.next().and_then(|line| line.parse().ok()).filter(is_stamp).ok_or(1usize)?;
+        let streams = lines.enumerate().map(|(k, line)| stream(line).ok_or(k + 2));
+        let heard = streams.take(STREAMS_MAX).collect::<Result<BTreeMap<_, _>, _>>()?;
+        self.newest = self.newest.max(newest);
+        self.heard.extend(heard);
+        Ok(())
+    }
+
     /// Judges a frame and remembers its timestamp if it is good.
     pub fn verify(&mut self, frame: &Received, stamp: u64) -> Verdict {
         let bytes = &frame.bytes;
@@ -121,6 +159,10 @@ impl Signing {
         }
         let stamp = tail[1..].iter().rev().fold(0, |stamp, byte| (stamp << 8) | u64::from(*byte));
         let stream = (frame.system_id, frame.component_id, tail[0]);
+        if self.heard.len() >= STREAMS_MAX {
+            // Frames of these are too old for a new stream as well: nothing is taken twice.
+            self.heard.retain(|_, last| *last + SLACK >= self.newest);
+        }
         let new = match self.heard.get(&stream) {
             Some(last) => stamp > *last,
             None => stamp + SLACK >= self.newest && self.heard.len() < STREAMS_MAX,
@@ -214,6 +256,62 @@ mod tests {
             }
         }
         assert_eq!(theirs.heard.len(), STREAMS_MAX);
+    }
+
+    #[test]
+    fn exact_streams_that_have_long_been_silent_make_room_and_their_frames_stay_too_old() {
+        let mut guard = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
+        let mut first = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
+        let old = read(&first.sign(frame(9), NOW));
+        assert_eq!(guard.verify(&old, NOW), Verdict::Good);
+        for link in 0..=255 {
+            for system in 10..12 {
+                let mut one = Signing::new(Key::of_passphrase("bridge"), link, NOW);
+                guard.verify(&read(&one.sign(frame(system), NOW)), NOW);
+            }
+        }
+        let later = NOW + 2 * SLACK;
+        let newcomer = read(&Signing::new(Key::of_passphrase("bridge"), 7, later).sign(frame(77), later));
+        assert_eq!(guard.verify(&newcomer, later), Verdict::Good);
+        assert_eq!((guard.heard.len(), guard.verify(&old, later)), (1, Verdict::Replayed));
+    }
+
+    #[test]
+    fn exact_what_was_heard_before_a_restart_is_not_taken_after_it() {
+        let (mut ours, mut theirs) = pair();
+        let before = read(&ours.sign(frame(1), NOW));
+        assert_eq!(theirs.verify(&before, NOW), Verdict::Good);
+        let soon = NOW + SLACK / 2;
+        let mut forgetful = Signing::new(Key::of_passphrase("bridge"), 0, soon);
+        assert_eq!(forgetful.verify(&before, soon), Verdict::Good, "which is why there is a memory");
+        let mut again = Signing::new(Key::of_passphrase("bridge"), 0, soon);
+        again.recall(&theirs.memory()).unwrap();
+        assert_eq!(again.verify(&before, soon), Verdict::Replayed);
+        let after = read(&ours.sign(frame(1), NOW));
+        assert_eq!(again.verify(&after, soon), Verdict::Good, "who has a slow clock goes on");
+        let other = read(&Signing::new(Key::of_passphrase("bridge"), 5, NOW).sign(frame(2), NOW));
+        assert_eq!(again.verify(&other, soon), Verdict::Good, "and a new stream may lag as ever");
+        // A clock that was set back does not make our own frames older than they were.
+        let mut set_back = Signing::new(Key::of_passphrase("bridge"), 0, 5);
+        set_back.recall(&again.memory()).unwrap();
+        assert!(set_back.newest() >= soon);
+    }
+
+    #[test]
+    fn exact_a_memory_that_is_none_is_refused_by_its_line() {
+        let mut guard = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
+        let begin = guard.clone();
+        for (text, line) in [
+            ("", 1),
+            ("soon\n", 1),
+            ("-5\n", 1),
+            ("5\n1 1 0\n", 2),
+            ("5\n1 1 0 6\n1 1 256 6\n", 3),
+            ("5\n1 1 0 281474976710656\n", 2),
+        ] {
+            assert_eq!(guard.recall(text), Err(line), "{text:?}");
+        }
+        assert_eq!(guard, begin);
     }
 
     #[test]

@@ -3,11 +3,9 @@
 import json
 
 import pytest
-from mavsdk import ComponentType, Configuration, Mavsdk
-from mavsdk.plugins.telemetry import Telemetry
 
+import sdk
 import spandrel
-from spandrel import wait_for
 
 
 @pytest.fixture
@@ -26,16 +24,11 @@ def job():
 
 
 @pytest.fixture
-def vehicle(tmp_path):
-    """MAVSDK's system for a simulated vehicle that would arm, and its telemetry."""
+def vehicle(request, tmp_path):
+    """MAVSDK's system for a simulated vehicle that would arm, in PX4's flavour unless the test says another, and its telemetry."""
     port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port)
-    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
-    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
-    system = mavsdk.first_autopilot(60.0)
-    assert system is not None, "no vehicle discovered"
-    telemetry = Telemetry(system)
-    wait_for("health_all_ok", telemetry.health_all_ok)
-    yield system, telemetry
+    process = spandrel.start_sim(tmp_path, port, "--flavour", getattr(request, "param", "px4"))
+    mavsdk, system = sdk.connect(port)
+    yield system, sdk.ready(system)
     mavsdk.destroy()
     spandrel.end(process)

@@ -1,78 +1,102 @@
-"""MAVSDK's failure plugin, as instructors use it."""
+"""MAVSDK's failure plugin, as instructors use it: what is broken, and what follows from it."""
 
 import pytest
-from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.failure import Failure, FailureType, FailureUnit
-from mavsdk.plugins.telemetry import Telemetry
 
+import sdk
 import spandrel
 from spandrel import wait_for
 
-
-def connect(port):
-    """MAVSDK, and the vehicle that it found, ready to fly."""
-    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
-    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
-    system = mavsdk.first_autopilot(60.0)
-    assert system is not None, "no vehicle discovered"
-    telemetry = Telemetry(system)
-    wait_for("health", telemetry.health_all_ok)
-    return mavsdk, system, telemetry
+# A motor that stands is told as this pulse, us.
+STANDING_US = 1000.0
+# Deg from level: a hover in the drill's wind stays below, what lies on its back is beyond.
+LEVEL_DEG, UPSIDE_DEG = 20.0, 90.0
 
 
-def failing(folder):
-    """A simulator whose parameter allows failures, and its port."""
-    file = folder / "drone.params"
+@pytest.fixture
+def failing(tmp_path):
+    """A vehicle whose parameter allows failures, ready to fly, and MAVSDK's plugin."""
+    file = tmp_path / "drone.params"
     file.write_text("1\t1\tSYS_FAILURE_EN\t1\t6\n", encoding="utf-8")
     port = spandrel.free_udp_port()
-    return spandrel.start_sim(folder, port, "--params", str(file)), port
+    process = spandrel.start_sim(tmp_path, port, "--params", str(file))
+    mavsdk, system = sdk.connect(port)
+    yield system, sdk.ready(system), Failure(system)
+    mavsdk.destroy()
+    spandrel.end(process)
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_takes_the_gnss_away_and_gives_it_back(tmp_path):
+def test_wire_mavsdk_takes_the_gnss_away_and_gives_it_back(failing):
     """The vehicle's health tells both; a failure that there is not is told as such."""
-    process, port = failing(tmp_path)
-    try:
-        _mavsdk, system, telemetry = connect(port)
-        failure = Failure(system)
-        failure.inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
-        wait_for("no satellites", lambda: telemetry.gps_info().num_satellites == 0)
-        failure.inject(FailureUnit.SENSOR_GPS, FailureType.OK, 0)
-        wait_for("satellites again", lambda: telemetry.gps_info().num_satellites > 5)
-        with pytest.raises(Exception, match="UNSUPPORTED"):
-            failure.inject(FailureUnit.SYSTEM_SERVO, FailureType.OFF, 0)
-    finally:
-        spandrel.end(process)
+    _system, telemetry, failure = failing
+    failure.inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
+    wait_for("no satellites", lambda: telemetry.gps_info().num_satellites == 0)
+    wait_for("no position to fly by", lambda: not telemetry.health().is_global_position_ok)
+    failure.inject(FailureUnit.SENSOR_GPS, FailureType.OK, 0)
+    wait_for("satellites again", lambda: telemetry.gps_info().num_satellites > 5)
+    wait_for("its position again", telemetry.health_all_ok)
+    with pytest.raises(Exception, match="UNSUPPORTED"):
+        failure.inject(FailureUnit.SYSTEM_SERVO, FailureType.OFF, 0)
 
 
 @pytest.mark.timeout(300)
-def test_wire_failures_are_off_unless_a_parameter_allows_them(tmp_path):
+def test_wire_failures_are_off_unless_a_parameter_allows_them(vehicle):
     """MAVSDK looks at the parameter itself, and the vehicle refuses whoever does not."""
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port)
-    try:
-        _mavsdk, system, _telemetry = connect(port)
-        with pytest.raises(Exception, match="DISABLED|DENIED"):
-            Failure(system).inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
-    finally:
-        spandrel.end(process)
+    system, telemetry = vehicle
+    with pytest.raises(Exception, match="DISABLED|DENIED"):
+        Failure(system).inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
+    assert telemetry.gps_info().num_satellites > 5
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_breaks_the_compass_a_motor_and_the_battery(tmp_path):
-    """Each is taken and can be taken back, an empty battery is told; a motor that there is not is no motor."""
-    process, port = failing(tmp_path)
-    try:
-        _mavsdk, system, telemetry = connect(port)
-        failure = Failure(system)
-        failure.inject(FailureUnit.SENSOR_MAG, FailureType.OFF, 0)
-        failure.inject(FailureUnit.SENSOR_MAG, FailureType.OK, 0)
-        with pytest.raises(Exception, match="UNSUPPORTED"):
-            failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OFF, 9)
-        failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OFF, 1)
-        failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OK, 1)
-        before = telemetry.battery().remaining_percent
-        failure.inject(FailureUnit.SYSTEM_BATTERY, FailureType.OFF, 0)
-        wait_for("an empty battery", lambda: telemetry.battery().remaining_percent < before - 20.0)
-    finally:
-        spandrel.end(process)
+def test_wire_mavsdk_stops_a_motor_in_flight_and_the_vehicle_falls_until_it_turns_again(failing):
+    """The motor that failed stands, the others do not; it comes down upside down and says so; mended, it hovers where it is put back."""
+    system, telemetry, failure = failing
+    telemetry.set_rate_actuator_output_status(20.0)
+    texts = []
+    telemetry.subscribe_status_text(lambda text, *_: texts.append(text.text))
+    with pytest.raises(Exception, match="UNSUPPORTED"):
+        failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OFF, 9)
+    action, _telemetry = sdk.take_off(system, 2.0)
+
+    def motors():
+        return telemetry.actuator_output_status().actuator[:4]
+
+    wait_for("four motors that turn", lambda: len(motors()) == 4 and min(motors()) > STANDING_US)
+    failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OFF, 1)
+    wait_for("one that stands", lambda: motors()[0] == STANDING_US and max(motors()[1:]) > STANDING_US)
+    wait_for("the fall", lambda: telemetry.position().relative_altitude_m < 0.5)
+    wait_for("its back", lambda: abs(telemetry.attitude_euler().roll_deg) > UPSIDE_DEG)
+    wait_for("its words", lambda: "Crash detected" in texts)
+    failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OK, 1)
+    told = len(texts)
+    wait_for("being put back", lambda: any(text.startswith("Put back") for text in texts[told:]))
+
+    def hovers():
+        euler = telemetry.attitude_euler()
+        level = max(abs(euler.roll_deg), abs(euler.pitch_deg)) < LEVEL_DEG
+        return level and telemetry.position().relative_altitude_m > 1.5 and min(motors()) > STANDING_US
+
+    wait_for("a hover", hovers)
+    action.land()
+    wait_for("the ground", lambda: "Disarmed by landing" in texts)
+
+
+@pytest.mark.timeout(300)
+def test_wire_mavsdk_empties_the_battery_and_the_compass_comes_and_goes(failing):
+    """An empty battery is told in numbers and in words, and the vehicle does not arm with it."""
+    system, telemetry, failure = failing
+    texts = []
+    telemetry.subscribe_status_text(lambda text, *_: texts.append(text.text))
+    failure.inject(FailureUnit.SENSOR_MAG, FailureType.OFF, 0)
+    failure.inject(FailureUnit.SENSOR_MAG, FailureType.OK, 0)
+    before = telemetry.battery().remaining_percent
+    failure.inject(FailureUnit.SYSTEM_BATTERY, FailureType.OFF, 0)
+    wait_for("an empty battery", lambda: telemetry.battery().remaining_percent < before - 20.0)
+    wait_for("its words", lambda: any(text.startswith("Critical battery") for text in texts))
+    wait_for("not armable", lambda: not telemetry.health().is_armable)
+    with pytest.raises(Exception, match="DENIED"):
+        sdk.Action(system).arm()
+    failure.inject(FailureUnit.SYSTEM_BATTERY, FailureType.OK, 0)
+    wait_for("a full one again", telemetry.health_all_ok)

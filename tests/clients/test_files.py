@@ -9,16 +9,14 @@ import subprocess
 import time
 
 import pytest
-from mavsdk import ComponentType, Configuration, Mavsdk
-from mavsdk.plugins.action import Action
 from mavsdk.plugins.ftp import Ftp, FtpResult
 from mavsdk.plugins.log_files import LogFiles, LogFilesResult
-from mavsdk.plugins.telemetry import Telemetry
 from mcap.exceptions import McapError
 from mcap.reader import make_reader
 from mcap.stream_reader import StreamReader
 from pyulog import ULog
 
+import sdk
 import spandrel
 from spandrel import wait_for
 
@@ -37,15 +35,6 @@ def vehicle(tmp_path):
     spandrel.end(process)
 
 
-def connect(port):
-    """MAVSDK, and the vehicle that it found."""
-    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
-    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
-    system = mavsdk.first_autopilot(60.0)
-    assert system is not None, "no vehicle discovered"
-    return mavsdk, system
-
-
 def wait(start, *args):
     """Runs a call that reports progress, until it reports its end."""
     results = []
@@ -57,7 +46,7 @@ def wait(start, *args):
 def test_wire_mavsdk_keeps_files_on_the_vehicle(vehicle, tmp_path):
     """Up, listed, compared, renamed, down by both ways, removed."""
     _process, port, folder = vehicle
-    mavsdk, system = connect(port)
+    mavsdk, system = sdk.connect(port)
     ftp = Ftp(system)
     local = tmp_path / "survey.bin"
     local.write_bytes(bytes(k * k % 251 for k in range(50_000)))
@@ -83,12 +72,8 @@ def test_wire_mavsdk_keeps_files_on_the_vehicle(vehicle, tmp_path):
 def test_val_pyulog_reads_the_flights_log(vehicle):
     """Take-off and landing; height, modes and attitude of the log agree with what was flown."""
     process, port, folder = vehicle
-    mavsdk, system = connect(port)
-    action, telemetry = Action(system), Telemetry(system)
-    wait_for("health_all_ok", telemetry.health_all_ok)
-    action.arm()
-    action.takeoff()
-    wait_for("take-off done", lambda: telemetry.position().relative_altitude_m > 1.5)
+    mavsdk, system = sdk.connect(port)
+    action, telemetry = sdk.take_off(system, 1.5)
     time.sleep(2.0)
     height = telemetry.position().relative_altitude_m
     action.land()
@@ -138,12 +123,8 @@ def check_recording(path, height):
 def test_val_a_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
     """Killed in flight: the reader by index gives up, `export --mcap` writes all but the last second anew."""
     process, port, folder = vehicle
-    mavsdk, system = connect(port)
-    action, telemetry = Action(system), Telemetry(system)
-    wait_for("health_all_ok", telemetry.health_all_ok)
-    action.arm()
-    action.takeoff()
-    wait_for("take-off done", lambda: telemetry.position().relative_altitude_m > 2.0)
+    mavsdk, system = sdk.connect(port)
+    sdk.take_off(system, 2.0)
     mavsdk.destroy()
     process.kill()
     process.wait(timeout=60)
@@ -170,7 +151,7 @@ def test_wire_mavsdk_lists_downloads_and_erases_logs(vehicle, tmp_path):
     content = bytes(k * k % 253 for k in range(61_234))
     (day / "15_08_00.ulg").write_bytes(content)
     (day / "notes.txt").write_text("not a log", encoding="utf-8")
-    mavsdk, system = connect(port)
+    mavsdk, system = sdk.connect(port)
     logs = LogFiles(system)
     entries = logs.get_entries()
     assert [(e.id, e.date, e.size_bytes) for e in entries] == [(0, "2026-11-20T15:08:00Z", len(content))]

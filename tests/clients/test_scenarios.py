@@ -177,7 +177,8 @@ def test_wire_mavsdk_flies_by_sticks_and_their_loss_makes_it_hold(vehicle):
             return reached()
         wait_for(what, step)
 
-    fly("sticks are heard", lambda: telemetry.rc_status().is_available or True, 0.0, 0.0, 0.5, 0.0)
+    assert not telemetry.rc_status().is_available
+    fly("sticks are heard", lambda: telemetry.rc_status().is_available, 0.0, 0.0, 0.5, 0.0)
     manual.start_position_control()
     fly("position mode", lambda: telemetry.flight_mode() == FlightMode.POSCTL, 0.0, 0.0, 0.5, 0.0)
     fly("8 m up", lambda: telemetry.position().relative_altitude_m > 8.0, 0.0, 0.0, 0.9, 0.0)
@@ -192,6 +193,9 @@ def test_wire_mavsdk_flies_by_sticks_and_their_loss_makes_it_hold(vehicle):
     speed = lambda: math.hypot(telemetry.velocity_ned().north_m_s, telemetry.velocity_ned().east_m_s)
     fly("a stop", lambda: speed() < 0.3, 0.0, 0.0, 0.5, 0.0)
     wait_for("the failsafe's hold", lambda: telemetry.flight_mode() == FlightMode.HOLD)
+    held = telemetry.position().relative_altitude_m
+    fly("position mode again", lambda: telemetry.flight_mode() == FlightMode.POSCTL, 0.0, 0.0, 0.5, 0.0)
+    fly("2 m further up by hand", lambda: telemetry.position().relative_altitude_m > held + 2.0, 0.0, 0.0, 0.9, 0.0)
     # Landing elsewhere than at home is a crash to the job: it would be put back into the air.
     action.return_to_launch()
     wait_for("disarmed", lambda: not telemetry.armed())

@@ -1,7 +1,17 @@
-"""pymavlink with and without the vehicle's signing key."""
+"""pymavlink with and without the vehicle's signing key, over every kind of link and across a restart."""
 
+import contextlib
 import hashlib
+import itertools
+import json
+import os
+import pty
+import select
+import signal
+import socket
+import subprocess
 import time
+import tty
 
 import pytest
 from pymavlink import mavutil
@@ -49,3 +59,140 @@ def test_wire_pymavlink_is_obeyed_only_with_the_key(vehicle):
         # pymavlink does not verify what its dialect does not know.
         assert message.get_type().startswith("UNKNOWN") or message.get_signed(), message
     link.close()
+
+
+class Wire:
+    """Bytes to and from the vehicle over one kind of link."""
+
+    def __init__(self, kind):
+        self.kind = kind
+        self.socket, self.ours, self.theirs = None, None, None
+        if kind == "serial":
+            try:
+                self.ours, self.theirs = pty.openpty()
+            except OSError as error:
+                pytest.skip(f"this machine has no pseudo-terminals: {error}")
+            tty.setraw(self.ours)
+            tty.setraw(self.theirs)
+
+    def arguments(self):
+        """What the vehicle is started with for this link."""
+        return ["--serial", f"{os.ttyname(self.theirs)}:115200"] if self.kind == "serial" else []
+
+    def connect(self, ports):
+        """To a vehicle that has announced its ports."""
+        if self.kind == "tcp":
+            self.socket = socket.create_connection(("127.0.0.1", ports["tcp_port"]))
+        elif self.kind == "udp":
+            self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+            self.socket.connect(("127.0.0.1", ports["gcs_port"]))
+
+    def write(self, data):
+        """Sends one frame."""
+        os.write(self.ours if self.socket is None else self.socket.fileno(), data)
+
+    def read(self):
+        """What has come, within a second."""
+        place = self.ours if self.socket is None else self.socket.fileno()
+        ready, _, _ = select.select([place], [], [], 1.0)
+        return os.read(place, 65_536) if ready else b""
+
+    def close(self):
+        """The vehicle is gone; a serial line stays."""
+        if self.socket is not None:
+            self.socket.close()
+
+
+class Signer:
+    """Makes frames, signed with a key or not at all; each signer is a stream of its own by its link id."""
+
+    def __init__(self, passphrase, link_id):
+        self.mav = mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
+        if passphrase is not None:
+            self.mav.signing.secret_key = hashlib.sha256(passphrase.encode()).digest()
+            self.mav.signing.sign_outgoing = True
+            self.mav.signing.link_id = link_id
+            self.mav.signing.timestamp = int((time.time() - 1420070400) * 1e5)
+
+    def lamp(self, on):
+        """A command's bytes."""
+        return self.mav.command_long_encode(1, 1, mavlink.MAV_CMD_ILLUMINATOR_ON_OFF, 0, on, 0, 0, 0, 0, 0, 0).pack(self.mav)
+
+    def question(self, number):
+        """Bytes of a question that is answered with its number."""
+        return self.mav.timesync_encode(0, number).pack(self.mav)
+
+
+COMMANDS, QUESTIONS = 7, 8
+NUMBERS = itertools.count(1_000)
+
+
+def is_obeyed(wire, frame):
+    """Whether a frame that commands the lamp is acknowledged before a good one that comes after it is answered."""
+    good, ears = Signer(PASSPHRASE, QUESTIONS), mavlink.MAVLink(None)
+    ears.robust_parsing = True
+    wire.write(frame)
+    acknowledged, asked = [], set()
+
+    def answered():
+        asked.add(number := next(NUMBERS))
+        wire.write(good.question(number))
+        heard = ears.parse_buffer(wire.read()) or []
+        acknowledged.extend(m for m in heard if m.get_type() == "COMMAND_ACK" and m.command == mavlink.MAV_CMD_ILLUMINATOR_ON_OFF)
+        return any(m.get_type() == "TIMESYNC" and m.ts1 in asked for m in heard)
+
+    spandrel.wait_for("an answer to what is signed", answered, 60)
+    return bool(acknowledged)
+
+
+@contextlib.contextmanager
+def running(wire, key):
+    """A vehicle that demands signatures, and a link to it."""
+    arguments = ["sim", "--scenario", "drill-hover", "--seed", "7", "--ports", "ephemeral", "--tcp-port", "0", "--announce",
+                 "--signing-key", str(key), *wire.arguments()]
+    process = subprocess.Popen([spandrel.PROGRAM, *arguments], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL)
+    try:
+        wire.connect(json.loads(process.stdout.readline()))
+        yield process
+    finally:
+        spandrel.end(process)
+        process.stdout.close()
+        wire.close()
+
+
+@pytest.mark.timeout(240)
+@pytest.mark.parametrize("kind", ["udp", "tcp", "serial"])
+@pytest.mark.parametrize("ended", [signal.SIGINT, signal.SIGKILL])
+def test_wire_what_was_signed_once_is_obeyed_once_on_every_link_and_across_a_restart(tmp_path, kind, ended):
+    """Unsigned, signed with another key, signed well, played back; then the vehicle starts again and hears it all once more."""
+    key = tmp_path / "key"
+    key.write_text(PASSPHRASE + "\n", encoding="utf-8")
+    key.chmod(0o600)
+    wire = Wire(kind)
+    with running(wire, key) as process:
+        bare, forged, good = (Signer(phrase, COMMANDS).lamp(1.0) for phrase in (None, "another bridge", PASSPHRASE))
+        assert not is_obeyed(wire, bare)
+        assert not is_obeyed(wire, forged)
+        assert is_obeyed(wire, good)
+        assert not is_obeyed(wire, good), "played back"
+        # The memory is written once a second, and at the end where there is one.
+        memory = key.with_name("key.heard.1")
+        stream = f"255 190 {COMMANDS} "
+        spandrel.wait_for("the memory", lambda: memory.exists() and stream in memory.read_text(encoding="utf-8"), 60)
+        process.send_signal(ended)
+        process.wait(timeout=60)
+    with running(wire, key):
+        assert not is_obeyed(wire, good), "played back after a restart"
+        assert is_obeyed(wire, Signer(PASSPHRASE, COMMANDS).lamp(0.0))
+
+
+@pytest.mark.timeout(60)
+def test_wire_a_memory_that_is_none_is_refused_with_its_line(tmp_path):
+    """A file that somebody else wrote there is told, not overwritten."""
+    key = tmp_path / "key"
+    key.write_text(PASSPHRASE + "\n", encoding="utf-8")
+    key.chmod(0o600)
+    key.with_name("key.heard.1").write_text("500\n255 190 zero 400\n", encoding="utf-8")
+    process = spandrel.start_sim(tmp_path, spandrel.free_udp_port(), "--signing-key", str(key))
+    assert process.wait(timeout=60) == 2
+    assert "key.heard.1:2" in (tmp_path / "sim.txt").read_text(encoding="utf-8")

@@ -2,7 +2,7 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::plans::{home_north, item, upload};
-use super::station::{Station, scenario, shipped};
+use super::station::{Station, p, scenario, shipped};
 use spandrel::base::geodesy::LocalPlane;
 use spandrel::base::math;
 use spandrel::mav::dialect::*;
@@ -28,10 +28,6 @@ fn on_the_pad(vehicle: &str) -> Station {
     let mut station = Station::of(scenario("drill-hover"), vehicle, 7);
     station.run_ms(100);
     station
-}
-
-fn p(values: &[f32]) -> [f32; 7] {
-    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
 }
 
 fn ask(station: &mut Station, id: u32) -> MavResult {
@@ -63,16 +59,12 @@ fn take(station: &mut Station) -> MavResult {
     station.command(CAMERA, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, p(&[0.0, 0.0, 1.0]))
 }
 
-fn texts(station: &Station) -> Vec<String> {
-    station.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
-}
-
 #[test]
 fn wire_the_camera_records_in_video_mode_alone_takes_pictures_in_both_and_tells_how_long() {
     let mut station = on_the_pad("phantom2");
     let record = p(&[0.0, 2.0, 0.0]);
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_CAPTURE, record), FAILED);
-    assert!(texts(&station).iter().any(|text| text.contains("video mode")), "{:?}", texts(&station));
+    assert!(station.texts().iter().any(|text| text.contains("video mode")), "{:?}", station.texts());
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_MODE, p(&[0.0, 1.0])), OK);
     assert_eq!(settings(&station).unwrap().0, CameraMode::CAMERA_MODE_VIDEO, "told to everybody at once");
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_CAPTURE, record), OK);
@@ -231,7 +223,7 @@ fn wire_focus_is_answered_as_it_is_and_streams_do_not_run_yet() {
         assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_FOCUS, p(&[kind, 1.0])), result, "{kind}");
     }
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_STREAMING, p(&[1.0])), FAILED);
-    assert!(texts(&station).iter().any(|text| text.contains("stream")));
+    assert!(station.texts().iter().any(|text| text.contains("stream")));
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_STREAMING, p(&[2.0])), DENIED);
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_STOP_STREAMING, p(&[1.0])), OK);
     let told = station.last(|m| if let MavMessage::VIDEO_STREAM_STATUS(s) = m { Some(s.flags) } else { None });

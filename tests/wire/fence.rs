@@ -20,14 +20,6 @@ fn circle(north_m: f64, radius_m: f32) -> Vec<MISSION_ITEM_INT_DATA> {
     vec![area(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, north_m, radius_m)]
 }
 
-fn texts(station: &Station) -> Vec<String> {
-    station.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
-}
-
-fn said(station: &Station, what: &str) -> bool {
-    texts(station).iter().any(|text| text.contains(what))
-}
-
 fn set(station: &mut Station, name: &str, value: i32) {
     let set = PARAM_SET_DATA {
         param_value: f32::from_bits(value.cast_unsigned()),
@@ -55,11 +47,11 @@ fn wire_at_the_fence_it_holds_once_and_the_pilot_flies_back_in() {
     assert_eq!(upload(&mut station, &circle(home, 15.0)), ACCEPTED);
     for _ in 0..100 {
         fly(&mut station, 1000, 0, 500, 120);
-        if said(&station, "Geofence breached") {
+        if station.said("Geofence breached") {
             break;
         }
     }
-    assert!(said(&station, "Geofence breached: out of bounds, holding"), "{:?}", texts(&station));
+    assert!(station.said("Geofence breached: out of bounds, holding"), "{:?}", station.texts());
     station.run_ms(4_000);
     assert_eq!(station.mode(), Some(HOLD));
     let status = station.last(|m| match m {
@@ -70,12 +62,12 @@ fn wire_at_the_fence_it_holds_once_and_the_pilot_flies_back_in() {
     station.heard.clear();
     for _ in 0..100 {
         fly(&mut station, -1000, 0, 500, 120);
-        if said(&station, "Within the geofence again") {
+        if station.said("Within the geofence again") {
             break;
         }
     }
-    assert!(said(&station, "Pilot took over") && said(&station, "Within the geofence again"), "{:?}", texts(&station));
-    assert!(!said(&station, "breached"), "no second time for the same breach");
+    assert!(station.said("Pilot took over") && station.said("Within the geofence again"), "{:?}", station.texts());
+    assert!(!station.said("breached"), "no second time for the same breach");
 }
 
 #[test]
@@ -86,7 +78,7 @@ fn wire_what_leads_out_of_the_fence_is_refused() {
     let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 5.0, 6.0), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 40.0, 6.0)];
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
-    assert!(said(&station, "Mission item 1 lies outside the geofence"));
+    assert!(station.said("Mission item 1 lies outside the geofence"));
     let (lat, lon) = (f64::from(plan[1].x) * 1e-7, f64::from(plan[1].y) * 1e-7);
     let there = [-1.0, 1.0, 0.0, f32::NAN, lat as f32, lon as f32, f32::NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPOSITION, there), MavResult::MAV_RESULT_DENIED);
@@ -104,11 +96,11 @@ fn wire_a_way_through_a_forbidden_area_is_refused_and_so_is_one_that_is_too_high
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     let start = |s: &mut Station| s.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
-    assert!(said(&station, "The way to mission item 1 leaves the geofence"), "{:?}", texts(&station));
+    assert!(station.said("The way to mission item 1 leaves the geofence"), "{:?}", station.texts());
     let round = MISSION_ITEM_INT_DATA { param1: 1.0, param3: 26.0, ..item(0, MavCmd::MAV_CMD_NAV_LOITER_TURNS, home, 6.0) };
     assert_eq!(upload(&mut station, &[round]), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
-    assert!(said(&station, "Mission item 0 lies outside the geofence"), "{:?}", texts(&station));
+    assert!(station.said("Mission item 0 lies outside the geofence"), "{:?}", station.texts());
     let max = PARAM_SET_DATA {
         param_value: 20.0,
         target_system: 1,
@@ -132,7 +124,7 @@ fn wire_outside_the_fence_it_does_not_arm() {
     station.run_ms(100);
     let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_TEMPORARILY_REJECTED);
-    assert!(said(&station, "geofence"), "{:?}", texts(&station));
+    assert!(station.said("geofence"), "{:?}", station.texts());
 }
 
 #[test]
@@ -166,13 +158,13 @@ fn wire_a_return_goes_to_the_nearest_rally_point() {
     assert_eq!(upload(&mut station, &circle(home, 20.0)), ACCEPTED);
     for _ in 0..100 {
         fly(&mut station, 1000, 0, 500, 120);
-        if said(&station, "Geofence breached: out of bounds, returning") {
+        if station.said("Geofence breached: out of bounds, returning") {
             break;
         }
     }
     station.run_ms(1_500);
     assert_eq!(station.mode(), Some(RETURN));
-    assert!(station.run_until(120.0, |s| said(s, "Rally point reached")), "{:?} {:?}", station.place(), texts(&station));
+    assert!(station.run_until(120.0, |s| s.said("Rally point reached")), "{:?} {:?}", station.place(), station.texts());
     assert!((home_north(&station) - home - 30.0).abs() < 1.5, "{:?}", station.place());
 }
 
@@ -191,7 +183,7 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     let left = station.place();
     fly(&mut station, 0, 1000, 500, 3_000);
     fly(&mut station, 0, 0, 500, 2_000);
-    assert!(said(&station, "Mission paused: pilot took over by the sticks"), "{:?}", texts(&station));
+    assert!(station.said("Mission paused: pilot took over by the sticks"), "{:?}", station.texts());
     assert_eq!(station.mode(), Some(POSITION));
     let state = station.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
     assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
@@ -203,14 +195,14 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     let ended = station.run_until(90.0, |s| {
         let p = s.place();
         let from_left = ((p[0] - left[0]).powi(2) + (p[1] - left[1]).powi(2)).sqrt();
-        if !said(s, "goes on where it was left") {
+        if !s.said("goes on where it was left") {
             furthest_before = furthest_before.max(p[0]);
         }
         nearest = nearest.min(from_left);
-        said(s, "Mission finished")
+        s.said("Mission finished")
     });
     assert!(ended);
-    assert!(said(&station, "Mission goes on where it was left"));
+    assert!(station.said("Mission goes on where it was left"));
     assert!(nearest < 1.5, "passed {nearest} m from where it was left");
     assert!(furthest_before < away[0].max(left[0]) + 1.0, "first back, then on: {furthest_before} of {left:?}");
 }

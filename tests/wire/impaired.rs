@@ -1,13 +1,13 @@
-//! Plans, parameters and files over a link that loses 30 %, is 200 ms late, exchanges and doubles datagrams, both ways, with a client that
-//! asks again without limit. All in simulated time, from a seed.
+//! Plans and parameters over a link that loses 30 %, is 200 ms late, exchanges and doubles datagrams, both ways, with a client that
+//! asks again without limit. All in simulated time, from a seed. Files: `impaired_files.rs`.
 
+use super::impaired_files::Disk;
 use super::plans::{home_north, item};
 use super::station::{GCS, Station};
 use spandrel::base::random::RandomStream;
 use spandrel::base::time::SimTime;
 use spandrel::mav::codec::{Decoder, Encoder};
 use spandrel::mav::dialect::*;
-use spandrel::mav::ftp::{DATA_MAX, Opcode, Packet};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The figures: share lost, mean delay and its spread (which exchanges datagrams), share doubled.
@@ -15,9 +15,9 @@ const LOSS: f64 = 0.3;
 const DELAY_MS: (f64, f64) = (100.0, 300.0);
 const DOUBLED: f64 = 0.1;
 /// The client asks again after this, ms: a round trip and a half.
-const PATIENCE_MS: i64 = 900;
+pub(super) const PATIENCE_MS: i64 = 900;
 /// Each exchange ends within this, s of simulated time; only a hang is longer.
-const LIMIT_S: f64 = 1_200.0;
+pub(super) const LIMIT_S: f64 = 1_200.0;
 
 /// One way of the link.
 struct Way {
@@ -50,15 +50,16 @@ impl Way {
 }
 
 /// A client at the far end.
-struct Client {
-    station: Station,
+pub(super) struct Client {
+    pub(super) station: Station,
     there: Way,
     back: Way,
     encoder: Encoder,
+    pub(super) disk: Disk,
 }
 
 impl Client {
-    fn new(seed: u64) -> Self {
+    pub(super) fn new(seed: u64) -> Self {
         Self::losing(seed, LOSS)
     }
 
@@ -66,16 +67,20 @@ impl Client {
         let mut station = Station::new("drill-hover", 7);
         station.run_ms(2_500);
         let (there, back) = (Way::new(seed, "there", loss), Way::new(seed, "back", loss));
-        Self { station, there, back, encoder: Encoder::new(255, 190) }
+        Self { station, there, back, encoder: Encoder::new(255, 190), disk: Disk::default() }
     }
 
     /// A millisecond passes; what the client hears.
-    fn tick(&mut self) -> Vec<MavMessage> {
+    pub(super) fn tick(&mut self) -> Vec<MavMessage> {
         let sim = &mut self.station.sim;
         for datagram in self.there.arrived(sim.now()) {
             sim.handle_datagram(GCS, &datagram);
         }
         sim.handle_timeout(sim.poll_timeout());
+        while let Some(job) = sim.poll_file_job() {
+            let outcome = self.disk.work(&job.action);
+            sim.file_job_done(job.ticket, outcome);
+        }
         while let Some(transmit) = sim.poll_transmit() {
             self.back.send(&transmit.bytes, sim.now());
         }
@@ -83,17 +88,27 @@ impl Client {
         arrived.iter().flat_map(|bytes| Decoder::new().datagram(bytes)).filter_map(|frame| frame.message).collect()
     }
 
-    fn send(&mut self, message: &MavMessage) {
+    pub(super) fn send(&mut self, message: &MavMessage) {
         let frame = self.encoder.encode(message);
         self.there.send(&frame, self.station.sim.now());
     }
 
     /// Asks, again and again, until an answer is liked.
-    fn ask<T>(&mut self, message: &MavMessage, mut like: impl FnMut(&MavMessage) -> Option<T>) -> T {
+    pub(super) fn ask<T>(&mut self, message: &MavMessage, like: impl FnMut(&MavMessage) -> Option<T>) -> T {
+        self.ask_every(PATIENCE_MS, message, like)
+    }
+
+    /// The same with another patience, ms.
+    pub(super) fn ask_every<T>(
+        &mut self,
+        patience_ms: i64,
+        message: &MavMessage,
+        mut like: impl FnMut(&MavMessage) -> Option<T>,
+    ) -> T {
         let begin = self.station.sim.now();
         loop {
             self.send(message);
-            for _ in 0..PATIENCE_MS {
+            for _ in 0..patience_ms {
                 if let Some(found) = self.tick().iter().find_map(&mut like) {
                     return found;
                 }
@@ -187,50 +202,4 @@ fn wire_parameters_are_read_whole_and_set_over_a_bad_link() {
         MavMessage::PARAM_VALUE(v) if v.param_id.to_str() == Ok("MIS_TAKEOFF_ALT") && v.param_value == 6.5 => Some(()),
         _ => None,
     });
-}
-
-#[test]
-fn wire_a_file_comes_whole_over_a_bad_link() {
-    let mut client = Client::new(3);
-    let mut sequence = 0u16;
-    let mut ask = |client: &mut Client, opcode: Opcode, session: u8, offset: u32, data: &[u8]| {
-        let mut field = [0; DATA_MAX];
-        field[..data.len()].copy_from_slice(data);
-        let packet = Packet {
-            sequence,
-            session,
-            opcode: opcode as u8,
-            size: if data.is_empty() { DATA_MAX as u8 } else { data.len() as u8 },
-            offset,
-            data: field,
-            ..Packet::read(&[0; 251])
-        };
-        let expected = sequence.wrapping_add(1);
-        sequence = sequence.wrapping_add(2);
-        let message = MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
-            target_network: 0,
-            target_system: 1,
-            target_component: 1,
-            payload: packet.write(),
-        });
-        client.ask(&message, |m| match m {
-            MavMessage::FILE_TRANSFER_PROTOCOL(f) => Some(Packet::read(&f.payload)).filter(|p| p.sequence == expected),
-            _ => None,
-        })
-    };
-    let path = b"/etc/extras/parameter.json.xz";
-    let open = ask(&mut client, Opcode::OpenFileRo, 0, 0, path);
-    let size = u32::from_le_bytes(open.data[..4].try_into().unwrap());
-    let mut file: Vec<u8> = Vec::new();
-    while (file.len() as u32) < size {
-        let part = ask(&mut client, Opcode::ReadFile, open.session, file.len() as u32, &[]);
-        let len = usize::from(part.size);
-        assert!(len > 0 && part.offset == file.len() as u32);
-        file.extend(&part.data[..len]);
-    }
-    assert_eq!(
-        file,
-        spandrel::sitl::endpoint::params::metadata::files(&spandrel::sitl::endpoint::params::face::PX4).parameter.bytes.to_vec()
-    );
-    ask(&mut client, Opcode::TerminateSession, open.session, 0, &[]);
 }

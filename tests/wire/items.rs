@@ -29,16 +29,6 @@ fn reached(station: &Station) -> Vec<u16> {
     station.all(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { Some(r.seq) } else { None })
 }
 
-fn said(station: &Station, what: &str) -> bool {
-    let text = |m: &MavMessage| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None };
-    station.all(text).iter().any(|text| text.contains(what))
-}
-
-fn speed(station: &Station) -> f32 {
-    let fast = |m: &MavMessage| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vx.hypot(p.vy)) } else { None };
-    station.last(fast).unwrap_or(0.0)
-}
-
 fn heading_deg(station: &Station) -> f32 {
     station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
 }
@@ -76,13 +66,13 @@ fn flight_a_mission_circles_a_place_as_often_and_in_the_direction_that_it_says()
         let done = station.run_until(120.0, |s| {
             let [n, e, _] = s.place();
             let (n, e) = (n - north as f32, e);
-            if !said(s, "Mission finished") {
+            if !s.said("Mission finished") {
                 assert!((n.hypot(e) - 8.0).abs() < RING_M, "{n} {e}");
                 let angle = e.atan2(n).to_degrees();
                 turned += before.map_or(0.0, |b| (angle - b + 540.0).rem_euclid(360.0) - 180.0);
                 before = Some(angle);
             }
-            said(s, "Mission finished")
+            s.said("Mission finished")
         });
         assert!(done && reached(&station) == [0], "{:?}", reached(&station));
         assert!((turned > 180.0) == clockwise && turned.abs() < 540.0, "{turned} degrees at {radius} m");
@@ -110,12 +100,12 @@ fn flight_conditions_turn_and_act_on_the_way_and_the_speed_goes_back() {
     assert!(station.run_until(60.0, |s| reached(s).contains(&2)));
     assert!((heading_deg(&station) - 60.0).abs() < TURNED_DEG, "{}", heading_deg(&station));
     assert!(station.run_until(60.0, |s| home_north(s) > north + 20.0));
-    assert!((speed(&station) - 2.0).abs() < 0.3, "slowly: {}", speed(&station));
+    assert!((station.speed() - 2.0).abs() < 0.3, "slowly: {}", station.speed());
     assert!(station.run_until(60.0, |s| reached(s).contains(&4)));
     let left = north + 40.0 - home_north(&station);
     assert!((left - 10.0).abs() < 1.0, "ten metres before the waypoint: {left}");
     assert!(station.run_until(60.0, |s| reached(s).contains(&6) && home_north(s) < north + 20.0));
-    assert!((speed(&station) - 5.0).abs() < 0.5, "the parameter's speed again: {}", speed(&station));
+    assert!((station.speed() - 5.0).abs() < 0.5, "the parameter's speed again: {}", station.speed());
 }
 
 #[test]
@@ -131,7 +121,7 @@ fn flight_a_mission_moves_home_and_switches_the_fence() {
     assert_eq!(upload(&mut station, &items), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(60.0, |s| reached(s).contains(&2)));
-    assert!(said(&station, "Geofence off"));
+    assert!(station.said("Geofence off"));
     let request = [242.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, request);
     let home = station.last(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.x) } else { None }).unwrap();

@@ -1,15 +1,19 @@
 //! The program as a user meets it: processes, sockets, files, exit codes.
 
+mod afterwards;
 mod answers;
 mod camera;
 mod camera_settings;
 mod circles;
+mod copter;
+mod copter_plans;
 mod failures;
 mod fence;
 mod flavours;
 mod flights;
 mod honest;
 mod impaired;
+mod impaired_files;
 mod inspection;
 mod items;
 mod lasting;

@@ -6,6 +6,8 @@ use spandrel::sitl::endpoint::{LinkId, LinkKind};
 
 const HOLD: u32 = 4 << 16 | 3 << 24;
 const POSITION: u32 = 3 << 16;
+/// A held place is kept within this, m (gusts, and the estimate's wandering).
+const DRIFT_M: f32 = 0.7;
 
 fn channels(station: &mut Station, pitch: u16, throttle: u16) {
     station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
@@ -124,8 +126,41 @@ fn wire_a_lost_hand_stops_the_flight_and_a_returning_one_takes_it_up_again() {
         station.run_ms(20);
     }
     assert_eq!(station.mode(), Some(POSITION));
+    // The link itself goes; another station sees what becomes of the flight, and takes the sticks.
+    station.sim.open_link(OTHER, LinkKind::GroundStation, false);
     station.sim.close_link(GCS);
+    station.heard.clear();
     station.run_ms(2_000);
+    assert_eq!(station.mode(), Some(HOLD));
+    assert!(station.said("manual control lost"), "{:?}", station.texts());
+    let [north, east, down] = station.place();
+    let later = station.place_after(3_000);
+    assert!((later[0] - north).hypot(later[1] - east) < DRIFT_M && (later[2] - down).abs() < DRIFT_M, "it stands: {later:?}");
+    for _ in 0..60 {
+        rival(&mut station, 0);
+        station.run_ms(20);
+    }
+    assert_eq!(station.mode(), Some(POSITION));
+    assert!(station.said("Failsafe cleared"), "{:?}", station.texts());
+}
+
+/// As the parameter says: land (3), return (2), and warn alone (0).
+#[test]
+fn wire_the_failsafe_of_a_lost_hand_is_the_one_that_was_chosen() {
+    const LAND: u32 = 4 << 16 | 6 << 24;
+    const RETURN: u32 = 4 << 16 | 5 << 24;
+    for (choice, mode) in [(3, LAND), (2, RETURN), (1, HOLD)] {
+        let mut station = Station::airborne("drill-hover", 7);
+        set(&mut station, "NAV_RCL_ACT", choice);
+        station.sticks(0, 0, 500, 0);
+        station.run_ms(100);
+        assert_eq!(station.mode(), Some(POSITION));
+        // It holds first, for as long as COM_FAIL_ACT_T says.
+        station.run_ms(2_000);
+        assert_eq!(station.mode(), Some(HOLD), "choice {choice}");
+        station.run_ms(5_000);
+        assert_eq!(station.mode(), Some(mode), "choice {choice}");
+    }
 }
 
 const OTHER: LinkId = LinkId(5);

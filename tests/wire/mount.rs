@@ -1,7 +1,7 @@
 //! Who controls the gimbal, the older mount's commands, and the lamp by all its names.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
-use super::station::Station;
+use super::station::{Station, p};
 use spandrel::mav::dialect::*;
 
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
@@ -17,10 +17,6 @@ fn on_the_pad() -> Station {
     // Home is known.
     station.run_ms(2_500);
     station
-}
-
-fn p(values: &[f32]) -> [f32; 7] {
-    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
 }
 
 fn attitude(station: &Station) -> GIMBAL_DEVICE_ATTITUDE_STATUS_DATA {

@@ -52,10 +52,6 @@ fn angles(station: &Station) -> ATTITUDE_DATA {
     station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap()
 }
 
-fn texts(station: &Station) -> Vec<String> {
-    station.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
-}
-
 /// In the air by hand, at rest, its nose turned away from north.
 fn level() -> Station {
     let mut station = Station::airborne("drill-hover", 7);
@@ -144,8 +140,8 @@ fn wire_set_points_that_cannot_be_flown_do_not_count_and_are_told_once_a_second(
         let mut station = Station::new("drill-hover", 7);
         station.run_ms(1_500);
         fly(&mut station, &setpoint, 2.0);
-        let told: Vec<_> = texts(&station).into_iter().filter(|t| t.contains(needle)).collect();
-        assert!((2..=3).contains(&told.len()), "{setpoint:?}: {:?}", texts(&station));
+        let told: Vec<_> = station.texts().into_iter().filter(|t| t.contains(needle)).collect();
+        assert!((2..=3).contains(&told.len()), "{setpoint:?}: {:?}", station.texts());
         let mode = [1.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let result = station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, mode);
         assert_eq!(result, MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "{needle}");
@@ -176,9 +172,9 @@ fn wire_when_set_points_stop_it_holds_and_says_so() {
     station.heard.clear();
     // COM_OF_LOSS_T is one second as in PX4: not before.
     station.run_ms(900);
-    assert!(!texts(&station).iter().any(|t| t.contains("set-points lost")), "{:?}", texts(&station));
+    assert!(!station.texts().iter().any(|t| t.contains("set-points lost")), "{:?}", station.texts());
     station.run_ms(1_300);
-    assert!(texts(&station).iter().any(|t| t.contains("set-points lost")), "{:?}", texts(&station));
+    assert!(station.texts().iter().any(|t| t.contains("set-points lost")), "{:?}", station.texts());
     assert_eq!(station.mode(), Some(HOLD));
     station.run_ms(3_000);
     assert!(velocity(&station)[0].abs() < 0.3, "{:?}", velocity(&station));

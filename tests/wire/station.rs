@@ -22,6 +22,16 @@ pub fn scenario(name: &str) -> Scenario {
     spandrel::scenario::read(&file, &shipped(&file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
+/// A command's parameters; those that are not given are 0.
+pub fn p(values: &[f32]) -> [f32; 7] {
+    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+}
+
+/// A command's first parameter alone.
+pub fn one(value: f32) -> [f32; 7] {
+    p(&[value])
+}
+
 pub struct Station {
     pub sim: Sim,
     encoder: Encoder,
@@ -89,6 +99,27 @@ impl Station {
     /// All messages that a filter likes, in order.
     pub fn all<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Vec<T> {
         self.heard.iter().filter_map(|f| f.message.as_ref()).filter_map(pick).collect()
+    }
+
+    /// What the vehicle has said in words.
+    pub fn texts(&self) -> Vec<String> {
+        self.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
+    }
+
+    /// It has said something with these words.
+    pub fn said(&self, what: &str) -> bool {
+        self.texts().iter().any(|text| text.contains(what))
+    }
+
+    /// How fast it is over the ground, m/s.
+    pub fn speed(&self) -> f32 {
+        self.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vx.hypot(p.vy)) } else { None }).unwrap()
+    }
+
+    /// The gimbal's pitch, deg.
+    pub fn gimbal_deg(&self) -> f32 {
+        let q = self.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.q) } else { None }).unwrap();
+        (2.0 * q[2].atan2(q[0])).to_degrees()
     }
 
     /// Sends a message and returns the first answer that a filter likes, which must come at once.

@@ -325,6 +325,8 @@ impl Autopilot {
         self.status.landed = Landed::InAir;
         self.contact = GroundContact::default();
         self.watch.upset_since = None;
+        // It is in the air: its next landing is one.
+        self.watch.flown = true;
         let mode = if self.watch.intended.is_manual() { self.watch.intended } else { Mode::Hold };
         self.reset_loops();
         self.course.left_ground = now - SimTime::from_s(SPOOL_UP_S);

@@ -1,6 +1,6 @@
 //! Which frames may act when signatures are demanded.
 
-use super::LinkKind;
+use super::{Endpoint, LinkKind};
 use crate::mav::codec::Received;
 use crate::mav::router;
 use crate::mav::signing::{Key, Signing, Verdict, passes};
@@ -37,7 +37,21 @@ impl Guard {
     /// A signer with the same key for one link.
     #[must_use]
     pub fn signer(&self, link_id: u8) -> Signing {
-        Signing::new(self.key.clone(), link_id, self.stamp)
+        Signing::new(self.key.clone(), link_id, self.stamp.max(self.signing.newest()))
+    }
+
+    /// What the next start with this key must know.
+    #[must_use]
+    pub fn memory(&self) -> String {
+        self.signing.memory()
+    }
+
+    /// Takes up what the last start knew.
+    ///
+    /// # Errors
+    /// The number of the first line that is wrong, from 1.
+    pub fn recall(&mut self, memory: &str) -> Result<(), usize> {
+        self.signing.recall(memory)
     }
 
     /// The signing timestamp of now.
@@ -62,5 +76,51 @@ impl Guard {
         }
         self.refused += 1;
         Admitted::No
+    }
+}
+
+impl Endpoint {
+    /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
+    /// trusted; `stamp` is the signing timestamp of now.
+    pub fn demand_signatures(&mut self, key: Key, stamp: u64, trusted: &[LinkKind]) {
+        self.guard = Some(Guard::new(key, stamp, trusted));
+        self.sign_links();
+    }
+
+    fn sign_links(&mut self) {
+        let Some(guard) = &self.guard else { return };
+        for (id, link) in &mut self.links {
+            link.sign_with(Some(guard.signer(id.0 as u8)));
+        }
+    }
+
+    /// What the next start with the same key must know; `None` without one.
+    #[must_use]
+    pub fn signing_memory(&self) -> Option<String> {
+        self.guard.as_ref().map(Guard::memory)
+    }
+
+    /// Takes up what the last start knew.
+    ///
+    /// # Errors
+    /// The number of the first line that is wrong, from 1.
+    pub fn recall_signing(&mut self, memory: &str) -> Result<(), usize> {
+        let done = self.guard.as_mut().map_or(Ok(()), |guard| guard.recall(memory));
+        self.sign_links();
+        done
+    }
+
+    /// The signing timestamp of now.
+    pub fn tell_stamp(&mut self, stamp: u64) {
+        if let Some(guard) = &mut self.guard {
+            guard.tell(stamp);
+            self.links.values_mut().for_each(|link| link.stamp = stamp);
+        }
+    }
+
+    /// Frames that did nothing because they bore no good signature.
+    #[must_use]
+    pub fn refused(&self) -> u64 {
+        self.guard.as_ref().map_or(0, Guard::refused)
     }
 }

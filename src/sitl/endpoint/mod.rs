@@ -36,7 +36,6 @@ pub mod view;
 use crate::base::time::SimTime;
 use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavMissionType, MavResult, MavSeverity, TIMESYNC_DATA};
 use crate::mav::router::Router;
-use crate::mav::signing::Key;
 use crate::sitl::autopilot::{Autopilot, Event, Severity};
 use crate::sitl::faults::{Kind, Unit};
 use camera::Shot;
@@ -256,30 +255,6 @@ impl Endpoint {
     #[must_use]
     pub fn dropped(&self) -> u64 {
         self.gone_dropped + self.links.values().map(Link::dropped).sum::<u64>()
-    }
-
-    /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
-    /// trusted; `stamp` is the signing timestamp of now.
-    pub fn demand_signatures(&mut self, key: Key, stamp: u64, trusted: &[LinkKind]) {
-        let guard = Guard::new(key, stamp, trusted);
-        for (id, link) in &mut self.links {
-            link.sign_with(Some(guard.signer(id.0 as u8)));
-        }
-        self.guard = Some(guard);
-    }
-
-    /// The signing timestamp of now.
-    pub fn tell_stamp(&mut self, stamp: u64) {
-        if let Some(guard) = &mut self.guard {
-            guard.tell(stamp);
-            self.links.values_mut().for_each(|link| link.stamp = stamp);
-        }
-    }
-
-    /// Frames that did nothing because they bore no good signature.
-    #[must_use]
-    pub fn refused(&self) -> u64 {
-        self.guard.as_ref().map_or(0, Guard::refused)
     }
 
     /// A peer is gone.

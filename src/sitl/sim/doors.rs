@@ -16,6 +16,20 @@ impl Sim {
         self.endpoint.demand_signatures(key, stamp, trusted);
     }
 
+    /// What the next start with the same key must know, so that nothing is obeyed twice; `None` without a key.
+    #[must_use]
+    pub fn signing_memory(&self) -> Option<String> {
+        self.endpoint.signing_memory()
+    }
+
+    /// Takes up what the last start knew.
+    ///
+    /// # Errors
+    /// The number of the first line that is wrong, from 1.
+    pub fn recall_signing(&mut self, memory: &str) -> Result<(), usize> {
+        self.endpoint.recall_signing(memory)
+    }
+
     /// The signing timestamp of now.
     pub fn tell_stamp(&mut self, stamp: u64) {
         self.endpoint.tell_stamp(stamp);

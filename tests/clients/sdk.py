@@ -1,0 +1,35 @@
+"""MAVSDK and the vehicle that it finds, and a short flight."""
+
+from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.action import Action
+from mavsdk.plugins.telemetry import Telemetry
+
+from spandrel import wait_for
+
+# Wall seconds until a vehicle is found on a busy machine, ten times over.
+FOUND_S = 60.0
+
+
+def connect(port):
+    """MAVSDK, and the vehicle that it found."""
+    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
+    mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
+    system = mavsdk.first_autopilot(FOUND_S)
+    assert system is not None, "no vehicle discovered"
+    return mavsdk, system
+
+
+def ready(system):
+    """Telemetry of a vehicle that would arm."""
+    telemetry = Telemetry(system)
+    wait_for("health_all_ok", telemetry.health_all_ok)
+    return telemetry
+
+
+def take_off(system, height_m):
+    """Armed and on its way up, so high; its action and telemetry."""
+    action, telemetry = Action(system), ready(system)
+    action.arm()
+    action.takeoff()
+    wait_for("the height", lambda: telemetry.position().relative_altitude_m > height_m)
+    return action, telemetry
