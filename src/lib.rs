@@ -14,4 +14,5 @@ pub mod scenario;
 pub mod site;
 pub mod sitl;
 pub mod telemetry;
+pub mod training;
 pub mod vehicle;

@@ -22,6 +22,8 @@ mod params;
 mod pilot;
 mod ports;
 mod progress;
+mod questionnaire;
+mod records;
 mod serial;
 mod session_folder;
 mod shell;
@@ -60,6 +62,8 @@ enum Command {
     Pilot(pilot::Args),
     Assess(assess::Args),
     Export(export::Args),
+    Questionnaire(questionnaire::Args),
+    Records(records::Args),
     Check(check::Args),
 }
 
@@ -76,6 +80,8 @@ pub fn main() -> ExitCode {
         Command::Pilot(args) => pilot::run(args),
         Command::Assess(args) => assess::run(args),
         Command::Export(args) => export::run(args),
+        Command::Questionnaire(args) => questionnaire::run(args),
+        Command::Records(args) => records::run(args),
         Command::Check(args) => check::run(args),
     };
     match done {

@@ -40,6 +40,8 @@ pub struct Stored {
     pub started_unix_us: u64,
     /// Starts of the monitor so far.
     pub starts: u32,
+    /// Version of the program that recorded it; empty when nothing says so.
+    pub spandrel_version: String,
 }
 
 impl SessionFolder {
@@ -161,13 +163,24 @@ impl SessionFolder {
 }
 
 impl Stored {
+    /// The job of a session folder alone.
+    ///
+    /// # Errors
+    /// When it is no session folder or the file is wrong.
+    pub fn scenario_of(path: &Path) -> Result<ScenarioFile, AppError> {
+        if !is_session(path) {
+            return Err(no_session(path));
+        }
+        files::scenario(&path.join(SCENARIO).display().to_string())
+    }
+
     /// Reads a session folder. The log and the two TOMLs are the source; without `session.json` the folder's name tells the trainee.
     ///
     /// # Errors
     /// When one of these is missing or a file is wrong.
     pub fn read(path: &Path) -> Result<Self, AppError> {
-        if !path.join(TELEMETRY).is_file() {
-            return Err(AppError::wrong(format!("{}: is no session folder (it has no {TELEMETRY})", path.display())));
+        if !is_session(path) {
+            return Err(no_session(path));
         }
         let session = described(&path.join(SESSION))?;
         let text = |key: &str| session.get(key).and_then(serde_json::Value::as_str).map(str::to_owned);
@@ -183,11 +196,21 @@ impl Stored {
             },
             trainee: text("trainee").or_else(|| trainee_of(path, &scenario.scenario.name)).unwrap_or_default(),
             started_unix_us: number("started_unix_us").or_else(|| tlog::session_start_us(&log)).unwrap_or_default(),
+            spandrel_version: text("spandrel_version").unwrap_or_default(),
             starts: u32::try_from(number("monitor_starts").unwrap_or_default()).unwrap_or(u32::MAX - 1),
             scenario,
             log,
         })
     }
+}
+
+/// True for a folder that holds a session's telemetry.
+pub fn is_session(path: &Path) -> bool {
+    path.join(TELEMETRY).is_file()
+}
+
+fn no_session(path: &Path) -> AppError {
+    AppError::wrong(format!("{}: is no session folder (it has no {TELEMETRY})", path.display()))
 }
 
 /// `session.json`, null when there is none.
@@ -222,7 +245,10 @@ fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathB
 }
 
 /// Writes beside and renames, so that a reader or a kill never sees half a file.
-pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
+///
+/// # Errors
+/// When the disk refuses.
+pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
     let mut beside = path.to_path_buf().into_os_string();
     beside.push(".new");
     std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path)).map_err(|error| cannot(path, &error))

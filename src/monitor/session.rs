@@ -46,6 +46,23 @@ pub enum EndReason {
     Restart,
 }
 
+impl EndReason {
+    /// The word of `assessment.json`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Landed => "landed",
+            Self::Battery => "battery",
+            Self::TimeLimit => "time_limit",
+            Self::Person => "person",
+            Self::Vehicle => "vehicle",
+            Self::Crash => "crash",
+            Self::Abort => "abort",
+            Self::Restart => "restart",
+        }
+    }
+}
+
 /// What the end rule looks at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {

@@ -13,7 +13,8 @@ const TABLE: &[(&str, &[&str])] = &[
     ("sitl", &["base", "mav", "scenario", "vehicle", "site"]),
     ("monitor", &["base", "mav", "scenario", "vehicle", "site", "telemetry"]),
     ("pilot", &["base", "mav", "scenario", "vehicle", "site", "telemetry"]),
-    ("app", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "sitl", "monitor", "pilot"]),
+    ("training", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "monitor"]),
+    ("app", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "sitl", "monitor", "pilot", "training"]),
 ];
 
 /// What only the shells may touch: sockets, files, clocks, threads, processes, terminals.
@@ -28,6 +29,7 @@ const OUTSIDE: &[&[&str]] = &[
     &["std", "io", "stderr"],
     &["std", "time"],
     &["tokio"],
+    &["sqlx"],
     &["indicatif"],
     &["tracing_subscriber"],
     &["clap"],
@@ -38,7 +40,7 @@ const OUTSIDE: &[&[&str]] = &[
 const NO_CLOCK: &[&str] = &["std", "time", "Duration"];
 /// What the autopilot may name of physics: what it drives, not what is true.
 const ACTUATION: &[&str] = &["Actuators", "MAX_ROTORS"];
-const ROOTS: &[&str] = &["crate", "spandrel", "std", "core", "tokio", "indicatif", "tracing_subscriber", "clap", "jiff"];
+const ROOTS: &[&str] = &["crate", "spandrel", "std", "core", "tokio", "sqlx", "indicatif", "tracing_subscriber", "clap", "jiff"];
 
 /// True for a room of the table.
 pub fn is_room(name: &str) -> bool {

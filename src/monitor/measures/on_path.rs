@@ -87,6 +87,14 @@ impl Path {
         Some(Nearest { point, distance_m: to_segment(point).sqrt() })
     }
 
+    /// The nearest place on the whole polyline, m.
+    #[must_use]
+    pub fn foot(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
+        let point = self.exact(position_m)?.point;
+        let (a, b) = self.segment(point).unwrap_or((self.points_m[point], self.points_m[point]));
+        Some(a.lerp(b, along(position_m, a, b)))
+    }
+
     /// Nothing of the path is within `distance_m`.
     #[must_use]
     pub fn is_beyond(&self, position_m: Vec3<Enu>, distance_m: f64) -> bool {
@@ -120,10 +128,14 @@ impl Path {
 }
 
 fn to_segment_squared(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
-    let along = b - a;
-    let length_squared = along.norm_squared();
-    let t = if length_squared > 0.0 { ((p - a).dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
-    (p - (a + along * t)).norm_squared()
+    (p - (a + (b - a) * along(p, a, b))).norm_squared()
+}
+
+/// Where the foot of `p` lies between `a` (0) and `b` (1).
+fn along(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
+    let way = b - a;
+    let length_squared = way.norm_squared();
+    if length_squared > 0.0 { ((p - a).dot(way) / length_squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// The paths of all tasks.
@@ -309,6 +321,7 @@ mod tests {
                 let exact = (0..count).filter_map(|k| path.segment(k)).map(|(a, b)| to_segment_squared(p, a, b));
                 let exact = exact.fold(least, f64::min).sqrt();
                 assert_eq!(path.exact(p).unwrap().distance_m, exact);
+                assert!(((p - path.foot(p).unwrap()).norm() - exact).abs() < 1e-12);
             }
         }
     }

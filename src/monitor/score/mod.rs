@@ -8,6 +8,9 @@ pub mod safety;
 
 use serde::Serialize;
 
+/// Version of the scorer: it grows whenever the same flight may get other scores, so that records know which of them compare.
+pub const SCORER_VERSION: u32 = 1;
+
 /// A score on its own scale and on 0 to 100. Full precision; only what is shown is rounded.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Score {

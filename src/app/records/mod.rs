@@ -1,0 +1,267 @@
+//! `spandrel records`: the database of sessions, trainees and answers. The session folders are the source; the database can be made
+//! again from them at any time (all but what trainees told of themselves).
+
+mod database;
+mod import;
+mod people;
+#[cfg(test)]
+mod tests;
+
+pub use database::Database;
+
+use super::args::TraineeId;
+use super::clock;
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::progress::Progress;
+use crate::training::record::Record;
+use people::PersonArgs;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+/// µs in a day.
+const DAY_US: u64 = 86_400_000_000;
+/// Longest retention that can be asked for, days: a century.
+const RETENTION_MAX_DAYS: i64 = 36_525;
+/// Records go into the database in parcels of so many, so that a kill costs little work.
+const PARCEL: usize = 64;
+
+/// Keep sessions, trainees and answers in a database
+///
+/// SQLite in a file beside the sessions, or PostgreSQL by URL for a training centre where many stations write at once (a password
+/// comes from PGPASSWORD or ~/.pgpass, so that no process list shows it). The session folders stay the source: `rebuild` makes the
+/// database again.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel records import                                   all new or changed sessions of ./sessions
+  spandrel records import --database postgres://spandrel@db/training
+  spandrel records list
+  spandrel records trainee anna --age-band 25-34 --drone-experience none --gaming-experience some
+  spandrel records export --trainee anna --out anna.json    everything that is kept of her
+  spandrel records export --out all.jsonl                   all records, one a line, for spandrel cohort --records
+  spandrel records erase --trainee anna                     says what would go; with --yes it goes, folders too
+  spandrel records retention --days 730                     the same for everything older than two years
+  spandrel records rebuild                                  makes the database again from the folders
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    place: Place,
+    #[command(subcommand)]
+    what: What,
+}
+
+/// Where records and sessions are.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Place {
+    /// Folder with session folders; may be repeated
+    #[arg(long, global = true, value_name = "DIR", default_value = "sessions")]
+    pub sessions: Vec<PathBuf>,
+    /// Database: a file, or postgres://USER@HOST/NAME [default: records.sqlite in the first folder of sessions]
+    #[arg(long, global = true, value_name = "FILE|URL")]
+    pub database: Option<String>,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum What {
+    /// Take sessions in; what is there unchanged stays untouched
+    Import {
+        /// Session folders [default: all of --sessions]
+        #[arg(value_name = "SESSION")]
+        folders: Vec<PathBuf>,
+    },
+    /// Make the database again from the session folders; trainees and their details stay
+    Rebuild {
+        /// Also when sessions are in the database whose folders are not here: they are lost
+        #[arg(long)]
+        yes: bool,
+    },
+    /// List sessions
+    List {
+        /// Only this trainee's
+        #[arg(long, value_name = "ID")]
+        trainee: Option<TraineeId>,
+        /// As JSON, with everything that is kept
+        #[arg(long)]
+        json: bool,
+    },
+    /// Write one trainee's data, or all records
+    Export {
+        /// Everything that is kept of this trainee, as one JSON document; without it all records, one JSON object a line
+        #[arg(long, value_name = "ID")]
+        trainee: Option<TraineeId>,
+        /// Where to; '-' for standard output
+        #[arg(long, value_name = "FILE", default_value = "-")]
+        out: String,
+    },
+    /// Erase a trainee: database and session folders
+    Erase {
+        /// Who
+        #[arg(long, value_name = "ID")]
+        trainee: TraineeId,
+        /// Do it; without, only told what would go
+        #[arg(long)]
+        yes: bool,
+    },
+    /// Erase what is older than so many days: database and session folders
+    Retention {
+        /// Age, days (1 to 36525)
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(i64).range(1..=RETENTION_MAX_DAYS))]
+        days: i64,
+        /// Do it; without, only told what would go
+        #[arg(long)]
+        yes: bool,
+    },
+    /// Show or set what is known of a trainee
+    Trainee(PersonArgs),
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When arguments, folders or the database are wrong.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let place = &args.place;
+    match &args.what {
+        What::Import { folders } => take_in(place, folders),
+        What::Rebuild { yes } => rebuild(place, *yes),
+        What::List { trainee, json } => list(&place.open()?, trainee.as_ref().map(TraineeId::as_str), *json),
+        What::Export { trainee, out } => match trainee {
+            Some(trainee) => people::export(place, trainee.as_str(), out),
+            None => files::write(out, lines(&place.open()?.records(None)?)?.as_bytes()),
+        },
+        What::Erase { trainee, yes } => people::erase(place, trainee.as_str(), *yes),
+        What::Retention { days, yes } => retention(place, days.unsigned_abs(), *yes),
+        What::Trainee(person) => people::set(&place.open()?, person),
+    }
+}
+
+impl Place {
+    /// Opens the database.
+    ///
+    /// # Errors
+    /// When it cannot be opened.
+    pub fn open(&self) -> Result<Database, AppError> {
+        match &self.database {
+            Some(target) => Database::open(target),
+            None => {
+                let folder = self.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
+                Database::open(&folder.join("records.sqlite").display().to_string())
+            }
+        }
+    }
+}
+
+/// Records as JSON lines.
+///
+/// # Errors
+/// Never in practice: every record can be written as JSON.
+pub fn lines(records: &[Record]) -> Result<String, AppError> {
+    let line = |record: &Record| serde_json::to_string(record).map(|text| text + "\n");
+    records.iter().map(line).collect::<Result<String, _>>().map_err(|error| AppError::failed(error.to_string()))
+}
+
+/// Takes in what is new or changed; what cannot be scored is told and left out.
+fn take_in(place: &Place, named: &[PathBuf]) -> Result<(), AppError> {
+    let folders = if named.is_empty() { import::session_folders(&place.sessions)? } else { named.to_vec() };
+    let database = place.open()?;
+    let (changed, left_out) = import_into(&database, &folders)?;
+    println!(
+        "{}: {changed} new or changed, {} unchanged, {} left out",
+        database.name(),
+        folders.len() - changed - left_out,
+        left_out
+    );
+    if left_out > 0 && !named.is_empty() {
+        return Err(AppError::failed(format!("{left_out} of the sessions named were left out")));
+    }
+    Ok(())
+}
+
+/// Returns how many sessions were new or changed, and how many could not be read.
+fn import_into(database: &Database, folders: &[PathBuf]) -> Result<(usize, usize), AppError> {
+    let known = database.fingerprints()?;
+    let (mut changed, mut left_out) = (0, 0);
+    let mut progress = Progress::start("reading sessions");
+    for (parcel, part) in folders.chunks(PARCEL).enumerate() {
+        let mut records = Vec::new();
+        for (k, folder) in part.iter().enumerate() {
+            progress.tell(|| format!("session {} of {}", parcel * PARCEL + k + 1, folders.len()));
+            match import::read(folder, &known) {
+                Ok(record) => records.extend(record),
+                Err(error) => {
+                    left_out += 1;
+                    tracing::warn!("left out: {error}");
+                }
+            }
+        }
+        changed += database.put(&records)?;
+    }
+    progress.end();
+    Ok((changed, left_out))
+}
+
+fn rebuild(place: &Place, yes: bool) -> Result<(), AppError> {
+    let folders = import::session_folders(&place.sessions)?;
+    let here = folders.iter().map(|folder| import::id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
+    let database = place.open()?;
+    let lost = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).count();
+    if lost > 0 && !yes {
+        return Err(AppError::wrong(format!(
+            "{}: {lost} sessions have no folder here and would be lost; name all folders with --sessions, or say --yes",
+            database.name()
+        )));
+    }
+    let mut progress = Progress::start("reading sessions");
+    let mut records = Vec::new();
+    let mut left_out = 0;
+    for (k, folder) in folders.iter().enumerate() {
+        progress.tell(|| format!("session {} of {}", k + 1, folders.len()));
+        match import::read(folder, &std::collections::BTreeMap::new()) {
+            Ok(record) => records.extend(record),
+            Err(error) => {
+                left_out += 1;
+                tracing::warn!("left out: {error}");
+            }
+        }
+    }
+    progress.end();
+    let made = database.replace_all(&records)?;
+    println!("{}: {made} sessions, {left_out} left out", database.name());
+    Ok(())
+}
+
+fn list(database: &Database, trainee: Option<&str>, json: bool) -> Result<(), AppError> {
+    let records = database.records(trainee)?;
+    if json {
+        return files::write("-", crate::monitor::export::json_text(&records).as_bytes());
+    }
+    let mut table = format!("{:<52}{:<14}{:>9}{:>6}  {}\n", "session", "trainee", "overall", "of", "end");
+    for record in &records {
+        let scores = &record.scores;
+        table.push_str(&format!(
+            "{:<52}{:<14}{:>9.1}{:>6.0}  {}\n",
+            record.id, record.trainee, scores.overall, scores.overall_max, record.end_reason
+        ));
+    }
+    table.push_str(&format!("{} sessions\n", records.len()));
+    files::write("-", table.as_bytes())
+}
+
+fn retention(place: &Place, days: u64, yes: bool) -> Result<(), AppError> {
+    let limit_us = clock::unix_us().saturating_sub(days.saturating_mul(DAY_US));
+    let database = place.open()?;
+    let old = database.older_than(limit_us)?;
+    let folders = people::folders_where(&place.sessions, |stored| stored.started_unix_us < limit_us)?;
+    let before = clock::utc(limit_us).0;
+    if !yes {
+        println!("{} sessions and {} folders are from before {before}; --yes erases them", old.len(), folders.len());
+        return Ok(());
+    }
+    people::remove(&folders)?;
+    let ids: Vec<String> = old.into_iter().map(|(id, _)| id).collect();
+    let deleted = database.delete_sessions(&ids)?;
+    println!("{deleted} sessions and {} folders from before {before} are erased", folders.len());
+    Ok(())
+}

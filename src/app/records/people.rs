@@ -1,0 +1,151 @@
+//! Trainees: what is known of them, everything that is kept of one, and erasing it.
+
+use super::{Database, Place, import};
+use crate::app::args::TraineeId;
+use crate::app::errors::AppError;
+use crate::app::files;
+use crate::app::session_folder::Stored;
+use crate::monitor::export::json_text;
+use crate::training::record::Record;
+use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// What is set of a person.
+#[derive(Debug, clap::Args)]
+pub struct PersonArgs {
+    /// Pseudonym
+    #[arg(value_name = "ID")]
+    id: TraineeId,
+    /// What the person may do
+    #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word))]
+    role: Option<String>,
+    /// Age, years
+    #[arg(long, value_name = "BAND", value_parser = AGE_BANDS.to_vec())]
+    age_band: Option<String>,
+    /// Experience with drones
+    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
+    drone_experience: Option<String>,
+    /// Experience with games
+    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
+    gaming_experience: Option<String>,
+}
+
+/// Everything that is kept of one trainee.
+#[derive(Debug, Serialize)]
+struct Kept {
+    trainee: Trainee,
+    sessions: Vec<Record>,
+    folders: Vec<String>,
+}
+
+/// Shows a person, after setting what was given.
+///
+/// # Errors
+/// When the database refuses, or there is neither such a person nor anything to set.
+pub fn set(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
+    let known = find(database, args.id.as_str())?;
+    let given =
+        args.role.is_some() || [&args.age_band, &args.drone_experience, &args.gaming_experience].iter().any(|v| v.is_some());
+    if known.is_none() && !given {
+        return Err(AppError::wrong(format!("{}: there is no '{}'", database.name(), args.id.as_str())));
+    }
+    let mut person = known.unwrap_or_else(|| Trainee::new(args.id.as_str()));
+    if let Some(role) = args.role.as_deref().and_then(Role::from_word) {
+        person.role = role;
+    }
+    for (value, place) in [
+        (&args.age_band, &mut person.age_band),
+        (&args.drone_experience, &mut person.drone_experience),
+        (&args.gaming_experience, &mut person.gaming_experience),
+    ] {
+        if value.is_some() {
+            place.clone_from(value);
+        }
+    }
+    if given {
+        database.set_trainee(&person)?;
+    }
+    files::write("-", json_text(&person).as_bytes())
+}
+
+/// Writes everything that is kept of a trainee: details, sessions and answers from the database, names of the folders.
+///
+/// # Errors
+/// When nothing is kept, or the database or the target refuses.
+pub fn export(place: &Place, trainee: &str, out: &str) -> Result<(), AppError> {
+    let database = place.open()?;
+    let sessions = database.records(Some(trainee))?;
+    let folders = folders_of(place, trainee)?;
+    let known = find(&database, trainee)?;
+    if known.is_none() && sessions.is_empty() && folders.is_empty() {
+        return Err(AppError::wrong(format!("{}: nothing is kept of '{trainee}'", database.name())));
+    }
+    let folders = folders.iter().map(|path| path.display().to_string()).collect();
+    let kept = Kept { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders };
+    files::write(out, json_text(&kept).as_bytes())
+}
+
+/// Erases a trainee, or says what would go.
+///
+/// # Errors
+/// When a folder or the database refuses.
+pub fn erase(place: &Place, trainee: &str, yes: bool) -> Result<(), AppError> {
+    let database = place.open()?;
+    let folders = folders_of(place, trainee)?;
+    if !yes {
+        let sessions = database.records(Some(trainee))?.len();
+        let known = if find(&database, trainee)?.is_some() { "known" } else { "not known" };
+        println!(
+            "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; --yes erases them",
+            database.name(),
+            folders.len()
+        );
+        return Ok(());
+    }
+    // Folders first: a kill between leaves records without a folder, which the same command removes; not folders that bring them back.
+    remove(&folders)?;
+    let (known, sessions) = database.erase(trainee)?;
+    if !known && folders.is_empty() {
+        return Err(AppError::wrong(format!("{}: nothing was kept of '{trainee}'", database.name())));
+    }
+    println!("'{trainee}' is erased: {sessions} sessions in {}, {} folders", database.name(), folders.len());
+    Ok(())
+}
+
+fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError> {
+    Ok(database.trainees()?.into_iter().find(|person| person.pseudonym == trainee))
+}
+
+fn folders_of(place: &Place, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
+    folders_where(&place.sessions, |stored| stored.trainee == trainee)
+}
+
+/// Session folders that are so; what cannot be read is told, for it may be one of them.
+///
+/// # Errors
+/// When the folder of sessions cannot be read.
+pub fn folders_where(sessions: &[PathBuf], is: impl Fn(&Stored) -> bool) -> Result<Vec<PathBuf>, AppError> {
+    let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
+    let mut found = Vec::new();
+    for path in import::session_folders(&here)? {
+        match Stored::read(&path) {
+            Ok(stored) if is(&stored) => found.push(path),
+            Ok(_) => {}
+            Err(error) => tracing::warn!("cannot tell whose this is: {error}"),
+        }
+    }
+    Ok(found)
+}
+
+/// Removes session folders.
+///
+/// # Errors
+/// When the disk refuses.
+pub fn remove(folders: &[PathBuf]) -> Result<(), AppError> {
+    folders.iter().try_for_each(|path: &PathBuf| remove_one(path))
+}
+
+fn remove_one(path: &Path) -> Result<(), AppError> {
+    std::fs::remove_dir_all(path).map_err(|error| AppError::failed(format!("{}: cannot be erased: {error}", path.display())))
+}

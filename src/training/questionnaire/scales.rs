@@ -1,0 +1,100 @@
+//! What the answers add up to: the causal factors, states and the moderator that the paper names.
+
+use super::{Answers, Aspect, Item, Overall, Phase, STRONGLY_AGREE, STRONGLY_DISAGREE, Tlx};
+use serde::{Deserialize, Serialize};
+
+/// Scales from 1 to 5; more is more of what the name says. A scale stands when at least half of its questions are answered.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Scales {
+    /// Mental demand over the phases.
+    pub mental_demand: Option<f64>,
+    /// Physical demand over the phases.
+    pub physical_demand: Option<f64>,
+    /// Both: the paper's causal factors.
+    pub demand: Option<f64>,
+    /// Time pressure and frustration: the paper's psychological states.
+    pub strain: Option<f64>,
+    /// How helpful the in-task feedback was: the paper's moderator.
+    pub feedback: Option<f64>,
+    /// How well the trainee thinks it went, over the phases.
+    pub self_rating: Option<f64>,
+}
+
+/// Scales of one session's answers.
+#[must_use]
+pub fn scales(answers: &Answers, tasks: &[u32]) -> Scales {
+    let of = |aspects: &[Aspect]| {
+        let phases = Phase::all(tasks);
+        let items = phases.iter().flat_map(|phase| aspects.iter().map(|aspect| Item::Phase(*phase, *aspect)));
+        average(answers, items.collect())
+    };
+    let whole = |which: &[Overall]| average(answers, which.iter().map(|one| Item::Overall(*one)).collect());
+    // The statements on demand and strain deny it, so that disagreeing means much; those on feedback and performance affirm.
+    let affirmed = |mean: f64| f64::from(STRONGLY_AGREE + STRONGLY_DISAGREE) - mean;
+    Scales {
+        mental_demand: of(&[Aspect::MentalDemand]),
+        physical_demand: of(&[Aspect::PhysicalDemand]),
+        demand: of(&[Aspect::MentalDemand, Aspect::PhysicalDemand]),
+        strain: whole(&[Overall::TimePressure, Overall::Frustration]),
+        feedback: whole(&[Overall::Feedback]).map(affirmed),
+        self_rating: of(&[Aspect::Performance]).map(affirmed),
+    }
+}
+
+fn average(answers: &Answers, items: Vec<Item>) -> Option<f64> {
+    let given: Vec<f64> = items.iter().filter_map(|item| answers.given.get(item)).map(|answer| f64::from(*answer)).collect();
+    (!given.is_empty() && 2 * given.len() >= items.len()).then(|| given.iter().sum::<f64>() / given.len() as f64)
+}
+
+/// NASA-TLX without weights: the mean of its six scales, 0 to 100; `None` until all are answered.
+#[must_use]
+pub fn raw_tlx(answers: &Answers) -> Option<f64> {
+    let given: Option<Vec<f64>> = Tlx::ALL.iter().map(|scale| answers.tlx.get(scale).map(|value| f64::from(*value))).collect();
+    given.map(|values| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TASKS: [u32; 4] = [1, 2, 3, 4];
+
+    #[test]
+    fn exact_scales_point_where_their_names_say() {
+        let mut answers = Answers::default();
+        for item in Item::all(&TASKS) {
+            answers.given.insert(item, STRONGLY_AGREE);
+        }
+        let best = scales(&answers, &TASKS);
+        assert_eq!((best.demand, best.strain, best.feedback, best.self_rating), (Some(1.0), Some(1.0), Some(5.0), Some(5.0)));
+        answers.given.insert(Item::Phase(Phase::Task(3), Aspect::MentalDemand), 5);
+        let told = scales(&answers, &TASKS);
+        assert_eq!(told.mental_demand, Some(11.0 / 7.0));
+        assert_eq!(told.demand, Some(18.0 / 14.0));
+        assert_eq!(told.physical_demand, Some(1.0));
+    }
+
+    #[test]
+    fn exact_a_scale_needs_half_of_its_answers() {
+        let mut answers = Answers::default();
+        answers.given.insert(Item::Overall(Overall::TimePressure), 4);
+        let told = scales(&answers, &TASKS);
+        assert_eq!((told.strain, told.feedback, told.self_rating), (Some(4.0), None, None));
+        for phase in [Phase::Calibration, Phase::TakingOff, Phase::Landing] {
+            answers.given.insert(Item::Phase(phase, Aspect::Performance), 2);
+        }
+        assert_eq!(scales(&answers, &TASKS).self_rating, None, "three of seven are not half");
+        answers.given.insert(Item::Phase(Phase::Task(1), Aspect::Performance), 2);
+        assert_eq!(scales(&answers, &TASKS).self_rating, Some(4.0));
+    }
+
+    #[test]
+    fn exact_raw_tlx_is_the_mean_of_six() {
+        let mut answers = Answers::default();
+        for (scale, value) in Tlx::ALL.into_iter().zip([10, 20, 30, 40, 50, 90]) {
+            assert_eq!(raw_tlx(&answers), None);
+            answers.tlx.insert(scale, value);
+        }
+        assert_eq!(raw_tlx(&answers), Some(40.0));
+    }
+}

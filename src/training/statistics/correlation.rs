@@ -1,0 +1,82 @@
+//! Do two measures of the same people go together?
+
+use super::distribution::tails_of_t;
+use super::{StatisticsError, mean};
+use serde::Serialize;
+
+/// A correlation and its two-tailed p value (by t with n - 2 degrees of freedom).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Correlation {
+    /// Pairs.
+    pub n: usize,
+    /// From -1 to 1.
+    pub r: f64,
+    /// Two-tailed; absent below three pairs.
+    pub p: Option<f64>,
+}
+
+/// Pearson's correlation.
+///
+/// # Errors
+/// When there are fewer than two pairs, a list does not vary, or holds what is no number.
+pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
+    StatisticsError::pairs(x, y, 2)?;
+    let n = x.len();
+    let (mean_x, mean_y) = (mean(x).unwrap_or_default(), mean(y).unwrap_or_default());
+    let sum = |f: &dyn Fn(f64, f64) -> f64| x.iter().zip(y).map(|(x, y)| f(x - mean_x, y - mean_y)).sum::<f64>();
+    let (xx, yy, xy) = (sum(&|x, _| x * x), sum(&|_, y| y * y), sum(&|x, y| x * y));
+    if xx <= 0.0 || yy <= 0.0 {
+        return Err(StatisticsError::Constant("one of the two measures"));
+    }
+    let r = (xy / (xx.sqrt() * yy.sqrt())).clamp(-1.0, 1.0);
+    let df = n as f64 - 2.0;
+    // At r = 1 t is infinite and p is zero.
+    let t = r * (df / ((1.0 - r) * (1.0 + r))).sqrt();
+    let p = (df > 0.0).then(|| tails_of_t(t, df).map_or(0.0, |tails| tails.two));
+    Ok(Correlation { n, r, p })
+}
+
+/// Spearman's rank correlation; equal values share their mean rank.
+///
+/// # Errors
+/// As [`pearson`].
+pub fn spearman(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
+    StatisticsError::pairs(x, y, 2)?;
+    pearson(&ranks(x), &ranks(y))
+}
+
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let mut ranks = vec![0.0; values.len()];
+    let mut from = 0;
+    while from < order.len() {
+        let same = order[from..].iter().take_while(|k| values[**k] == values[order[from]]).count();
+        let rank = from as f64 + (same as f64 + 1.0) / 2.0;
+        for k in &order[from..from + same] {
+            ranks[*k] = rank;
+        }
+        from += same;
+    }
+    ranks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_line_and_a_cross() {
+        let line = pearson(&[1.0, 2.0, 3.0], &[2.0, 4.0, 6.0]).unwrap();
+        assert!((line.r - 1.0).abs() < 1e-15 && line.p.unwrap() < 1e-6);
+        assert!(pearson(&[-1.0, 1.0, 1.0, -1.0], &[1.0, 1.0, -1.0, -1.0]).unwrap().r.abs() < 1e-15);
+        assert!(pearson(&[1.0, 1.0], &[1.0, 2.0]).is_err());
+    }
+
+    #[test]
+    fn exact_equal_values_share_a_rank() {
+        assert_eq!(ranks(&[10.0, 30.0, 10.0, 20.0]), [1.5, 4.0, 1.5, 3.0]);
+        let monotone = spearman(&[1.0, 2.0, 3.0, 4.0], &[1.0, 10.0, 100.0, 1000.0]).unwrap();
+        assert!((monotone.r - 1.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,181 @@
+//! Ordinary least squares with an intercept, and what may be believed of its coefficients.
+
+use super::StatisticsError;
+use super::distribution::{above_f, quantile_of_t, tails_of_t};
+use super::paired::UPPER_END_95;
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+
+/// A column whose own part is smaller than this share of its length says nothing that the columns before it do not say.
+const INDEPENDENT: f64 = 1e-9;
+
+/// One coefficient.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Coefficient {
+    /// Predictor; `intercept` for the first.
+    pub name: String,
+    /// Estimate.
+    pub estimate: f64,
+    /// Standard error.
+    pub standard_error: f64,
+    /// Estimate over its error; absent when the fit is perfect.
+    pub t: Option<f64>,
+    /// Two-tailed; absent with t.
+    pub p: Option<f64>,
+    /// Of the estimate.
+    pub interval_95: [f64; 2],
+}
+
+/// A fitted model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Regression {
+    /// Observations.
+    pub n: usize,
+    /// Intercept first, then the predictors as given.
+    pub coefficients: Vec<Coefficient>,
+    /// Degrees of freedom of the residuals.
+    pub df: usize,
+    /// Standard deviation of the residuals.
+    pub residual_sd: f64,
+    /// Share of the variance that the predictors explain; absent when the outcome does not vary.
+    pub r_squared: Option<f64>,
+    /// Of the whole model against the mean alone; absent with `r_squared`.
+    pub f: Option<f64>,
+    /// Chance of so large an F without any effect.
+    pub p: Option<f64>,
+}
+
+/// Regresses `outcome` on named predictors, each a list as long as the outcome.
+///
+/// # Errors
+/// When lists differ in length or hold what is no number, when there are no more observations than coefficients, or when predictors
+/// cannot be told apart.
+pub fn least_squares(outcome: &[f64], predictors: &[(&str, &[f64])]) -> Result<Regression, StatisticsError> {
+    let (n, p) = (outcome.len(), predictors.len() + 1);
+    for (_, values) in predictors {
+        StatisticsError::pairs(outcome, values, p + 1)?;
+    }
+    StatisticsError::pairs(outcome, outcome, p + 1)?;
+    let x = DMatrix::from_fn(n, p, |row, column| if column == 0 { 1.0 } else { predictors[column - 1].1[row] });
+    let y = DVector::from_column_slice(outcome);
+    let lengths: Vec<f64> = (0..p).map(|column| x.column(column).norm()).collect();
+    let qr = x.clone().qr();
+    let r = qr.r();
+    if (0..p).any(|k| r[(k, k)].abs() <= INDEPENDENT * lengths[k]) {
+        return Err(StatisticsError::Collinear);
+    }
+    let estimates = r.solve_upper_triangular(&(qr.q().transpose() * &y)).ok_or(StatisticsError::Collinear)?;
+    let inverse = r.solve_upper_triangular(&DMatrix::identity(p, p)).ok_or(StatisticsError::Collinear)?;
+    let left = (&y - &x * &estimates).norm_squared();
+    let around = y.add_scalar(-y.mean()).norm_squared();
+    let df = n - p;
+    let variance = left / df as f64;
+    let names = std::iter::once("intercept").chain(predictors.iter().map(|(name, _)| *name));
+    let coefficients = names.enumerate().map(|(k, name)| {
+        let error = inverse.row(k).norm() * variance.sqrt();
+        coefficient(name, estimates[k], error, df as f64)
+    });
+    let explained = (around > 0.0 && p > 1).then(|| 1.0 - left / around);
+    let f = explained.map(|_| (around - left) / (p - 1) as f64 / variance).filter(|f| f.is_finite());
+    Ok(Regression {
+        n,
+        coefficients: coefficients.collect(),
+        df,
+        residual_sd: variance.sqrt(),
+        r_squared: explained,
+        f,
+        p: f.and_then(|f| above_f(f, (p - 1) as f64, df as f64)),
+    })
+}
+
+fn coefficient(name: &str, estimate: f64, standard_error: f64, df: f64) -> Coefficient {
+    let t = (standard_error > 0.0).then(|| estimate / standard_error);
+    let reach = standard_error * quantile_of_t(UPPER_END_95, df).unwrap_or_default();
+    Coefficient {
+        name: name.to_owned(),
+        estimate,
+        standard_error,
+        t,
+        p: t.and_then(|t| tails_of_t(t, df)).map(|tails| tails.two),
+        interval_95: [estimate - reach, estimate + reach],
+    }
+}
+
+/// The estimates alone, by the normal equations, with every observation counted `weights` times: for resampling, where the whole
+/// [`Regression`] would be too slow. Rows hold the predictors without the intercept, which comes first in the answer. `None` when the
+/// predictors cannot be told apart.
+#[must_use]
+pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]) -> Option<Vec<f64>> {
+    let mut normal = DMatrix::<f64>::zeros(P + 1, P + 1);
+    let mut right = DVector::<f64>::zeros(P + 1);
+    let value = |row: &[f64; P], k: usize| if k == 0 { 1.0 } else { row[k - 1] };
+    for ((row, y), weight) in rows.iter().zip(outcome).zip(weights).filter(|(_, weight)| **weight > 0) {
+        let weight = f64::from(*weight);
+        for i in 0..=P {
+            let weighted = weight * value(row, i);
+            right[i] += weighted * y;
+            for j in 0..=i {
+                normal[(i, j)] += weighted * value(row, j);
+            }
+        }
+    }
+    let factor = normal.clone().cholesky()?;
+    let lower = factor.l();
+    // The factor's diagonal is what a column adds to those before it.
+    let distinct = (0..=P).all(|k| lower[(k, k)] > INDEPENDENT.sqrt() * normal[(k, k)].sqrt());
+    distinct.then(|| factor.solve(&right).iter().copied().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of a small decomposition.
+    const EXACT: f64 = 1e-11;
+
+    #[test]
+    fn exact_a_line_through_three_points_by_hand() {
+        // y = 1, 3, 2 at x = 0, 1, 2: slope 1/2, intercept 3/2, residual sum 3/2, slope's error sqrt(3/2/2) = sqrt 3/2.
+        let model = least_squares(&[1.0, 3.0, 2.0], &[("x", &[0.0, 1.0, 2.0])]).unwrap();
+        assert!((model.coefficients[0].estimate - 1.5).abs() < EXACT && (model.coefficients[1].estimate - 0.5).abs() < EXACT);
+        assert!((model.coefficients[1].standard_error - 0.75f64.sqrt()).abs() < EXACT);
+        assert!((model.r_squared.unwrap() - 0.25).abs() < EXACT);
+        // One predictor: F is the square of its t, with the same p.
+        let t = model.coefficients[1].t.unwrap();
+        assert!((model.f.unwrap() - t * t).abs() < EXACT);
+        assert!((model.p.unwrap() - model.coefficients[1].p.unwrap()).abs() < EXACT);
+    }
+
+    #[test]
+    fn exact_what_made_the_data_is_found_again() {
+        let a: Vec<f64> = (0..12).map(|k| f64::from(k % 5)).collect();
+        let b: Vec<f64> = (0..12).map(|k| f64::from(k * k % 7)).collect();
+        let y: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 3.0 - 2.0 * a + 0.25 * b).collect();
+        let model = least_squares(&y, &[("a", &a), ("b", &b)]).unwrap();
+        for (found, true_value) in model.coefficients.iter().zip([3.0, -2.0, 0.25]) {
+            assert!((found.estimate - true_value).abs() < EXACT, "{found:?}");
+        }
+        let rows: Vec<[f64; 2]> = a.iter().zip(&b).map(|(a, b)| [*a, *b]).collect();
+        let quick = solve(&rows, &y, &[1; 12]).unwrap();
+        assert!((quick[1] + 2.0).abs() < EXACT && (quick[2] - 0.25).abs() < EXACT);
+    }
+
+    #[test]
+    fn exact_weights_are_repetitions() {
+        let rows = [[0.0], [1.0], [3.0]];
+        let weighted = solve(&rows, &[1.0, 4.0, 2.0], &[2, 1, 1]).unwrap();
+        let repeated = solve(&[[0.0], [0.0], [1.0], [3.0]], &[1.0, 1.0, 4.0, 2.0], &[1; 4]).unwrap();
+        assert!((weighted[0] - repeated[0]).abs() < EXACT && (weighted[1] - repeated[1]).abs() < EXACT);
+        assert_eq!(solve(&rows, &[1.0, 4.0, 2.0], &[3, 0, 0]), None);
+    }
+
+    #[test]
+    fn exact_twins_and_too_few_people_are_refused() {
+        let x = [1.0, 2.0, 3.0, 4.0];
+        let twice = [2.0, 4.0, 6.0, 8.0];
+        assert_eq!(least_squares(&x, &[("x", &x), ("twice", &twice)]).unwrap_err(), StatisticsError::Collinear);
+        assert!(least_squares(&[1.0, 2.0], &[("x", &[1.0, 2.0])]).is_err());
+        let flat = least_squares(&[5.0; 4], &[("x", &x)]).unwrap();
+        assert_eq!(flat.r_squared, None);
+    }
+}

@@ -1,0 +1,207 @@
+//! One sample: its distribution, quartiles and box plot.
+
+use super::StatisticsError;
+use serde::Serialize;
+
+/// Whiskers reach to the last value within this many interquartile ranges of the box (Tukey 1977).
+const WHISKER_IQR: f64 = 1.5;
+
+/// What a distribution is told by.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Summary {
+    /// Values.
+    pub n: usize,
+    /// Arithmetic mean.
+    pub mean: f64,
+    /// Standard deviation with n - 1; absent for one value.
+    pub sd: Option<f64>,
+    /// Smallest.
+    pub min: f64,
+    /// Lower quartile.
+    pub q1: f64,
+    /// Median.
+    pub median: f64,
+    /// Upper quartile.
+    pub q3: f64,
+    /// Largest.
+    pub max: f64,
+    /// Largest less smallest.
+    pub range: f64,
+    /// Third standardised moment (with n, not n - 1); below zero when the low end is the long one. Absent when all values are equal.
+    pub skewness: Option<f64>,
+}
+
+/// A box with whiskers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BoxPlot {
+    /// Lower quartile.
+    pub q1: f64,
+    /// Median.
+    pub median: f64,
+    /// Upper quartile.
+    pub q3: f64,
+    /// Smallest value that is no outlier.
+    pub low_whisker: f64,
+    /// Largest value that is no outlier.
+    pub high_whisker: f64,
+    /// Values beyond the whiskers, ascending.
+    pub outliers: Vec<f64>,
+    /// Arithmetic mean.
+    pub mean: f64,
+    /// Values.
+    pub n: usize,
+}
+
+/// One bar of a histogram: values in [from, to), the last bar with its upper end.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Bin {
+    /// Lower end.
+    pub from: f64,
+    /// Upper end.
+    pub to: f64,
+    /// Values in it.
+    pub count: usize,
+}
+
+/// Arithmetic mean; `None` for an empty sample.
+#[must_use]
+pub fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// Standard deviation with n - 1; `None` below two values.
+#[must_use]
+pub fn sd(values: &[f64]) -> Option<f64> {
+    let mean = mean(values).filter(|_| values.len() > 1)?;
+    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+    Some((squares / (values.len() - 1) as f64).sqrt())
+}
+
+/// The quantile between order statistics by straight lines (Hyndman and Fan 1996, type 7; what numpy and R do by default).
+#[must_use]
+pub fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
+    let last = ascending.len().checked_sub(1)?;
+    let at = share.clamp(0.0, 1.0) * last as f64;
+    let below = (at.floor() as usize).min(last);
+    let above = (below + 1).min(last);
+    Some(ascending[below] + (ascending[above] - ascending[below]) * (at - below as f64))
+}
+
+/// Sums up a sample.
+///
+/// # Errors
+/// When it is empty or holds what is no number.
+pub fn summary(values: &[f64]) -> Result<Summary, StatisticsError> {
+    let sorted = ascending(values)?;
+    let quarter = |share| quantile(&sorted, share).unwrap_or_default();
+    let (min, max) = (quarter(0.0), quarter(1.0));
+    let mean = mean(&sorted).unwrap_or_default();
+    Ok(Summary {
+        n: sorted.len(),
+        mean,
+        sd: sd(&sorted),
+        min,
+        q1: quarter(0.25),
+        median: quarter(0.5),
+        q3: quarter(0.75),
+        max,
+        range: max - min,
+        skewness: skewness(&sorted, mean),
+    })
+}
+
+fn skewness(values: &[f64], mean: f64) -> Option<f64> {
+    let moment = |power: fn(f64) -> f64| values.iter().map(|value| power(value - mean)).sum::<f64>() / values.len() as f64;
+    let variance = moment(|d| d * d);
+    (variance > 0.0).then(|| moment(|d| d * d * d) / (variance * variance.sqrt()))
+}
+
+/// Makes a box plot.
+///
+/// # Errors
+/// When the sample is empty or holds what is no number.
+pub fn box_plot(values: &[f64]) -> Result<BoxPlot, StatisticsError> {
+    let sorted = ascending(values)?;
+    let quarter = |share| quantile(&sorted, share).unwrap_or_default();
+    let (q1, q3) = (quarter(0.25), quarter(0.75));
+    let reach = WHISKER_IQR * (q3 - q1);
+    let inside = |value: &&f64| **value >= q1 - reach && **value <= q3 + reach;
+    Ok(BoxPlot {
+        q1,
+        median: quarter(0.5),
+        q3,
+        low_whisker: sorted.iter().find(inside).copied().unwrap_or(q1),
+        high_whisker: sorted.iter().rfind(inside).copied().unwrap_or(q3),
+        outliers: sorted.iter().filter(|value| !inside(value)).copied().collect(),
+        mean: mean(&sorted).unwrap_or_default(),
+        n: sorted.len(),
+    })
+}
+
+/// Counts values in `bars` equal bars over [low, high]; what lies outside counts in the nearest bar.
+#[must_use]
+pub fn histogram(values: &[f64], (low, high): (f64, f64), bars: usize) -> Vec<Bin> {
+    let width = (high - low) / bars.max(1) as f64;
+    let mut bins: Vec<Bin> =
+        (0..bars).map(|k| Bin { from: low + width * k as f64, to: low + width * (k + 1) as f64, count: 0 }).collect();
+    for value in values.iter().filter(|value| value.is_finite()) {
+        let k = ((value - low) / width).floor().clamp(0.0, bars.saturating_sub(1) as f64) as usize;
+        if let Some(bin) = bins.get_mut(k) {
+            bin.count += 1;
+        }
+    }
+    bins
+}
+
+fn ascending(values: &[f64]) -> Result<Vec<f64>, StatisticsError> {
+    if values.is_empty() {
+        return Err(StatisticsError::TooFew { n: 0, needed: 1 });
+    }
+    StatisticsError::finite(values)?;
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    Ok(sorted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of a few additions.
+    const EXACT: f64 = 1e-12;
+
+    #[test]
+    fn exact_quartiles_of_one_to_five_and_between_values() {
+        assert_eq!(quantile(&[1.0, 2.0, 3.0, 4.0, 5.0], 0.25), Some(2.0));
+        assert_eq!(quantile(&[1.0, 2.0, 3.0, 4.0], 0.25), Some(1.75));
+        assert_eq!(quantile(&[7.0], 0.9), Some(7.0));
+        assert_eq!(quantile(&[], 0.5), None);
+    }
+
+    #[test]
+    fn exact_summary_of_a_small_sample() {
+        let told = summary(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]).unwrap();
+        assert_eq!((told.n, told.mean, told.median, told.range), (8, 5.0, 4.5, 7.0));
+        assert!((told.sd.unwrap() - (32.0f64 / 7.0).sqrt()).abs() < EXACT);
+        // Third central moment 42/8, variance 4.
+        assert!((told.skewness.unwrap() - 5.25 / 8.0).abs() < EXACT);
+        assert_eq!(summary(&[3.0, 3.0]).unwrap().skewness, None);
+        assert!(summary(&[1.0, f64::NAN]).is_err());
+    }
+
+    #[test]
+    fn exact_whiskers_end_at_values_and_outliers_are_named() {
+        let plot = box_plot(&[1.0, 2.0, 3.0, 4.0, 5.0, 30.0, -20.0]).unwrap();
+        assert_eq!((plot.q1, plot.median, plot.q3), (1.5, 3.0, 4.5));
+        assert_eq!((plot.low_whisker, plot.high_whisker), (1.0, 5.0));
+        assert_eq!(plot.outliers, [-20.0, 30.0]);
+    }
+
+    #[test]
+    fn exact_a_histogram_counts_every_value_once() {
+        let bins = histogram(&[0.0, 9.99, 10.0, 100.0, 55.0], (0.0, 100.0), 10);
+        let counts: Vec<usize> = bins.iter().map(|bin| bin.count).collect();
+        assert_eq!(counts, [2, 1, 0, 0, 0, 1, 0, 0, 0, 1]);
+        assert_eq!((bins[9].from, bins[9].to), (90.0, 100.0));
+    }
+}
