@@ -6,6 +6,7 @@ mod assess;
 mod check;
 mod children;
 mod clock;
+mod cohort;
 mod demo;
 mod errors;
 mod export;
@@ -20,6 +21,7 @@ mod net;
 mod pace;
 mod params;
 mod pilot;
+mod plan;
 mod ports;
 mod progress;
 mod questionnaire;
@@ -64,6 +66,8 @@ enum Command {
     Export(export::Args),
     Questionnaire(questionnaire::Args),
     Records(records::Args),
+    Plan(plan::Args),
+    Cohort(cohort::Args),
     Check(check::Args),
 }
 
@@ -82,6 +86,8 @@ pub fn main() -> ExitCode {
         Command::Export(args) => export::run(args),
         Command::Questionnaire(args) => questionnaire::run(args),
         Command::Records(args) => records::run(args),
+        Command::Plan(args) => plan::run(args),
+        Command::Cohort(args) => cohort::run(args),
         Command::Check(args) => check::run(args),
     };
     match done {

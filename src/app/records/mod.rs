@@ -17,7 +17,7 @@ use super::progress::Progress;
 use crate::training::record::Record;
 use people::PersonArgs;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// µs in a day.
 const DAY_US: u64 = 86_400_000_000;
@@ -264,4 +264,20 @@ fn retention(place: &Place, days: u64, yes: bool) -> Result<(), AppError> {
     let deleted = database.delete_sessions(&ids)?;
     println!("{deleted} sessions and {} folders from before {before} are erased", folders.len());
     Ok(())
+}
+
+/// Records from a file of JSON lines, as `records export` writes them.
+///
+/// # Errors
+/// When it cannot be read or a line is no record.
+pub fn from_lines(path: &Path) -> Result<Vec<Record>, AppError> {
+    let text = files::read(path)?;
+    let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let read = |(k, line): (usize, &str)| {
+        let wrong = |message: String| AppError::wrong(format!("{}:{}: {message}", path.display(), k + 1));
+        let record: Record = serde_json::from_str(line).map_err(|error| wrong(format!("no record: {error}")))?;
+        record.check().map_err(wrong)?;
+        Ok(record)
+    };
+    numbered.map(read).collect()
 }

@@ -2,8 +2,9 @@
 //! on a socket in it, so that no port is taken.
 
 use super::database::Database;
-use crate::training::questionnaire::{Answers, Aspect, Item, Phase, Tlx};
-use crate::training::record::{Crashes, Record, Scores, TaskRecord};
+use crate::training::questionnaire::Tlx;
+use crate::training::record::Record;
+use crate::training::testing::faultless;
 use crate::training::trainee::{Role, Trainee};
 use std::os::unix::fs::{PermissionsExt, chown};
 use std::path::{Path, PathBuf};
@@ -18,60 +19,15 @@ const NOBODY: u32 = 65_534;
 
 /// A made-up session.
 fn record(trainee: &str, number: usize) -> Record {
-    let mut answers = Answers { language: "en".into(), ..Answers::default() };
-    answers.given.insert(Item::Phase(Phase::Task(1), Aspect::MentalDemand), 2);
-    answers.tlx.insert(Tlx::Effort, 45);
-    Record {
-        format: crate::training::record::FORMAT,
-        id: format!("session-{trainee}-{number:03}"),
-        fingerprint: format!("f{number}"),
-        trainee: trainee.to_owned(),
-        started_unix_us: 1_700_000_000_000_000 + 1_000_000 * number as u64,
-        spandrel_version: "0.1.0".into(),
-        scorer_version: 1,
-        scenario: "two-bridges".into(),
-        scenario_sha256: "s".into(),
-        vehicle: "phantom2".into(),
-        vehicle_sha256: "v".into(),
-        telemetry_sha256: "t".into(),
-        seed: 7,
-        scores: Scores {
-            conformity: Some(81.25 + (number % 7) as f64 / 3.0),
-            efficiency: 100.0,
-            safety: 91.0,
-            accuracy: None,
-            overall: 272.25 + (number % 7) as f64 / 3.0,
-            overall_max: 300.0,
-        },
-        tasks: vec![TaskRecord {
-            id: 1,
-            name: "Slab; DROP TABLE sessions --'".into(),
-            kind: "slab_side".into(),
-            attempted: true,
-            seconds: 100.5,
-            on_path: 0.875,
-            speeding: 0.1,
-            speeding_s: 3.0,
-            fastest_m_s: 5.5,
-            off_path_s: 12.0,
-            off_sideways_m: Some(4.25),
-            off_height_m: None,
-            crashes: Crashes { bridge: 2, ..Crashes::default() },
-            defects_placed: 0,
-            defects_found: 0,
-        }],
-        crashes_outside: Crashes::default(),
-        defects: Vec::new(),
-        snapshots: 3,
-        hits: 1,
-        end_reason: "landed".into(),
-        seconds: 700.25,
-        battery_failed: false,
-        battery_at_end_pct: 55.5,
-        covered: 1.0,
-        certified: true,
-        answers: Some(answers),
+    let mut record = faultless(trainee, number);
+    record.started_unix_us = 1_700_000_000_000_000 + 1_000_000 * number as u64;
+    record.scores.conformity = Some(81.25 + (number % 7) as f64 / 3.0);
+    record.scores.accuracy = None;
+    record.tasks[0].name = "Slab; DROP TABLE sessions --'".into();
+    if let Some(answers) = &mut record.answers {
+        answers.tlx.insert(Tlx::Effort, 45);
     }
+    record
 }
 
 fn every_behaviour(target: &str) {
