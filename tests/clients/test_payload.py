@@ -10,6 +10,7 @@ import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action, ActionError, RelayCommand
 from mavsdk.plugins.camera import Camera, CameraError, Mode, Option, PhotosRange, Setting
+from mavsdk.plugins.gimbal import ControlMode, Gimbal, GimbalError, GimbalMode, SendMode
 from mavsdk.plugins.telemetry import Telemetry
 from pymavlink import mavutil
 
@@ -88,7 +89,7 @@ class Rig:
         system = self.mavsdk.first_autopilot(60.0)
         assert system is not None, "no vehicle discovered"
         self.action, self.telemetry = Action(system), Telemetry(system)
-        self.camera = Camera(system)
+        self.camera, self.gimbal = Camera(system), Gimbal(system)
         self.station.wait("heartbeat", lambda: ("HEARTBEAT", CAMERA) in self.station.last)
 
     def close(self):
@@ -254,6 +255,53 @@ def test_wire_mavsdk_changes_every_setting_to_every_option_and_back(rig):
             assert setting(rig, name) == value, name
     with pytest.raises(CameraError):
         rig.camera.set_setting(camera, Setting(setting_id="CAM_PHOTOQUAL", option=Option(option_id="7")))
+
+
+def pitch_deg(rig, gimbal):
+    """Pitch over the horizon."""
+    return rig.gimbal.get_attitude(gimbal).euler_angle_forward.pitch_deg
+
+
+@pytest.mark.timeout(300)
+def test_wire_mavsdk_points_the_gimbal_by_angles_rates_and_places_and_has_it_alone(rig):
+    """set_angles, set_angular_rates, take_control, release_control, set_roi_location."""
+    gimbal = wait_for("gimbal", lambda: rig.gimbal.gimbal_list().gimbals)[0]
+    assert (gimbal.gimbal_manager_component_id, gimbal.gimbal_device_id, gimbal.model_name) == (1, 1, "Pitch gimbal")
+    own = gimbal.gimbal_id
+    for angle, mode, send in [
+        (-90.0, GimbalMode.YAW_FOLLOW, SendMode.ONCE),
+        (90.0, GimbalMode.YAW_LOCK, SendMode.ONCE),
+        (-30.0, GimbalMode.YAW_FOLLOW, SendMode.STREAM),
+    ]:
+        rig.gimbal.set_angles(own, 0.0, angle, 0.0, mode, send)
+        wait_for(f"{angle} degrees", lambda a=angle: abs(pitch_deg(rig, own) - a) < NEAR_DEG)
+    for rate, send in [(40.0, SendMode.ONCE), (-40.0, SendMode.STREAM)]:
+        rig.gimbal.set_angular_rates(own, 0.0, rate, 0.0, GimbalMode.YAW_FOLLOW, send)
+        wait_for(f"the stop at {rate} deg/s", lambda r=rate: abs(pitch_deg(rig, own) - math.copysign(90.0, r)) < NEAR_DEG)
+    with pytest.raises(GimbalError):
+        rig.gimbal.set_angles(own, 0.0, -120.0, 0.0, GimbalMode.YAW_FOLLOW, SendMode.ONCE)
+
+    rig.gimbal.take_control(own, ControlMode.PRIMARY)
+    wait_for("control", lambda: rig.gimbal.get_control_status(own).control_mode == ControlMode.PRIMARY)
+    aim = (M.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, 10, NAN, NAN, NAN, 0, 0, 1)
+    assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_DENIED, "another is in control"
+    rig.gimbal.set_angles(own, 0.0, -20.0, 0.0, GimbalMode.YAW_FOLLOW, SendMode.ONCE)
+    wait_for("still obeying", lambda: abs(pitch_deg(rig, own) + 20.0) < NEAR_DEG)
+    rig.gimbal.release_control(own)
+    wait_for("no control", lambda: rig.gimbal.get_control_status(own).control_mode == ControlMode.NONE)
+    assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_ACCEPTED
+    wait_for("the other's aim", lambda: abs(pitch_deg(rig, own) - 10.0) < NEAR_DEG)
+
+    here = wait_for("position", lambda: (p := rig.telemetry.position()).absolute_altitude_m > 0 and p)
+    north = here.latitude_deg + 50.0 / 111_180.0
+    rig.gimbal.set_roi_location(own, north, here.longitude_deg, here.absolute_altitude_m + 50.0)
+
+    def at_rest():
+        attitude = rig.gimbal.get_attitude(own)
+        return abs(attitude.angular_velocity.pitch_rad_s) < 0.05 and attitude.euler_angle_forward.pitch_deg
+
+    # 50 m away and 50 m up: 45 degrees, the drone's own place being known to a metre. Passing by on the way elsewhere does not count.
+    wait_for("looking up at a place", lambda: abs((at_rest() or 0.0) - 45.0) < 2.5, limit_s=60)
 
 
 @pytest.mark.timeout(300)

@@ -3,6 +3,7 @@
 
 use super::station::{Station, p};
 use spandrel::mav::dialect::*;
+use spandrel::sitl::endpoint::flavour::{ardupilot, generic, px4};
 
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
@@ -37,6 +38,38 @@ fn control(station: &Station) -> Option<[(u8, u8); 2]> {
         }
         _ => None,
     })
+}
+
+/// A place 50 m north and 50 m higher than the pad, its height named over the sea in a frame over home, as MAVSDK sends it: PX4 looks at
+/// the number alone, others at the frame.
+#[test]
+fn wire_the_height_of_a_place_to_look_at_is_read_as_the_flavour_reads_it() {
+    for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
+        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        station.run_ms(2_500);
+        let home = |m: &MavMessage| if let MavMessage::HOME_POSITION(h) = m { Some(h.clone()) } else { None };
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[242.0])), OK);
+        let home = station.last(home).unwrap();
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, p(&[285.0, 100_000.0])), OK);
+        for (frame, over_sea) in [(MavFrame::MAV_FRAME_GLOBAL, true), (MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT, false)] {
+            station.send(&MavMessage::COMMAND_INT(COMMAND_INT_DATA {
+                command: MavCmd::MAV_CMD_DO_SET_ROI_LOCATION,
+                frame,
+                x: home.latitude + (50.0 * 360.0 / 40_000_000.0 * 1e7) as i32,
+                y: home.longitude,
+                z: home.altitude as f32 / 1_000.0 + 50.0,
+                target_system: 1,
+                target_component: 1,
+                ..Default::default()
+            }));
+            let steep = home.altitude as f32 / 1_000.0 + 50.0;
+            let wanted = if over_sea || flavour.looks_over_sea { 45.0 } else { steep.atan2(50.0).to_degrees() };
+            let pitch = pitch_deg(&mut station);
+            // The drone knows its own place to a metre.
+            assert!((pitch - wanted).abs() < 1.5, "{} {frame:?}: {pitch} not {wanted}", flavour.name);
+        }
+    }
+    assert!(px4::FLAVOUR.looks_over_sea && !ardupilot::FLAVOUR.looks_over_sea && !generic::FLAVOUR.looks_over_sea);
 }
 
 #[test]

@@ -79,7 +79,7 @@ pub(in super::super) fn looked_at(c: &Command, view: &View) -> Option<Option<Vec
     }
 }
 
-/// The place in parameters 5 and 6 at an altitude in the command's frame.
+/// The place in parameters 5 and 6 at an altitude in the command's frame, or over the sea where the flavour's commands have none.
 pub(super) fn place(c: &Command, view: &View, altitude_m: f64) -> Option<Vec3<Enu>> {
     let (latitude_deg, longitude_deg) = (c.given(4)?, c.given(5)?);
     if latitude_deg.abs() > 90.0 || longitude_deg.abs() > 180.0 || altitude_m.abs() > 1e5 {
@@ -87,7 +87,7 @@ pub(super) fn place(c: &Command, view: &View, altitude_m: f64) -> Option<Vec3<En
     }
     let origin = view.plane.origin();
     let home_up = view.status.home_m.map_or(0.0, |h| -h.down());
-    let relative = matches!(c.frame, 3 | 6 | 10 | 11);
+    let relative = c.over_home() == Some(true) && (c.own || !view.flavour.looks_over_sea);
     let altitude_m = if relative { origin.altitude_m + home_up + altitude_m } else { altitude_m };
     Some(view.plane.enu_from_geo(crate::base::geodesy::Geo { latitude_deg, longitude_deg, altitude_m }))
 }

@@ -74,6 +74,7 @@ pub static FLAVOUR: Flavour = Flavour {
     take_off: from_guided,
     // The second is ArduPilot's own for arming.
     force: &[FORCE, 2989.0],
+    looks_over_sea: false,
     refusals: Refusals {
         for_now: MavResult::MAV_RESULT_FAILED,
         denied: MavResult::MAV_RESULT_FAILED,

@@ -34,6 +34,7 @@ pub static FLAVOUR: Flavour = Flavour {
     errands: None,
     take_off: px4::over_sea,
     force: &[px4::FORCE],
+    looks_over_sea: false,
     refusals: px4::REFUSALS,
     arm_words: None,
     check_words: "Preflight Fail: ",

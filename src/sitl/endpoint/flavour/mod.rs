@@ -88,6 +88,8 @@ pub struct Flavour {
     pub take_off: TakeOff,
     /// Numbers in COMPONENT_ARM_DISARM that force it.
     pub force: &'static [f64],
+    /// The height of a place to look at, in a command, is over the sea whatever frame the command names.
+    pub looks_over_sea: bool,
     /// Answers to what is not obeyed.
     pub refusals: Refusals,
     /// Begins each reason of a refused arming, one text each; `None`: the autopilot's words, in one.

@@ -63,6 +63,9 @@ pub static FLAVOUR: Flavour = Flavour {
     errands: None,
     take_off: over_sea,
     force: &[FORCE],
+    // PX4's navigator takes the height without looking at the frame; MAVSDK's gimbal plugin counts on it: it sends heights over the sea in
+    // a frame over home.
+    looks_over_sea: true,
     refusals: REFUSALS,
     arm_words: None,
     check_words: "Preflight Fail: ",
