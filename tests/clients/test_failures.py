@@ -68,6 +68,7 @@ def test_wire_mavsdk_stops_a_motor_in_flight_and_the_vehicle_falls_until_it_turn
     wait_for("one that stands", lambda: motors()[0] == STANDING_US and max(motors()[1:]) > STANDING_US)
     wait_for("the fall", lambda: telemetry.position().relative_altitude_m < 0.5)
     wait_for("its back", lambda: abs(telemetry.attitude_euler().roll_deg) > UPSIDE_DEG)
+    wait_for("what it feels", lambda: "Attitude lost: motor or propeller failure?" in texts)
     wait_for("its words", lambda: "Crash detected" in texts)
     failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OK, 1)
     told = len(texts)
@@ -90,7 +91,13 @@ def test_wire_mavsdk_empties_the_battery_and_the_compass_comes_and_goes(failing)
     texts = []
     telemetry.subscribe_status_text(lambda text, *_: texts.append(text.text))
     failure.inject(FailureUnit.SENSOR_MAG, FailureType.OFF, 0)
+    health = telemetry.health
+    wait_for("no compass", lambda: not (health().is_magnetometer_calibration_ok or health().is_armable), limit_s=60)
+    wait_for("its words", lambda: "Compass lost: no readings" in texts)
+    with pytest.raises(Exception, match="DENIED"):
+        sdk.Action(system).arm()
     failure.inject(FailureUnit.SENSOR_MAG, FailureType.OK, 0)
+    wait_for("the compass again", telemetry.health_all_ok)
     before = telemetry.battery().remaining_percent
     failure.inject(FailureUnit.SYSTEM_BATTERY, FailureType.OFF, 0)
     wait_for("an empty battery", lambda: telemetry.battery().remaining_percent < before - 20.0)

@@ -95,7 +95,7 @@ class Rig:
     def close(self):
         """Ends the vehicle, then MAVSDK: it must be the last of its things to go."""
         spandrel.end(self.process)
-        for plugin in ("action", "telemetry", "camera"):
+        for plugin in ("action", "telemetry", "camera", "gimbal"):
             getattr(self, plugin).destroy()
             delattr(self, plugin)
 

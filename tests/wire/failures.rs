@@ -5,6 +5,7 @@ use spandrel::mav::dialect::*;
 
 const OFF: f32 = 1.0;
 const OK: f32 = 0.0;
+const COMPASS: f32 = 2.0;
 const GNSS: f32 = 4.0;
 const BATTERY: f32 = 100.0;
 const MOTOR: f32 = 101.0;
@@ -100,6 +101,73 @@ fn flight_a_jump_of_the_fixes_does_not_bring_it_down() {
     let now = station.sim.truth().rigid;
     assert!((now.position_m.down() - before.down()).abs() < 3.0, "{:?}", now.position_m);
     assert!(now.velocity_m_s.norm() < 8.0, "{:?}", now.velocity_m_s);
+}
+
+/// Health bits of one SYS_STATUS.
+fn health(station: &Station) -> Option<MavSysStatusSensor> {
+    station.last(|m| if let MavMessage::SYS_STATUS(s) = m { Some(s.onboard_control_sensors_health) } else { None })
+}
+
+/// A missing sensor shows and forbids arming within this, s (half a second of silence, and SYS_STATUS twice a second).
+const MISSED_WITHIN_S: f64 = 2.0;
+
+#[test]
+fn wire_a_compass_or_barometer_that_is_gone_shows_and_forbids_arming_until_it_is_back() {
+    use MavSysStatusSensor as S;
+    const BAROMETER: f32 = 3.0;
+    let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    for (unit, name, bit) in [
+        (COMPASS, "Compass", S::MAV_SYS_STATUS_SENSOR_3D_MAG),
+        (BAROMETER, "Barometer", S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE),
+    ] {
+        let mut station = Station::new("drill-hover", 7);
+        station.run_ms(4_000);
+        set_whole(&mut station, "SYS_FAILURE_EN", 1);
+        station.run_ms(600);
+        assert!(health(&station).unwrap().contains(bit | S::MAV_SYS_STATUS_PREARM_CHECK), "{name}");
+        assert_eq!(inject(&mut station, unit, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+        let gone = |s: &mut Station| health(s).is_some_and(|now| !now.intersects(bit | S::MAV_SYS_STATUS_PREARM_CHECK));
+        assert!(station.run_until(MISSED_WITHIN_S, gone), "{name}");
+        assert!(said(&station, &format!("{name} lost")));
+        let refused = station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm);
+        assert_eq!(refused, MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "{name}");
+        assert!(said(&station, &format!("{name} missing")));
+        assert_eq!(inject(&mut station, unit, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+        let back = |s: &mut Station| health(s).is_some_and(|now| now.contains(bit | S::MAV_SYS_STATUS_PREARM_CHECK));
+        assert!(station.run_until(MISSED_WITHIN_S, back), "{name}");
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
+    }
+}
+
+/// Without a compass the gyroscopes keep the heading well enough to hold and land.
+#[test]
+fn flight_a_compass_lost_in_the_air_is_told_and_the_hold_goes_on() {
+    let mut station = holding();
+    let before = station.sim.truth().rigid.position_m;
+    assert_eq!(inject(&mut station, COMPASS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(MISSED_WITHIN_S, |s| said(s, "Compass lost")));
+    station.run_ms(20_000);
+    let now = station.sim.truth().rigid.position_m;
+    assert!((now - before).norm() < 3.0, "{before:?} to {now:?}");
+}
+
+/// One rotor less: it cannot be held level, turns, and says so before it has fallen.
+#[test]
+fn flight_a_motor_that_stops_shows_in_attitude_and_heading_and_is_told() {
+    let mut station = holding();
+    let level = |s: &Station| s.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap();
+    let before = level(&station);
+    assert!(before.roll.hypot(before.pitch) < 0.2 && !said(&station, "Attitude lost"), "{before:?}");
+    assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
+    let (mut tilt, mut turn) = (0.0f32, 0.0f32);
+    let told = station.run_until(2.0, |s| {
+        let now = level(s);
+        (tilt, turn) = (tilt.max(now.roll.abs().max(now.pitch.abs())), turn.max(now.yawspeed.abs()));
+        said(s, "Attitude lost: motor or propeller failure?")
+    });
+    assert!(told && tilt > 0.7 && turn > 0.5, "told {told}, tilted {tilt} rad, turned at {turn} rad/s");
+    let obeys = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION;
+    assert!(station.run_until(1.0, |s| health(s).is_some_and(|health| !health.contains(obeys))));
 }
 
 #[test]

@@ -47,6 +47,7 @@ impl Autopilot {
         self.watch.flown = false;
         self.watch.upset_since = None;
         self.watch.aim_cosine = 1.0;
+        self.status.health.obeys = true;
         if self.estimate.position_valid && !self.home_is_set {
             self.move_home(self.estimate.position_m);
         }

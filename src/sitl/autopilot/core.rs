@@ -10,6 +10,7 @@ use super::mission::Mission;
 use super::mixer::{Demand, Given, Mixer};
 use super::modes::{Course, Wanted};
 use super::orbit::Orbit;
+use super::senses::{Health, Senses};
 use super::shaper::Shaper;
 use super::supervise::Watch;
 use super::velocity::{Motion, Pull, VelocityLoop};
@@ -110,6 +111,7 @@ pub struct Autopilot {
     pub(super) refuges: Vec<Refuge>,
     pub(super) links: Links,
     pub(super) seen: Seen,
+    pub(super) senses: Senses,
     pub(super) watch: Watch,
     pub(super) contact: GroundContact,
     pub(super) status: Status,
@@ -153,6 +155,7 @@ impl Autopilot {
             refuges: Vec::new(),
             links: Links::default(),
             seen: Seen::default(),
+            senses: Senses::default(),
             watch: Watch::default(),
             contact: GroundContact::default(),
             status: boot_status(),
@@ -227,6 +230,7 @@ impl Autopilot {
         self.estimator.step(readings, now);
         self.estimate = self.estimator.estimate();
         self.see(readings);
+        self.listen(readings, now);
         self.supervise(now);
         self.status.intended = self.watch.intended;
         let t = &self.tuning;
@@ -327,6 +331,7 @@ impl Autopilot {
         self.watch.upset_since = None;
         // It is in the air: its next landing is one.
         self.watch.flown = true;
+        self.status.health.obeys = true;
         let mode = if self.watch.intended.is_manual() { self.watch.intended } else { Mode::Hold };
         self.reset_loops();
         self.course.left_ground = now - SimTime::from_s(SPOOL_UP_S);
@@ -407,6 +412,7 @@ fn boot_status() -> Status {
         mission_paused: false,
         fence: FenceState::default(),
         orbit: None,
+        health: Health::GOOD,
     }
 }
 

@@ -16,6 +16,7 @@ pub mod mission;
 pub mod mixer;
 pub mod modes;
 pub mod orbit;
+pub mod senses;
 pub mod shaper;
 pub mod supervise;
 #[cfg(test)]
@@ -229,6 +230,8 @@ pub struct Status {
     pub fence: fence::FenceState,
     /// The circle that is flown.
     pub orbit: Option<orbit::Orbit>,
+    /// What works.
+    pub health: senses::Health,
 }
 
 /// One mission step as the autopilot flies it; the endpoint keeps the MAVLink items beside it.

@@ -21,6 +21,8 @@ const UPSET_COSINE: f64 = 0.766;
 const UPSET_S: f64 = 2.5;
 /// Still moving faster than this it may yet recover, m/s.
 const UPSET_SPEED_M_S: f64 = 1.5;
+/// As far from the wanted attitude for this long, it does not obey, s (PX4: FD_FAIL_R_TTRI).
+const ASTRAY_S: f64 = 0.3;
 /// Without position this long an automatic mode gives up, s.
 const BLIND_S: f64 = 1.0;
 
@@ -39,6 +41,8 @@ pub struct Watch {
     pub aim_cosine: f64,
     /// Upset since.
     pub upset_since: Option<SimTime>,
+    /// Away from the wanted attitude since.
+    astray_since: Option<SimTime>,
     due: SimTime,
     manual_lost: Option<SimTime>,
     blind_since: Option<SimTime>,
@@ -58,6 +62,7 @@ impl Default for Watch {
             flown: false,
             aim_cosine: 1.0,
             upset_since: None,
+            astray_since: None,
             due: SimTime::ZERO,
             manual_lost: None,
             blind_since: None,
@@ -92,6 +97,7 @@ impl Autopilot {
             return;
         }
         self.status.arming_reasons.clear();
+        self.watch_obedience(now);
         self.watch_attitude(now);
         if self.status.armed && self.status.landed != Landed::OnGround {
             self.keep_fence(now);
@@ -232,6 +238,19 @@ impl Autopilot {
         }
     }
 
+    /// In the air it does not turn as it is told: a motor or propeller has failed, or something holds it. Told once in a flight.
+    fn watch_obedience(&mut self, now: SimTime) {
+        if self.watch.aim_cosine > UPSET_COSINE || self.status.landed == Landed::OnGround {
+            self.watch.astray_since = None;
+            return;
+        }
+        let since = *self.watch.astray_since.get_or_insert(now);
+        if self.status.health.obeys && (now - since).s() > ASTRAY_S {
+            self.status.health.obeys = false;
+            self.say(Severity::Critical, "Attitude lost: motor or propeller failure?");
+        }
+    }
+
     /// Lying somewhere in an attitude that the rotors cannot mend: they stop.
     fn watch_attitude(&mut self, now: SimTime) {
         let moving = self.estimate.velocity_m_s.norm() > UPSET_SPEED_M_S;
@@ -251,6 +270,7 @@ impl Autopilot {
     pub fn arming_reasons(&self, now: SimTime) -> Vec<String> {
         let mut out: Vec<String> = Vec::new();
         let e = &self.estimate;
+        out.extend(self.missing_sensors());
         if !e.attitude_valid {
             out.push("Attitude not aligned".into());
             return out;

@@ -56,6 +56,10 @@ pub(super) fn sys_status(v: &View) -> Option<MavMessage> {
     let fix = v.readings.gnss.is_some_and(|g| g.fix >= 3);
     health.set(S::MAV_SYS_STATUS_SENSOR_GPS, fix && v.estimate.position_valid);
     health.set(S::MAV_SYS_STATUS_AHRS, v.estimate.attitude_valid);
+    let works = v.status.health;
+    health.set(S::MAV_SYS_STATUS_SENSOR_3D_MAG, works.compass);
+    health.set(S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, works.barometer);
+    health.set(S::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION, works.obeys);
     health.set(S::MAV_SYS_STATUS_PREARM_CHECK, v.status.armed || v.status.arming_reasons.is_empty());
     Some(MavMessage::SYS_STATUS(SYS_STATUS_DATA {
         onboard_control_sensors_present: present,
