@@ -166,6 +166,113 @@ fn flight_a_circle_that_was_paused_is_flown_on_and_not_anew() {
     assert!(rest_s < 0.65 * whole_s, "{rest_s} of {whole_s} s");
 }
 
+fn continued(station: &mut Station, go_on: bool) {
+    let wish = one(f32::from(u8::from(go_on)));
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_PAUSE_CONTINUE, wish), OK);
+}
+
+fn fly_by_hand(station: &mut Station, right: i16, z: i16, ms: i64) {
+    for _ in 0..ms / 20 {
+        station.sticks(0, right, z, 0);
+        station.run_ms(20);
+    }
+}
+
+fn flat_m(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// The horizontal and vertical way by which a resumed step may miss where it was left, m (estimate of its own place, and 0.8 m within
+/// which it counts as back).
+const BACK_M: f32 = 1.5;
+
+#[test]
+fn flight_a_take_off_that_the_pilot_interrupts_goes_on_over_its_place() {
+    let mut station = ready(7);
+    let home = home_north(&station);
+    let plan = [item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, home, 30.0), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 40.0, 30.0)];
+    assert_eq!(upload(&mut station, &plan), ACCEPTED);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), OK);
+    assert_eq!(station.command(1, ARM, one(1.0)), OK);
+    let over = station.place_after(25);
+    assert!(station.run_until(30.0, |s| s.place()[2] < -8.0));
+    fly_by_hand(&mut station, 1000, 500, 4_000);
+    fly_by_hand(&mut station, 0, 500, 2_000);
+    assert!(flat_m(station.place(), over) > 8.0, "flown off");
+    continued(&mut station, true);
+    let mut up = f32::INFINITY;
+    assert!(station.run_until(60.0, |s| {
+        up = up.min(s.place()[2]);
+        said(s, "Mission goes on where it was left")
+    }));
+    assert!(flat_m(station.place(), over) < BACK_M, "{:?} not over {over:?}", station.place());
+    assert!(up > -14.0, "first back, then up: {up}");
+    assert!(station.run_until(60.0, |s| s.place()[2] < -27.0));
+    assert!(flat_m(station.place(), over) < BACK_M, "{:?} not over {over:?}", station.place());
+    assert!(station.run_until(60.0, |s| said(s, "Mission finished")));
+}
+
+#[test]
+fn flight_a_landing_that_is_paused_twice_sinks_on_from_there_and_not_from_above() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let home = home_north(&station);
+    let place = home + 20.0;
+    let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, place, 20.0), item(1, MavCmd::MAV_CMD_NAV_LAND, place, 0.0)];
+    assert_eq!(upload(&mut station, &plan), ACCEPTED);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), OK);
+    let sinking =
+        |s: &mut Station| s.last(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.landed_state) } else { None });
+    assert!(station.run_until(90.0, |s| sinking(s) == Some(MavLandedState::MAV_LANDED_STATE_LANDING) && s.place()[2] > -12.0));
+    let left = station.place();
+    fly_by_hand(&mut station, 1000, 500, 3_000);
+    fly_by_hand(&mut station, 0, 500, 1_500);
+    let state = |s: &Station| s.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
+    assert_eq!(state(&station), Some(MissionState::MISSION_STATE_PAUSED), "left while landing");
+    continued(&mut station, true);
+    station.run_ms(400);
+    continued(&mut station, false);
+    station.run_ms(1_500);
+    assert_eq!(state(&station), Some(MissionState::MISSION_STATE_PAUSED), "left on the way back");
+    continued(&mut station, true);
+    assert!(station.run_until(60.0, |s| said(s, "Mission goes on where it was left")));
+    let back = station.place();
+    assert!(flat_m(back, left) < BACK_M && (back[2] - left[2]).abs() < BACK_M, "{left:?} {back:?}");
+    station.run_ms(1_500);
+    assert!(station.place()[2] > back[2] + 0.5, "sinks at once: {back:?} to {:?}", station.place());
+    assert!(station.run_until(90.0, |s| said(s, "Disarmed by landing")));
+    assert!(flat_m(station.place(), left) < BACK_M, "{left:?} {:?}", station.place());
+}
+
+#[test]
+fn flight_a_return_that_is_left_on_its_way_down_does_not_climb_again() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let home = home_north(&station);
+    let plan = [
+        item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 40.0, 10.0),
+        MISSION_ITEM_INT_DATA {
+            frame: MavFrame::MAV_FRAME_MISSION,
+            x: 0,
+            y: 0,
+            ..item(1, MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH, 0.0, 0.0)
+        },
+    ];
+    assert_eq!(upload(&mut station, &plan), ACCEPTED);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), OK);
+    assert!(station.run_until(180.0, |s| said(s, "Home reached, landing") && s.place()[2] > -8.0), "{:?}", station.place());
+    let left = station.place();
+    fly_by_hand(&mut station, 1000, 500, 6_000);
+    fly_by_hand(&mut station, 0, 500, 2_000);
+    assert!(flat_m(station.place(), left) > 10.0, "flown off");
+    continued(&mut station, true);
+    let mut highest = f32::INFINITY;
+    assert!(station.run_until(120.0, |s| {
+        highest = highest.min(s.place()[2]);
+        said(s, "Disarmed by landing")
+    }));
+    assert!(highest > left[2].min(-8.0) - 4.0, "{left:?} up to {highest}");
+    assert!((home_north(&station) - home).abs() < 2.0, "{:?}", station.place());
+}
+
 #[test]
 fn wire_items_that_stations_offer_are_taken_and_the_mission_moves_the_gimbal_whoever_controls_it() {
     let mut station = Station::airborne("drill-hover", 7);

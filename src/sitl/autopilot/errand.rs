@@ -2,6 +2,7 @@
 
 use super::automatic::HEIGHT_REACHED_M;
 use super::core::{Autopilot, Severity};
+use super::mission::LeftCourse;
 use super::modes::{ReturnPhase, Wanted};
 use super::{Landed, MissionStep, Mode};
 use crate::base::frames::{Ned, Vec3};
@@ -123,6 +124,31 @@ impl Autopilot {
             MissionStep::Near(_) => {
                 self.course.target_m = self.mission.next_place().unwrap_or(self.course.target_m);
                 self.course.target_yaw_rad = None;
+            }
+            _ => {}
+        }
+        if let Some(left) = self.mission.left_course.take() {
+            self.take_up(step, left);
+        }
+    }
+
+    /// A step that was left goes on with its course: up over the same place, down where it was sinking, home from where it had come to.
+    fn take_up(&mut self, step: &MissionStep, left: LeftCourse) {
+        let course = &mut self.course;
+        let before = left.target_m;
+        match *step {
+            MissionStep::Takeoff { .. } => {
+                course.target_m = Vec3::new(before.north(), before.east(), course.target_m.down());
+            }
+            MissionStep::Land { position_m } => {
+                let over = position_m.unwrap_or(before);
+                course.target_m = Vec3::new(over.north(), over.east(), before.down());
+                course.phase = left.phase;
+            }
+            // To another place than then it begins anew.
+            MissionStep::Return if course.refuge_m == left.refuge_m => {
+                course.target_m = before;
+                course.phase = left.phase;
             }
             _ => {}
         }

@@ -1,11 +1,23 @@
 //! The mission's list and where it stands; `modes.rs` flies the steps.
 
 use super::MissionStep;
+use super::modes::ReturnPhase;
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::SimTime;
 
 /// Steps without flight that follow each other in one tick; more of them go on in the next.
 const GO_ON_MAX: usize = 64;
+
+/// The course of a step that was left: take-off, landing and return go on with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeftCourse {
+    /// Where it flew to, m.
+    pub target_m: Vec3<Ned>,
+    /// How far it had come.
+    pub phase: ReturnPhase,
+    /// Where a return went, m.
+    pub refuge_m: Option<Vec3<Ned>>,
+}
 
 /// The list and its progress.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -34,12 +46,19 @@ pub struct Mission {
     pub left_wait: Option<SimTime>,
     /// What was left then of the current step's circle, rad.
     pub left_rad: Option<f64>,
+    /// The course of the current step then.
+    pub left_course: Option<LeftCourse>,
 }
 
 impl MissionStep {
-    /// Left in the middle it goes on there; others begin anew.
+    /// It takes its time: left in the middle it goes on there.
     pub(super) fn goes_on(&self) -> bool {
-        matches!(self, Self::Waypoint { .. } | Self::Circle { .. } | Self::Delay(_) | Self::Near(_) | Self::Turn { .. })
+        use MissionStep as S;
+        match self {
+            S::Waypoint { .. } | S::Takeoff { .. } | S::Land { .. } | S::Return | S::Delay(_) => true,
+            S::Circle { .. } | S::Turn { .. } | S::Near(_) => true,
+            S::Speed(_) | S::Jump { .. } | S::LookAt(_) | S::Home(_) | S::Fence(_) | S::Payload => false,
+        }
     }
 }
 
@@ -67,15 +86,16 @@ impl Mission {
     }
 
     /// It is left in the middle of a step, and will go on here.
-    pub fn leave(&mut self, place_m: Vec3<Ned>, left_rad: Option<f64>, now: SimTime) {
+    pub fn leave(&mut self, place_m: Vec3<Ned>, course: LeftCourse, left_rad: Option<f64>, now: SimTime) {
         self.left_at = Some(place_m);
+        self.left_course = Some(course);
         self.left_wait = self.wait_until.map(|until| until.saturating_sub(now));
         self.left_rad = left_rad;
     }
 
     /// What was left of the current step counts no more.
     pub fn begin_anew(&mut self) {
-        (self.left_at, self.left_wait, self.left_rad) = (None, None, None);
+        (self.left_at, self.left_wait, self.left_rad, self.left_course) = (None, None, None, None);
     }
 
     fn place_at(&self, index: usize) -> Option<Vec3<Ned>> {

@@ -2,6 +2,7 @@
 
 use super::core::Autopilot;
 use super::fence::Refuge;
+use super::mission::LeftCourse;
 use super::shaper::stopping_point;
 use super::velocity::{Motion, Pull};
 use super::{Landed, MissionStep, Mode, OffboardSetpoint};
@@ -107,11 +108,16 @@ impl Autopilot {
 
     /// A mission that is left on its way goes on from here later.
     fn leave_mission(&mut self, next: Mode) {
-        let flying = self.status.armed && self.status.landed == Landed::InAir && self.estimate.position_valid;
-        let under_way = self.status.mode == Mode::Mission && self.mission.begun && self.mission.step().is_some();
+        let in_air = matches!(self.status.landed, Landed::InAir | Landed::Landing);
+        let flying = self.status.armed && in_air && self.estimate.position_valid;
+        // On its way back to where it was left it has not begun the step again.
+        let begun = self.mission.begun || self.mission.left_at.is_some();
+        let under_way = self.status.mode == Mode::Mission && begun && self.mission.step().is_some();
         let left = flying && under_way && next != Mode::Mission;
         if left && self.mission.left_at.is_none() && self.mission.step().is_some_and(|step| step.goes_on()) {
-            self.mission.leave(self.estimate.position_m, self.status.orbit.map(|orbit| orbit.left_rad), self.last_step);
+            let Course { target_m, phase, refuge_m, .. } = self.course;
+            let left_rad = self.status.orbit.map(|orbit| orbit.left_rad);
+            self.mission.leave(self.estimate.position_m, LeftCourse { target_m, phase, refuge_m }, left_rad, self.last_step);
         }
         self.status.mission_paused = next != Mode::Mission && (left || self.status.mission_paused);
     }
