@@ -131,6 +131,8 @@ macro_rules! view {
             wind_m_s: $sim.air.velocity_m_s,
             scoring: &$sim.scoring,
             sticks: $sim.endpoint.sticks($sim.now),
+            pulses_us: $sim.endpoint.pulses_us($sim.now),
+            to: LinkKind::GroundStation,
             gimbal: $sim.endpoint.payload.gimbal,
             lamp: $sim.endpoint.payload.lamp,
             camera: $sim.endpoint.payload.camera.summary($sim.now),

@@ -1,7 +1,10 @@
 //! Sticks by either message, who holds them, and how long a client may be silent.
 
 use super::station::{GCS, Station};
+use spandrel::base::time::SimTime;
+use spandrel::mav::codec::Decoder;
 use spandrel::mav::dialect::*;
+use spandrel::sitl::endpoint::flavour::{ardupilot, generic, px4};
 use spandrel::sitl::endpoint::{LinkId, LinkKind};
 
 const HOLD: u32 = 4 << 16 | 3 << 24;
@@ -36,8 +39,77 @@ fn wire_overridden_channels_fly_like_sticks_and_pitch_is_a_transmitters() {
     );
     let forward = v[0] * yaw.cos() + v[1] * yaw.sin();
     assert!(forward > 2.0, "a pitch channel below its middle flies forward: {forward}");
-    let echo = station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some((c.chan2_raw, c.chan3_raw)) } else { None });
-    assert_eq!(echo, Some((1800, 1500)), "the echo shows the axis: forward is above the middle");
+}
+
+/// Channels 1 to 4 as each link hears them echoed after `send`.
+fn echoes(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(LinkId, [u16; 4])> {
+    let mut out = Vec::new();
+    for _ in 0..4 {
+        send(station);
+        station.sim.handle_timeout(station.sim.now() + SimTime::from_ms(20));
+        while let Some(transmit) = station.sim.poll_transmit() {
+            for frame in Decoder::new().datagram(&transmit.bytes) {
+                if let Some(MavMessage::RC_CHANNELS(c)) = frame.message {
+                    out.push((transmit.link, [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw]));
+                }
+            }
+        }
+    }
+    // The last of each link.
+    out.into_iter().rev().take(3).collect()
+}
+
+#[test]
+fn wire_the_echo_of_the_sticks_is_what_was_sent_and_a_sidecars_is_forward_positive() {
+    const SDK: LinkId = LinkId(5);
+    const SIDECAR: LinkId = LinkId(6);
+    for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
+        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        station.sim.open_link(SDK, LinkKind::Sdk, false);
+        station.sim.open_link(SIDECAR, LinkKind::Payload, false);
+        station.run_ms(1_000);
+        if flavour.asks_first {
+            let rate = [65.0, 20_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+            assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, rate), MavResult::MAV_RESULT_ACCEPTED);
+        }
+        let wait = |station: &mut Station, sent: fn(&mut Station), [others, sidecar]: [[u16; 4]; 2]| {
+            let heard = echoes(station, sent);
+            assert!(heard.contains(&(GCS, others)) && heard.contains(&(SIDECAR, sidecar)), "{}: {heard:?}", flavour.name);
+            assert!(flavour.asks_first || heard.contains(&(SDK, others)), "{}: {heard:?}", flavour.name);
+        };
+        wait(&mut station, |s| channels(s, 1300, 1600), [[1500, 1300, 1600, 1500], [1500, 1700, 1600, 1500]]);
+        // Beyond the full deflection it is flown as one.
+        wait(&mut station, |s| channels(s, 900, 2100), [[1500, 900, 2100, 1500], [1500, 2000, 2000, 1500]]);
+        let sticks = |s: &mut Station| s.sticks(400, 200, 750, -1000);
+        wait(&mut station, sticks, [[1600, 1300, 1750, 1000], [1600, 1700, 1750, 1000]]);
+        let again = [65.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, again), MavResult::MAV_RESULT_ACCEPTED);
+        let asked = station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan2_raw) } else { None });
+        assert_eq!(asked, Some(1300), "{}: asked for by the ground station", flavour.name);
+    }
+}
+
+/// A throttle from -1000 to 1000 shows by its first negative value, and is remembered of its sender alone.
+#[test]
+fn wire_a_sender_that_has_sent_a_negative_throttle_has_its_middle_at_zero() {
+    let mut station = Station::new("drill-hover", 7);
+    let up = |station: &mut Station, z: i16| {
+        station.sticks(0, 0, z, 0);
+        station.run_ms(40);
+        station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan3_raw) } else { None }).unwrap()
+    };
+    for (z, us) in [(500, 1500), (0, 1000), (1000, 2000), (-2000, 1500), (500, 1500)] {
+        assert_eq!(up(&mut station, z), us, "{z}");
+    }
+    let told = |s: &Station| texts(s).iter().filter(|text| text.ends_with("throttle is -1000 to 1000")).count();
+    assert_eq!(told(&station), 0);
+    for (z, us) in [(-1, 1500), (-1000, 1000), (0, 1500), (500, 1750), (1000, 2000), (i16::MAX, 1500), (-500, 1250)] {
+        assert_eq!(up(&mut station, z), us, "{z}");
+    }
+    assert_eq!(told(&station), 1, "once: {:?}", texts(&station));
+    station.run_ms(600);
+    station.speak_as(254, 190);
+    assert_eq!(up(&mut station, 0), 1000, "another sender's middle is at 500");
 }
 
 #[test]
@@ -236,10 +308,10 @@ fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
     station.run_ms(20);
     let echo = |s: &Station| s.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some((c.chan2_raw, c.chan3_raw)) } else { None });
     station.run_ms(20);
-    assert_eq!(echo(&station), Some((1700, 1600)));
+    assert_eq!(echo(&station), Some((1300, 1600)));
     channels(&mut station, 2500, 65_534);
     station.run_ms(40);
-    assert_eq!(echo(&station), Some((1700, 1600)), "pulses that no transmitter sends change nothing");
+    assert_eq!(echo(&station), Some((1300, 1600)), "pulses that no transmitter sends change nothing");
     station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
         target_system: 1,
         target_component: 1,

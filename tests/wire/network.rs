@@ -44,6 +44,47 @@ fn command(command: MavCmd, param1: f32) -> MavMessage {
     MavMessage::COMMAND_LONG(COMMAND_LONG_DATA { command, param1, target_system: 1, target_component: 1, ..Default::default() })
 }
 
+/// An answer to a question about time goes to who has asked it; only the answer to our own question stays here.
+#[test]
+fn wire_answers_to_others_questions_about_time_go_on_from_a_link_in_step() {
+    let mut sim = Station::new("drill-hover", 7).sim;
+    let (sidecar, other) = (LinkId(7), LinkId(8));
+    sim.open_link(sidecar, LinkKind::Payload, true);
+    sim.open_link(other, LinkKind::Sdk, false);
+    let heartbeat = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
+    for (system, component) in [(1, 195), (42, 17)] {
+        sim.handle_datagram(other, &Encoder::new(system, component).encode(&heartbeat));
+    }
+    let asked = run_ms(&mut sim, 100);
+    let token =
+        asked[&sidecar].iter().find_map(|f| if let Some(MavMessage::TIMESYNC(t)) = &f.message { Some(t.ts1) } else { None });
+    let token = token.expect("it asks its peer in step");
+    let mut encoder = Encoder::new(1, 191);
+    let mut answer = |ts1: i64, target_system: u8, target_component: u8| {
+        encoder.encode(&MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 5, ts1, target_system, target_component }))
+    };
+    for (ts1, system, component) in [(token, 1, 195), (77, 42, 17), (78, 0, 0), (79, 1, 1)] {
+        sim.handle_datagram(sidecar, &answer(ts1, system, component));
+        assert!(sim.waiting(), "{ts1} {system} {component} is no answer to us");
+    }
+    sim.handle_datagram(sidecar, &answer(token, 1, 1));
+    assert!(!sim.waiting());
+    let heard = run_ms(&mut sim, 2);
+    let answers = |frames: &Vec<Received>| -> Vec<(i64, u8, u8)> {
+        let foreign = frames.iter().filter(|f| f.component_id == 191).filter_map(|f| f.message.as_ref());
+        let sync = |m: &MavMessage| {
+            if let MavMessage::TIMESYNC(t) = m { Some((t.ts1, t.target_system, t.target_component)) } else { None }
+        };
+        foreign.filter_map(sync).collect()
+    };
+    assert_eq!(answers(&heard[&other]), [(token, 1, 195), (77, 42, 17), (78, 0, 0)]);
+    assert_eq!(
+        heard.get(&GCS).map(answers).unwrap_or_default(),
+        [(78, 0, 0)],
+        "to everybody, and never to whom it does not mean"
+    );
+}
+
 fn own(frames: &[Received]) -> Vec<(u32, u8)> {
     frames.iter().filter(|f| f.system_id == 1).map(|f| (f.message_id, f.component_id)).collect()
 }

@@ -31,6 +31,8 @@ pub struct Link {
     pub kind: LinkKind,
     /// It is kept in step.
     pub lockstep: bool,
+    /// The token of its last question for step.
+    pub asked: Option<i64>,
     /// Incoming bytes.
     pub decoder: Decoder,
     system_id: u8,
@@ -61,6 +63,7 @@ impl Link {
         Self {
             kind,
             lockstep,
+            asked: None,
             decoder: Decoder::new(),
             system_id,
             encoders: BTreeMap::new(),

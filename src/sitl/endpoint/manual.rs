@@ -15,6 +15,9 @@ const UNUSED: i16 = i16::MAX;
 const TELL_EVERY_S: f64 = 5.0;
 /// Pulse lengths of a transmitter's channel, microseconds; what lies outside is no stick (ArduPilot passes it on; we do not).
 const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
+const MIDDLE_US: u16 = 1500;
+/// Senders with a throttle from -1000 that are remembered; a flood of names must not fill the memory.
+const FULL_RANGE_MAX: usize = 64;
 /// The gimbal's axis acts when it has moved by more than this share of its way.
 const GIMBAL_STEP: f64 = 0.01;
 /// Bits of `enabled_extensions`.
@@ -33,6 +36,9 @@ pub struct Manual {
     holder: Option<Sender>,
     heard: SimTime,
     sticks: Sticks,
+    pulses_us: [u16; 4],
+    /// Senders whose throttle counts from -1000 to 1000.
+    full_range: Vec<Sender>,
     gimbal: Option<f64>,
     told: Option<(Sender, SimTime)>,
     texts: VecDeque<String>,
@@ -48,6 +54,8 @@ impl Default for Manual {
             holder: None,
             heard: SimTime::ZERO,
             sticks: Sticks::default(),
+            pulses_us: [MIDDLE_US; 4],
+            full_range: Vec::new(),
             gimbal: None,
             told: None,
             texts: VecDeque::new(),
@@ -63,6 +71,17 @@ impl Manual {
         self.holds(now).then_some(self.sticks)
     }
 
+    /// The sticks as channels of a transmitter, microseconds, while they are fresh.
+    #[must_use]
+    pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
+        self.holds(now).then_some(self.pulses_us)
+    }
+
+    /// A link is gone: another sender may get its number.
+    pub fn forget(&mut self, link: LinkId) {
+        self.full_range.retain(|(known, _)| *known != link);
+    }
+
     fn holds(&self, now: SimTime) -> bool {
         self.holder.is_some() && (now - self.heard).s() <= self.let_go_s
     }
@@ -72,7 +91,7 @@ impl Manual {
         self.texts.pop_front()
     }
 
-    fn take(&mut self, from: Sender, sticks: Sticks, now: SimTime) -> Option<Sticks> {
+    fn take(&mut self, from: Sender, sticks: Sticks, pulses_us: [u16; 4], now: SimTime) -> Option<Sticks> {
         let another = self.holder.filter(|holder| *holder != from && self.holds(now));
         if let Some(holder) = another {
             let moved = [sticks.forward, sticks.right, sticks.up, sticks.yaw].iter().any(|axis| axis.abs() > 0.1);
@@ -88,7 +107,7 @@ impl Manual {
             self.presses = Presses::default();
             self.gimbal = None;
         }
-        (self.holder, self.heard, self.sticks) = (Some(from), now, sticks);
+        (self.holder, self.heard, self.sticks, self.pulses_us) = (Some(from), now, sticks, pulses_us);
         Some(sticks)
     }
 
@@ -99,12 +118,28 @@ impl Manual {
         }
     }
 
-    /// MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its middle. Anything out of
-    /// range or not used counts as centred.
+    /// MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its middle, or in -1000..1000
+    /// of a sender that has ever sent a negative one. Anything out of range or not used counts as centred.
     pub fn manual_control(&mut self, from: Sender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
-        let up = if (0..=1000).contains(&m.z) { f64::from(m.z) / 500.0 - 1.0 } else { 0.0 };
         let zero = |value: Option<f64>| value.unwrap_or(0.0);
-        self.take(from, Sticks { forward: zero(axis(m.x)), right: zero(axis(m.y)), up, yaw: zero(axis(m.r)) }, now)
+        let up = match axis(m.z) {
+            Some(z) if self.counts_from_below(from, z) => z,
+            Some(z) if z >= 0.0 => 2.0 * z - 1.0,
+            _ => 0.0,
+        };
+        let sticks = Sticks { forward: zero(axis(m.x)), right: zero(axis(m.y)), up, yaw: zero(axis(m.r)) };
+        self.take(from, sticks, pulses_of(&sticks), now)
+    }
+
+    /// Whether the middle of a sender's throttle is 0; told once when it shows.
+    fn counts_from_below(&mut self, from: Sender, z: f64) -> bool {
+        let known = self.full_range.contains(&from);
+        if !known && z < 0.0 && self.full_range.len() < FULL_RANGE_MAX {
+            self.full_range.push(from);
+            self.texts.push_back(format!("{}: throttle is -1000 to 1000", name(from)));
+            return true;
+        }
+        known
     }
 
     /// The gimbal's axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the holder has moved it. The extension `t` (roll by MAVLink, yaw by
@@ -137,7 +172,7 @@ impl Manual {
             return None;
         }
         let own = self.holder == Some(from) && self.holds(now);
-        let before = if own { self.sticks } else { Sticks::default() };
+        let (before, pulses) = if own { (self.sticks, self.pulses_us) } else { (Sticks::default(), [MIDDLE_US; 4]) };
         let axis = |us: u16, before: f64| match us {
             0 => 0.0,
             us if PULSES_US.contains(&us) => ((f64::from(us) - 1500.0) / 500.0).clamp(-1.0, 1.0),
@@ -149,8 +184,18 @@ impl Manual {
             up: axis(all[2], before.up),
             yaw: axis(all[3], before.yaw),
         };
-        self.take(from, sticks, now)
+        let pulse = |k: usize| match all[k] {
+            0 => MIDDLE_US,
+            us if PULSES_US.contains(&us) => us,
+            _ => pulses[k],
+        };
+        self.take(from, sticks, [pulse(0), pulse(1), pulse(2), pulse(3)], now)
     }
+}
+
+/// Sticks as a transmitter's channels: roll, pitch, throttle, yaw, stick forward below the middle.
+fn pulses_of(s: &Sticks) -> [u16; 4] {
+    [s.right, -s.forward, s.up, s.yaw].map(|axis| (1500.0 + 500.0 * axis).round() as u16)
 }
 
 fn axis(value: i16) -> Option<f64> {

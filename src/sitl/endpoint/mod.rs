@@ -265,6 +265,7 @@ impl Endpoint {
         self.files.forget(id);
         self.camera_files.forget(id);
         self.logs.forget(id);
+        self.manual.forget(id);
     }
 
     /// Names and present values of all parameters, in the order of their names.
@@ -358,6 +359,12 @@ impl Endpoint {
         self.manual.fresh(now)
     }
 
+    /// The same as channels of a transmitter, microseconds.
+    #[must_use]
+    pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
+        self.manual.pulses_us(now)
+    }
+
     /// Seconds of simulation time in a second of the clients' time. The limits of clients that are not kept in step grow by it, and every
     /// log says so: a text now, and NAMED_VALUE_FLOAT `pace` beside the other slow values.
     pub fn set_pace(&mut self, pace: f64, autopilot: &mut Autopilot) {
@@ -379,6 +386,7 @@ impl Endpoint {
     pub fn ask_step(&mut self, now: SimTime) {
         let message = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 0, ts1: now.ns(), target_system: 0, target_component: 0 });
         for link in self.links.values_mut().filter(|l| l.lockstep) {
+            link.asked = Some(now.ns());
             link.send(AUTOPILOT, &message);
         }
     }
@@ -488,6 +496,7 @@ impl Endpoint {
         let mut rows = std::mem::take(&mut self.row_buffer);
         for link in self.links.values_mut() {
             link.due(view.now, &mut rows);
+            let view = &view.towards(link.kind);
             for row in &rows {
                 if let Some(message) = (STREAMS[*row].build)(view) {
                     link.stream(STREAMS[*row].component, &message);

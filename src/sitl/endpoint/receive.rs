@@ -80,29 +80,30 @@ impl Endpoint {
         let frames = Decoder::new().datagram(bytes);
         frames
             .iter()
-            .filter_map(|frame| Some((frame, self.step_token(link.lockstep, frame)?)))
+            .filter_map(|frame| Some((frame, self.step_token(link.asked, frame)?)))
             .filter(|(frame, _)| admitted(frame) == Admitted::Acts)
             .map(|(_, token)| token)
             .collect()
     }
 
-    /// The token of a frame that answers our question on a link in step.
-    fn step_token(&self, lockstep: bool, frame: &Received) -> Option<i64> {
+    /// The token of a frame that answers our last question on a link in step; answers to others go their way.
+    fn step_token(&self, asked: Option<i64>, frame: &Received) -> Option<i64> {
         let Some(MavMessage::TIMESYNC(sync)) = &frame.message else { return None };
-        let ours = matches!(sync.target_system, 0) || sync.target_system == self.system_id;
-        (lockstep && ours && sync.tc1 != 0).then_some(sync.ts1)
+        let (system, component) = router::target(frame);
+        let ours = system == 0 || (system == self.system_id && matches!(component, 0 | AUTOPILOT));
+        Some(sync.ts1).filter(|token| ours && sync.tc1 != 0 && asked == Some(*token))
     }
 
     /// Reads a datagram of a link.
     pub fn receive(&mut self, id: LinkId, bytes: &[u8], view: &View, autopilot: &mut Autopilot) {
         let Some(link) = self.links.get_mut(&id) else { return };
         let before = link.decoder.bad_bytes();
-        let (kind, lockstep) = (link.kind, link.lockstep);
+        let (kind, asked) = (link.kind, link.asked);
         let frames = link.decoder.datagram(bytes);
         self.bad_bytes += link.decoder.bad_bytes() - before;
         for frame in frames {
             let admitted = self.guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(&frame, kind));
-            if admitted == Admitted::Acts && self.step_token(lockstep, &frame).is_some() {
+            if admitted == Admitted::Acts && self.step_token(asked, &frame).is_some() {
                 continue;
             }
             if admitted != Admitted::No {
@@ -167,7 +168,7 @@ impl Endpoint {
     pub(super) fn obey(&mut self, command: &Command, a: &mut Arrival) -> Option<MavResult> {
         let link = self.links.get_mut(&a.link)?;
         let mut context = Context {
-            view: a.view.with(&self.payload),
+            view: a.view.with(&self.payload).towards(link.kind),
             autopilot: &mut *a.autopilot,
             payload: &mut self.payload,
             link,

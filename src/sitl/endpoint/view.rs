@@ -1,5 +1,6 @@
 //! What the endpoint may look at when it speaks: one instant of the vehicle.
 
+use super::LinkKind;
 use super::camera::Mode;
 use super::flavour::{Flavour, ModeRow};
 use super::gimbal::Gimbal;
@@ -44,6 +45,10 @@ pub struct View<'a> {
     pub scoring: &'a Scoring,
     /// Sticks as received, when they are fresh.
     pub sticks: Option<Sticks>,
+    /// The same as channels 1 to 4 of a transmitter, microseconds.
+    pub pulses_us: Option<[u16; 4]>,
+    /// What stands behind the link that is spoken to.
+    pub to: LinkKind,
     /// Gimbal.
     pub gimbal: Gimbal,
     /// Lamp.
@@ -185,6 +190,12 @@ impl View<'_> {
     #[must_use]
     pub fn with(&self, payload: &Payload) -> Self {
         Self { gimbal: payload.gimbal, lamp: payload.lamp, camera: payload.camera.summary(self.now), ..*self }
+    }
+
+    /// The same instant for another kind of link.
+    #[must_use]
+    pub fn towards(&self, to: LinkKind) -> Self {
+        Self { to, ..*self }
     }
 
     /// The camera at its present focal length.

@@ -1,5 +1,6 @@
 //! The truth for the scoring (design.md), apart from the estimate, and the sticks as received.
 
+use super::super::LinkKind;
 use super::super::view::View;
 use crate::mav::dialect::{
     HIL_STATE_QUATERNION_DATA, MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA, RC_CHANNELS_DATA,
@@ -32,17 +33,22 @@ pub(super) fn state(v: &View) -> Option<MavMessage> {
     }))
 }
 
-/// Sticks as received: roll, pitch, throttle, yaw in microseconds, 1500 + 500 x axis.
+/// Sticks as received: roll, pitch, throttle, yaw in microseconds. A sidecar gets 1500 + 500 x axis, forward positive; everybody else
+/// what the sender sent, or would have on a transmitter, where forward is below the middle.
 pub(super) fn sticks(v: &View) -> Option<MavMessage> {
     let sticks = v.sticks?;
     let us = |axis: f64| (1500.0 + 500.0 * axis).round() as u16;
+    let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = match v.to {
+        LinkKind::Payload => [us(sticks.right), us(sticks.forward), us(sticks.up), us(sticks.yaw)],
+        LinkKind::GroundStation | LinkKind::Sdk | LinkKind::Tcp | LinkKind::Serial => v.pulses_us?,
+    };
     Some(MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {
         time_boot_ms: v.boot_ms(),
         chancount: 4,
-        chan1_raw: us(sticks.right),
-        chan2_raw: us(sticks.forward),
-        chan3_raw: us(sticks.up),
-        chan4_raw: us(sticks.yaw),
+        chan1_raw,
+        chan2_raw,
+        chan3_raw,
+        chan4_raw,
         chan5_raw: u16::MAX,
         chan6_raw: u16::MAX,
         chan7_raw: u16::MAX,
