@@ -10,6 +10,7 @@ pub mod base;
 pub mod mav;
 pub mod monitor;
 pub mod pilot;
+pub mod rc;
 pub mod scenario;
 pub mod site;
 pub mod sitl;

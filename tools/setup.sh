@@ -29,10 +29,17 @@ need_packages() {
     fi
 }
 
+# What gamepads and transmitters need to build: Linux tells of them through udev.
+need_gamepad_packages() {
+    if [ "$(uname)" = Linux ]; then
+        need_packages pkg-config:pkg-config /usr/include/libudev.h:libudev-dev
+    fi
+}
+
 install_packages() {
     say "Missing system packages: $*"
     if ! command -v apt-get >/dev/null 2>&1; then
-        say "This is no Debian or Ubuntu: install what corresponds to them (a C compiler and linker, Python 3 with venv) and run this again."
+        say "This is no Debian or Ubuntu: install what corresponds to them (a C compiler and linker, Python 3 with venv, pkg-config, libudev's headers) and run this again."
         exit 1
     fi
     local root=()

@@ -7,6 +7,7 @@ mod check;
 mod children;
 mod clock;
 mod cohort;
+mod controller;
 mod demo;
 mod errors;
 mod export;
@@ -25,6 +26,7 @@ mod plan;
 mod ports;
 mod progress;
 mod questionnaire;
+mod rc;
 mod records;
 mod serial;
 mod session_folder;
@@ -62,6 +64,7 @@ enum Command {
     Sim(sim::Args),
     Monitor(monitor::Args),
     Pilot(pilot::Args),
+    Rc(rc::Args),
     Assess(assess::Args),
     Export(export::Args),
     Questionnaire(questionnaire::Args),
@@ -82,6 +85,7 @@ pub fn main() -> ExitCode {
         Command::Sim(args) => sim::run(args),
         Command::Monitor(args) => monitor::run(args),
         Command::Pilot(args) => pilot::run(args),
+        Command::Rc(args) => rc::run(args),
         Command::Assess(args) => assess::run(args),
         Command::Export(args) => export::run(args),
         Command::Questionnaire(args) => questionnaire::run(args),

@@ -13,9 +13,9 @@ LIMIT_S = 120
 AGAIN_S = 2.0
 
 
-def connect(port, system=255, kind="udpin", **more):
-    """pymavlink on a link, after the first heartbeat."""
-    link = mavutil.mavlink_connection(f"{kind}:127.0.0.1:{port}", source_system=system, source_component=190, **more)
+def connect(port, system=255, kind="udpin", dialect="all"):
+    """pymavlink on a link, after the first heartbeat. The dialect is the whole process's: the last one asked for counts, so each test names its own."""
+    link = mavutil.mavlink_connection(f"{kind}:127.0.0.1:{port}", source_system=system, source_component=190, dialect=dialect)
     assert link.wait_heartbeat(timeout=LIMIT_S) is not None, "no heartbeat"
     return link
 

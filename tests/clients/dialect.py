@@ -6,7 +6,6 @@ import pathlib
 import subprocess
 
 import pymavlink.dialects.v20
-from pymavlink import mavutil
 from pymavlink.generator import mavgen, mavparse
 
 import spandrel
@@ -28,9 +27,3 @@ def generate(folder, name="common"):
     pymavlink.dialects.v20.__path__.append(str(folder))
     importlib.invalidate_caches()
     return module
-
-
-def speak(module):
-    """Makes a dialect pymavlink's own; the module."""
-    mavutil.set_dialect(module)
-    return mavutil.mavlink

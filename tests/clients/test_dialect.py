@@ -20,8 +20,7 @@ def test_wire_nothing_that_the_vehicle_says_is_unknown_to_the_official_dialect(t
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port)
     try:
-        dialect.speak(dialect.generate(tmp_path))
-        link = asking.connect(port)
+        link = asking.connect(port, dialect=dialect.generate(tmp_path))
         heard, end = set(), time.monotonic() + LISTEN_S
         while time.monotonic() < end:
             message = link.recv_match(blocking=True, timeout=1)

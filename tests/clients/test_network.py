@@ -66,7 +66,7 @@ def test_wire_three_vehicles_in_one_process_are_flown_apart(tmp_path):
     port = spandrel.free_udp_port()
     sim = spandrel.start_sim(tmp_path, port, "--instances", "3")
     try:
-        connection = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
+        connection = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190, dialect="all")
         for system in (1, 2, 3):
             asking.hear(connection, "HEARTBEAT", lambda beat, system=system: beat.get_srcSystem() == system)
         prearm = mavutil.mavlink.MAV_SYS_STATUS_PREARM_CHECK
@@ -107,7 +107,7 @@ def test_wire_tcp_clients_come_and_go_and_the_vehicle_flies_on(tmp_path):
         assert rude.recv(1) == b"\xfd"
         rude.sendall(b"\xfd\xff\x00")
         rude.close()
-        connection = mavutil.mavlink_connection(f"tcp:127.0.0.1:{port}", source_system=255, source_component=190)
+        connection = mavutil.mavlink_connection(f"tcp:127.0.0.1:{port}", source_system=255, source_component=190, dialect="all")
         asking.hear(connection, "HEARTBEAT")
         send = lambda: connection.mav.param_request_read_send(1, 1, b"MIS_TAKEOFF_ALT", -1)  # noqa: E731
         asking.ask(connection, send, "PARAM_VALUE", lambda value: value.param_id == "MIS_TAKEOFF_ALT")

@@ -33,7 +33,7 @@ class Station:
     """A second ground station on pymavlink that hears everything and asks in the older forms."""
 
     def __init__(self, port):
-        self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=254, source_component=190)
+        self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=254, source_component=190, dialect="all")
         self.heard = []
         self.last = {}
 

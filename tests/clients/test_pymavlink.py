@@ -26,7 +26,7 @@ class Client:
     """A ground station on pymavlink: answers nothing by itself but heartbeats."""
 
     def __init__(self, port):
-        self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
+        self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190, dialect="all")
         beat = wait_for("a heartbeat", lambda: (b := self.link.wait_heartbeat(timeout=60)) and b.get_srcComponent() == 1 and b)
         self.autopilot = beat.autopilot
         if self.autopilot == M.MAV_AUTOPILOT_ARDUPILOTMEGA:

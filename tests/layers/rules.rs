@@ -14,7 +14,8 @@ const TABLE: &[(&str, &[&str])] = &[
     ("monitor", &["base", "mav", "scenario", "vehicle", "site", "telemetry"]),
     ("pilot", &["base", "mav", "scenario", "vehicle", "site", "telemetry"]),
     ("training", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "monitor"]),
-    ("app", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "sitl", "monitor", "pilot", "training"]),
+    ("rc", &["base", "mav"]),
+    ("app", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "sitl", "monitor", "pilot", "rc", "training"]),
 ];
 
 /// What only the shells may touch: sockets, files, clocks, threads, processes, terminals.

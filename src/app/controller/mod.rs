@@ -1,0 +1,78 @@
+//! Where sticks come from: a gamepad or transmitter (feature `gamepad`), the terminal's keyboard, a record.
+
+#[cfg(feature = "gamepad")]
+mod gamepad;
+mod profiles;
+mod terminal;
+
+pub use profiles::{Profiles, read as read_profile};
+pub use terminal::{Key, Terminal};
+
+use super::errors::AppError;
+use crate::base::time::SimTime;
+use crate::rc::record::Record;
+use crate::rc::{Device, Event};
+
+/// A source of raw events.
+#[derive(Debug)]
+pub enum Source {
+    /// A device on this machine.
+    #[cfg(feature = "gamepad")]
+    Gamepad(Box<gamepad::Gamepad>),
+    /// What one reported earlier.
+    Record(Record),
+}
+
+impl Source {
+    /// The device with this name or id, or the only one.
+    ///
+    /// # Errors
+    /// When there is none, several fit, or this build has no support for them.
+    pub fn device(wanted: Option<&str>) -> Result<Self, AppError> {
+        #[cfg(feature = "gamepad")]
+        return gamepad::Gamepad::open(wanted).map(|gamepad| Self::Gamepad(Box::new(gamepad)));
+        #[cfg(not(feature = "gamepad"))]
+        Err(AppError::failed(format!("{}: {NO_GAMEPADS}", wanted.unwrap_or("a gamepad or transmitter"))))
+    }
+
+    /// Whose events these are.
+    pub fn of(&self) -> &Device {
+        match self {
+            #[cfg(feature = "gamepad")]
+            Self::Gamepad(gamepad) => gamepad.device(),
+            Self::Record(record) => &record.device,
+        }
+    }
+
+    /// The next event by now.
+    pub fn next(&mut self, now: SimTime) -> Option<Event> {
+        match self {
+            #[cfg(feature = "gamepad")]
+            Self::Gamepad(gamepad) => gamepad.next(),
+            Self::Record(record) => record.due(now),
+        }
+    }
+
+    /// A record that has been played to its end.
+    pub fn is_over(&self) -> bool {
+        match self {
+            #[cfg(feature = "gamepad")]
+            Self::Gamepad(_) => false,
+            Self::Record(record) => record.is_over(),
+        }
+    }
+}
+
+#[cfg(not(feature = "gamepad"))]
+const NO_GAMEPADS: &str = "this build reads no gamepads (build with --features gamepad; on Debian and Ubuntu that needs libudev-dev); --keyboard flies without one";
+
+/// All devices that are connected.
+///
+/// # Errors
+/// When the system cannot tell, or this build has no support for them.
+pub fn connected() -> Result<Vec<Device>, AppError> {
+    #[cfg(feature = "gamepad")]
+    return gamepad::connected();
+    #[cfg(not(feature = "gamepad"))]
+    Err(AppError::failed(NO_GAMEPADS))
+}

@@ -1,0 +1,319 @@
+//! `spandrel rc`: a controller, a clock and a socket around the sans-IO bridge to MANUAL_CONTROL.
+
+use super::args;
+use super::clock::Stopwatch;
+use super::controller::{self, Profiles, Source, Terminal, read_profile};
+use super::errors::{AppError, EXIT_CODES};
+use super::net::{Arrival, Hub, SocketId};
+use super::stop::Stop;
+use crate::base::time::SimTime;
+use crate::rc::keyboard::{Keyboard, Keys};
+use crate::rc::link::Link;
+use crate::rc::record::{self, Record};
+use crate::rc::wizard::Wizard;
+use crate::rc::{Device, Event, Profile, Raw, StickMode, Sticks};
+use std::fs::File;
+use std::io::{BufRead, Write};
+use std::net::{IpAddr, SocketAddr};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+/// Longest wait for a datagram: a quarter of the time between two stick samples.
+const WAIT: Duration = Duration::from_millis(5);
+/// A vehicle that was heard and then is silent for this much wall time is gone.
+const SILENT: Duration = Duration::from_secs(10);
+/// Between two looks of the wizard at the device.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// Fly with a gamepad, a transmitter or the keyboard
+///
+/// Sends a controller's sticks to the vehicle as MANUAL_CONTROL, 50 times a second, and its buttons as commands. A device is calibrated
+/// once (--calibrate) and known from then on. When it is lost, the sticks are centred for a moment and then silent, so that the vehicle's
+/// own failsafe acts.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel rc --list                       what is connected, and whether it is calibrated
+  spandrel rc --calibrate                  asks which stick is which, in the terminal
+  spandrel rc                              fly the simulator on this machine
+  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take-off, L land, Escape ends
+  spandrel rc --record flight.jsonl        keeps what the device reports; --replay flies it again
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Dial the vehicle here
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, default_value = "127.0.0.1:18570")]
+    connect: SocketAddr,
+    /// Local address to bind
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    listen: IpAddr,
+    /// Print the connected devices, one a line, and end
+    #[arg(long)]
+    list: bool,
+    /// Ask which axis is which stick, and keep the answer
+    #[arg(long, conflicts_with_all = ["list", "keyboard", "replay"])]
+    calibrate: bool,
+    /// Which device, by a part of its name or its id [default: the only one]
+    #[arg(long, value_name = "NAME")]
+    device: Option<String>,
+    /// Which stick does what, 1 to 4, when calibrating; 2 has throttle and yaw on the left
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(i64).range(1..=4))]
+    stick_mode: i64,
+    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration]
+    #[arg(long, value_name = "DIR")]
+    profiles: Option<PathBuf>,
+    /// Use this profile, whatever the device
+    #[arg(long, value_name = "FILE")]
+    profile: Option<PathBuf>,
+    /// Fly with the terminal's keyboard
+    #[arg(long, conflicts_with_all = ["replay", "device", "profile"])]
+    keyboard: bool,
+    /// Which key does what (TOML: format = 1, push, [sticks], [actions])
+    #[arg(long, value_name = "FILE", requires = "keyboard")]
+    keys: Option<PathBuf>,
+    /// Write down what the device reports
+    #[arg(long, value_name = "FILE", conflicts_with = "keyboard")]
+    record: Option<PathBuf>,
+    /// Play what was written down instead of a device, and end with it
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["device", "record"])]
+    replay: Option<PathBuf>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When there is no device or terminal, it is not calibrated, files are wrong, or the vehicle vanishes.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let profiles = Profiles::at(args.profiles.clone())?;
+    if args.list {
+        return list(&profiles);
+    }
+    let stop = Stop::install(false)?;
+    if args.calibrate {
+        return calibrate(args, &profiles, &stop);
+    }
+    let mut pilot = pilot(args, &profiles)?;
+    let mut hub = Hub::new();
+    let socket = hub.bind(args.listen, 0, "--listen")?;
+    let flown = fly(&mut pilot, &mut hub, socket, args.connect, &stop);
+    drop(pilot);
+    flown
+}
+
+fn list(profiles: &Profiles) -> Result<(), AppError> {
+    let devices = controller::connected()?;
+    for device in &devices {
+        let known = if profiles.find(device)?.is_some() { "calibrated" } else { "not calibrated" };
+        println!("{}  {}  {known}", device.id, device.name);
+    }
+    if devices.is_empty() {
+        tracing::info!("no gamepad or transmitter is connected");
+    }
+    Ok(())
+}
+
+/// Who holds the sticks.
+enum Pilot {
+    Device(Box<Hand>),
+    Keyboard { terminal: Terminal, board: Keyboard },
+}
+
+/// A calibrated device.
+struct Hand {
+    source: Source,
+    profile: Profile,
+    raw: Raw,
+    log: Option<Log>,
+}
+
+struct Log {
+    path: PathBuf,
+    file: File,
+}
+
+impl Log {
+    fn begin(path: &Path, device: &Device) -> Result<Self, AppError> {
+        let failed = |error: std::io::Error| AppError::wrong(format!("{}: {error}", path.display()));
+        let mut file = File::create(path).map_err(failed)?;
+        writeln!(file, "{}", record::head(device)).map_err(failed)?;
+        Ok(Self { path: path.to_owned(), file })
+    }
+
+    fn write(&mut self, now: SimTime, event: Event) -> Result<(), AppError> {
+        writeln!(self.file, "{}", record::line(now, event))
+            .map_err(|error| AppError::failed(format!("{}: {error}", self.path.display())))
+    }
+}
+
+fn pilot(args: &Args, profiles: &Profiles) -> Result<Pilot, AppError> {
+    if args.keyboard {
+        let keys = match &args.keys {
+            Some(path) => {
+                let file = path.display().to_string();
+                let text = std::fs::read_to_string(path).map_err(|error| AppError::wrong(format!("{file}: {error}")))?;
+                Keys::read(&file, &text)?
+            }
+            None => Keys::default(),
+        };
+        let words = keys.explain();
+        let terminal = Terminal::take()?;
+        say(&format!("{words}\nescape     end"));
+        return Ok(Pilot::Keyboard { terminal, board: Keyboard::new(keys) });
+    }
+    let source = match &args.replay {
+        Some(path) => {
+            let file = path.display().to_string();
+            let text = std::fs::read_to_string(path).map_err(|error| AppError::wrong(format!("{file}: {error}")))?;
+            Source::Record(Record::read(&file, &text).map_err(AppError::wrong)?)
+        }
+        None => Source::device(args.device.as_deref())?,
+    };
+    let device = source.of().clone();
+    let profile = match &args.profile {
+        Some(path) => Some(read_profile(path)?),
+        None => profiles.find(&device)?,
+    };
+    let profile = profile.ok_or_else(|| {
+        AppError::failed(format!(
+            "'{}' is not calibrated: run `spandrel rc --calibrate` (no {})",
+            device.name,
+            profiles.path(&device).display()
+        ))
+    })?;
+    tracing::info!("flying with '{}', stick mode {}", device.name, profile.mode.number());
+    let log = args.record.as_ref().map(|path| Log::begin(path, &device)).transpose()?;
+    Ok(Pilot::Device(Box::new(Hand { source, profile, raw: Raw::default(), log })))
+}
+
+/// A line on standard error that also begins at the left when the terminal gives single keys.
+fn say(text: &str) {
+    eprint!("{}\r\n", text.replace('\n', "\r\n"));
+}
+
+/// What a look at the controller gave.
+struct Look {
+    sticks: Option<Sticks>,
+    over: bool,
+}
+
+impl Hand {
+    fn look(&mut self, link: &mut Link, flown: SimTime, now: SimTime) -> Result<Look, AppError> {
+        while let Some(event) = self.source.next(flown) {
+            if let Some(log) = &mut self.log {
+                log.write(flown, event)?;
+            }
+            let fresh = matches!(event, Event::Button { button, pressed: true } if !self.raw.down.contains(&button));
+            self.raw.take(event);
+            match event {
+                Event::Button { button, .. } if fresh => {
+                    self.profile.buttons.get(&button).into_iter().for_each(|action| link.act(*action, now));
+                }
+                Event::Lost => tracing::warn!("'{}' is lost: sticks centred, then silent", self.profile.device.name),
+                Event::Found => tracing::info!("'{}' is there", self.profile.device.name),
+                _ => {}
+            }
+        }
+        Ok(Look { sticks: (!self.raw.lost).then(|| self.profile.sticks(&self.raw)), over: self.source.is_over() })
+    }
+}
+
+impl Pilot {
+    fn look(&mut self, link: &mut Link, flown: SimTime, now: SimTime) -> Result<Look, AppError> {
+        match self {
+            Self::Device(hand) => hand.look(link, flown, now),
+            Self::Keyboard { terminal, board } => {
+                let mut over = false;
+                while let Some(key) = terminal.next() {
+                    match key {
+                        controller::Key::Down(key) => {
+                            board.press(&key, terminal.tells_releases, now).into_iter().for_each(|action| link.act(action, now))
+                        }
+                        controller::Key::Up(key) => board.release(&key),
+                        controller::Key::End => over = true,
+                    }
+                }
+                Ok(Look { sticks: Some(board.sticks(now)), over })
+            }
+        }
+    }
+}
+
+fn fly(pilot: &mut Pilot, hub: &mut Hub, socket: SocketId, vehicle: SocketAddr, stop: &Stop) -> Result<(), AppError> {
+    let (watch, mut link, mut heard) = (Stopwatch::start(), Link::default(), None);
+    // A record begins when the vehicle is there.
+    let mut begin = None;
+    while !stop.asked() {
+        if let Some(Arrival::Datagram { from, bytes, .. }) = hub.next(WAIT)
+            && from == vehicle
+        {
+            if heard.is_none() {
+                say(&format!("the vehicle at {vehicle} answers"));
+            }
+            heard = Some(watch.elapsed());
+            link.receive(&bytes);
+        }
+        let now = SimTime::from_s(watch.elapsed().as_secs_f64());
+        if link.heard.system.is_some() {
+            begin.get_or_insert(now);
+        }
+        let flown = begin.map_or(SimTime::ZERO, |begin| now - begin);
+        let look = pilot.look(&mut link, flown, now)?;
+        link.set_sticks(look.sticks, now);
+        link.handle_timeout(now);
+        while let Some(bytes) = link.poll_transmit() {
+            hub.send(socket, vehicle, &bytes);
+        }
+        while let Some(text) = link.poll_told() {
+            say(&text);
+        }
+        if look.over {
+            return Ok(());
+        }
+        if heard.is_some_and(|last| watch.elapsed().saturating_sub(last) > SILENT) {
+            return Err(AppError::failed(format!("the vehicle has been silent for {} s", SILENT.as_secs())));
+        }
+    }
+    Ok(())
+}
+
+fn calibrate(args: &Args, profiles: &Profiles, stop: &Stop) -> Result<(), AppError> {
+    let mut source = Source::device(args.device.as_deref())?;
+    let mode = StickMode::numbered(args.stick_mode).unwrap_or(StickMode::Two);
+    let mut wizard = Wizard::new(source.of().clone(), mode);
+    let (watch, enters) = (Stopwatch::start(), enters());
+    let mut told = String::new();
+    while !stop.asked() {
+        let now = SimTime::from_s(watch.elapsed().as_secs_f64());
+        while let Some(event) = source.next(now) {
+            wizard.handle(event, now);
+        }
+        if enters.recv_timeout(LOOK).is_ok() {
+            wizard.confirm(now);
+        }
+        wizard.handle_timeout(now);
+        if let Some(profile) = wizard.profile() {
+            println!("{}", profiles.keep(&profile)?.display());
+            return Ok(());
+        }
+        let prompt = wizard.prompt();
+        if prompt != told {
+            say(&prompt);
+            told = prompt;
+        }
+    }
+    Err(AppError::failed("stopped: nothing was kept"))
+}
+
+/// Lines of standard input, for Enter.
+fn enters() -> Receiver<()> {
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || {
+        for _ in std::io::stdin().lock().lines().map_while(Result::ok) {
+            if sender.send(()).is_err() {
+                break;
+            }
+        }
+    });
+    receiver
+}

@@ -1,0 +1,63 @@
+//! What a button or a key does.
+
+/// A wish that is no stick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Action {
+    /// The lamp on, or off when it is on.
+    Lamp,
+    /// A picture.
+    Snapshot,
+    /// Motors may turn.
+    Arm,
+    /// Motors stop, on the ground.
+    Disarm,
+    /// Up to the take-off height.
+    TakeOff,
+    /// Down, here.
+    Land,
+    /// Home, and down there.
+    Return,
+    /// Stay here.
+    Hold,
+    /// The sticks command velocity.
+    Position,
+    /// The camera up by a step.
+    GimbalUp,
+    /// The camera down by a step.
+    GimbalDown,
+}
+
+/// All actions with their names in files.
+pub const ALL: [(&str, Action); 11] = [
+    ("lamp", Action::Lamp),
+    ("snapshot", Action::Snapshot),
+    ("arm", Action::Arm),
+    ("disarm", Action::Disarm),
+    ("take_off", Action::TakeOff),
+    ("land", Action::Land),
+    ("return", Action::Return),
+    ("hold", Action::Hold),
+    ("position", Action::Position),
+    ("gimbal_up", Action::GimbalUp),
+    ("gimbal_down", Action::GimbalDown),
+];
+
+impl Action {
+    /// Its name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        ALL.iter().find(|(_, action)| *action == self).map_or("", |(name, _)| name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_action_has_a_name_of_its_own() {
+        let names: std::collections::BTreeSet<_> = ALL.iter().map(|(_, action)| action.name()).collect();
+        assert_eq!(names.len(), ALL.len());
+        assert!(!names.contains(""));
+    }
+}

@@ -1,0 +1,70 @@
+//! One raw axis into one stick direction: ends, centre, dead band, expo.
+
+/// Least way between an end and the centre, of the raw range of 2 (estimate: an axis that moves less is not the stick).
+pub const LEAST_WAY: f64 = 0.1;
+
+/// How an axis is read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis {
+    /// Number of the axis at its device.
+    pub axis: u32,
+    /// Raw reading with the stick fully left or down. Above `high`: the axis counts the other way round.
+    pub low: f64,
+    /// Raw reading at rest.
+    pub centre: f64,
+    /// Raw reading with the stick fully right or up.
+    pub high: f64,
+    /// Part of the way about the centre that counts as centred, 0 to 0.5.
+    pub dead_band: f64,
+    /// How much flatter the middle is than the ends, 0 (straight) to 1 (a cubic).
+    pub expo: f64,
+}
+
+impl Axis {
+    /// The direction in [-1, 1]: 0 within the dead band, without a step at its edge, ±1 at the ends and beyond.
+    #[must_use]
+    pub fn read(&self, raw: f64) -> f64 {
+        let end = if (raw - self.centre) * (self.high - self.centre) >= 0.0 { self.high } else { self.low };
+        let sign = if end == self.high { 1.0 } else { -1.0 };
+        let way = end - self.centre;
+        let part = if way == 0.0 { 0.0 } else { ((raw - self.centre) / way).clamp(0.0, 1.0) };
+        let free = ((part - self.dead_band) / (1.0 - self.dead_band)).max(0.0);
+        sign * ((1.0 - self.expo) * free + self.expo * free * free * free)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of a few products of numbers below 1.
+    const ROUNDING: f64 = 1e-15;
+
+    fn plain() -> Axis {
+        Axis { axis: 0, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.0, expo: 0.0 }
+    }
+
+    #[test]
+    fn exact_ends_and_centre_wherever_they_are() {
+        let axis = Axis { low: -0.8, centre: 0.1, high: 0.9, ..plain() };
+        for (raw, read) in [(-0.8, -1.0), (-1.0, -1.0), (0.1, 0.0), (0.5, 0.5), (0.9, 1.0), (1.0, 1.0), (-0.35, -0.5)] {
+            assert!((axis.read(raw) - read).abs() < ROUNDING, "{raw}");
+        }
+    }
+
+    #[test]
+    fn exact_an_axis_that_counts_down_is_turned_round() {
+        let axis = Axis { low: 1.0, centre: 0.0, high: -1.0, ..plain() };
+        assert_eq!([axis.read(1.0), axis.read(0.5), axis.read(-0.25), axis.read(-1.0)], [-1.0, -0.5, 0.25, 1.0]);
+    }
+
+    #[test]
+    fn exact_the_dead_band_has_no_step_and_expo_keeps_the_ends() {
+        let axis = Axis { dead_band: 0.2, expo: 0.5, ..plain() };
+        assert_eq!((axis.read(0.2), axis.read(-0.2), axis.read(1.0), axis.read(-1.0)), (0.0, 0.0, 1.0, -1.0));
+        let just = axis.read(0.2 + 1e-9);
+        assert!(just > 0.0 && just < 1e-8);
+        // Half of the way beyond the band: 0.5 · 0.5 + 0.5 · 0.125.
+        assert!((axis.read(0.6) - 0.3125).abs() < ROUNDING);
+    }
+}

@@ -1,0 +1,234 @@
+//! Keys in place of sticks: a key held is a stick pushed.
+
+use super::{Action, Sticks};
+use crate::base::time::SimTime;
+use crate::base::toml::{Problems, Reader};
+use std::collections::BTreeMap;
+
+/// How far a key pushes the stick (estimate: half, so that a beginner does not fly at full speed).
+pub const PUSH: f64 = 0.5;
+/// A terminal tells no release: a key counts as held for this long after it was heard last, s. Above the usual delay of 0.5 s before
+/// a held key repeats (X.Org's and Windows' defaults: 0.25 to 0.66 s).
+pub const HELD_S: f64 = 0.7;
+
+/// Which way a key pushes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Push {
+    /// Forward.
+    Forward,
+    /// Backward.
+    Back,
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+    /// Up.
+    Up,
+    /// Down.
+    Down,
+    /// Turn left.
+    TurnLeft,
+    /// Turn right.
+    TurnRight,
+}
+
+const PUSHES: [(&str, Push, &str); 8] = [
+    ("forward", Push::Forward, "up"),
+    ("back", Push::Back, "down"),
+    ("left", Push::Left, "left"),
+    ("right", Push::Right, "right"),
+    ("up", Push::Up, "w"),
+    ("down", Push::Down, "s"),
+    ("turn_left", Push::TurnLeft, "a"),
+    ("turn_right", Push::TurnRight, "d"),
+];
+
+const KEYS: [(Action, &str); 11] = [
+    (Action::Lamp, "b"),
+    (Action::Snapshot, "p"),
+    (Action::Arm, "m"),
+    (Action::Disarm, "n"),
+    (Action::TakeOff, "t"),
+    (Action::Land, "l"),
+    (Action::Return, "r"),
+    (Action::Hold, "h"),
+    (Action::Position, "o"),
+    (Action::GimbalUp, "pageup"),
+    (Action::GimbalDown, "pagedown"),
+];
+
+/// Which key does what. Keys by name: a letter, a digit, `up`, `down`, `left`, `right`, `space`, `enter`, `pageup`, `pagedown`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Keys {
+    push: f64,
+    pushes: BTreeMap<String, Push>,
+    actions: BTreeMap<String, Action>,
+}
+
+impl Default for Keys {
+    fn default() -> Self {
+        Self {
+            push: PUSH,
+            pushes: PUSHES.iter().map(|(_, push, key)| ((*key).to_owned(), *push)).collect(),
+            actions: KEYS.iter().map(|(action, key)| ((*key).to_owned(), *action)).collect(),
+        }
+    }
+}
+
+impl Keys {
+    /// Reads a file of keys; what it leaves out stays as usual. `file` is its name for messages.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, each with line, key, value and allowed range.
+    pub fn read(file: &str, text: &str) -> Result<Self, Problems> {
+        let mut r = Reader::new(file, text);
+        let keys = r.parse().map(|document| {
+            let mut root = r.root(&document);
+            r.whole(&mut root, "format", (1, 1), None);
+            let mut keys = Self {
+                push: r.number(&mut root, "push", (0.05, 1.0), Some(PUSH)),
+                pushes: BTreeMap::new(),
+                actions: BTreeMap::new(),
+            };
+            let mut taken: BTreeMap<String, &str> = BTreeMap::new();
+            let mut s = r.section(&mut root, "sticks");
+            for (name, push, usual) in PUSHES {
+                let key = r.text(&mut s, name, Some(usual)).to_lowercase();
+                own(&mut r, &s, name, &key, &mut taken);
+                keys.pushes.insert(key, push);
+            }
+            r.finish(&s);
+            let mut s = r.section(&mut root, "actions");
+            for (action, usual) in KEYS {
+                let key = r.text(&mut s, action.name(), Some(usual)).to_lowercase();
+                own(&mut r, &s, action.name(), &key, &mut taken);
+                keys.actions.insert(key, action);
+            }
+            r.finish(&s);
+            r.finish(&root);
+            keys
+        });
+        match keys {
+            Some(keys) if r.problems.is_empty() => Ok(keys),
+            _ => Err(Problems(r.problems)),
+        }
+    }
+
+    /// The keys in words, a line each.
+    #[must_use]
+    pub fn explain(&self) -> String {
+        let pushes = self
+            .pushes
+            .iter()
+            .map(|(key, push)| format!("{key:10} {}", PUSHES.iter().find(|p| p.1 == *push).map_or("", |p| p.0)));
+        let actions = self.actions.iter().map(|(key, action)| format!("{key:10} {}", action.name()));
+        pushes.chain(actions).collect::<Vec<_>>().join("\n")
+    }
+}
+
+fn own(
+    r: &mut Reader,
+    s: &crate::base::toml::Section,
+    name: &'static str,
+    key: &str,
+    taken: &mut BTreeMap<String, &'static str>,
+) {
+    if let Some(before) = taken.insert(key.to_owned(), name) {
+        r.complain(s, name, key, "a key of its own", &format!("does {before} already"));
+    }
+}
+
+/// Keys that are held now.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Keyboard {
+    keys: Keys,
+    held: BTreeMap<Push, Option<SimTime>>,
+}
+
+impl Keyboard {
+    /// Nothing is held.
+    #[must_use]
+    pub fn new(keys: Keys) -> Self {
+        Self { keys, held: BTreeMap::new() }
+    }
+
+    /// A key went down (again). Where releases are not told, `until_released` is false and it counts as held for [`HELD_S`].
+    /// Returns what it does when it is no stick.
+    pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<Action> {
+        let key = key.to_lowercase();
+        if let Some(push) = self.keys.pushes.get(&key) {
+            self.held.insert(*push, (!until_released).then(|| now + SimTime::from_s(HELD_S)));
+        }
+        self.keys.actions.get(&key).copied()
+    }
+
+    /// A key came up.
+    pub fn release(&mut self, key: &str) {
+        if let Some(push) = self.keys.pushes.get(&key.to_lowercase()) {
+            self.held.remove(push);
+        }
+    }
+
+    /// All keys count as up: the window lost the focus.
+    pub fn let_go(&mut self) {
+        self.held.clear();
+    }
+
+    /// The sticks; opposite keys cancel.
+    pub fn sticks(&mut self, now: SimTime) -> Sticks {
+        self.held.retain(|_, until| until.is_none_or(|until| now < until));
+        let one = |push: Push| if self.held.contains_key(&push) { self.keys.push } else { 0.0 };
+        Sticks {
+            forward: one(Push::Forward) - one(Push::Back),
+            right: one(Push::Right) - one(Push::Left),
+            up: one(Push::Up) - one(Push::Down),
+            yaw: one(Push::TurnRight) - one(Push::TurnLeft),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(s: f64) -> SimTime {
+        SimTime::from_s(s)
+    }
+
+    #[test]
+    fn exact_held_keys_push_and_opposite_ones_cancel() {
+        let mut board = Keyboard::default();
+        assert_eq!(board.press("w", true, at(0.0)), None);
+        board.press("Up", true, at(0.0));
+        board.press("d", true, at(0.0));
+        assert_eq!(board.sticks(at(100.0)), Sticks { forward: PUSH, right: 0.0, up: PUSH, yaw: PUSH });
+        board.press("a", true, at(100.0));
+        board.release("up");
+        assert_eq!(board.sticks(at(100.0)), Sticks { up: PUSH, ..Sticks::default() });
+        board.let_go();
+        assert_eq!(board.sticks(at(100.0)), Sticks::default());
+        assert_eq!(
+            (board.press("B", true, at(0.0)), board.press("p", true, at(0.0))),
+            (Some(Action::Lamp), Some(Action::Snapshot))
+        );
+    }
+
+    #[test]
+    fn exact_where_releases_are_not_told_a_key_lets_go_by_itself() {
+        let mut board = Keyboard::default();
+        board.press("w", false, at(0.0));
+        board.press("w", false, at(0.5));
+        assert_eq!(board.sticks(at(0.5 + HELD_S - 0.01)).up, PUSH);
+        assert_eq!(board.sticks(at(0.5 + HELD_S)).up, 0.0);
+    }
+
+    #[test]
+    fn exact_keys_come_from_a_file_and_a_key_has_one_duty() {
+        let keys = Keys::read("keys.toml", "format = 1\npush = 1.0\n[sticks]\nup = \"space\"\n").unwrap();
+        let mut board = Keyboard::new(keys);
+        board.press("space", true, at(0.0));
+        assert_eq!(board.sticks(at(0.0)).up, 1.0);
+        let told = Keys::read("keys.toml", "format = 1\n[sticks]\nup = \"b\"\n[actions]\nfly = \"f\"\n").unwrap_err().to_string();
+        assert!(told.contains("does up already") && told.contains("fly"), "{told}");
+    }
+}

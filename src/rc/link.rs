@@ -1,0 +1,406 @@
+//! Sticks and actions to a vehicle: MANUAL_CONTROL at 50 Hz, commands until they are answered, a heartbeat.
+//!
+//! A device that is lost gives centred sticks for [`NEUTRAL_S`] and then silence, so that the vehicle's own failsafe acts, and not a
+//! program that pretends to have a pilot.
+
+use super::{Action, Sticks};
+use crate::base::time::SimTime;
+use crate::mav::codec::{Decoder, Encoder};
+use crate::mav::dialect::{
+    COMMAND_LONG_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult,
+    MavStandardMode, MavType,
+};
+use std::collections::VecDeque;
+
+/// A second ground station beside QGroundControl's 255.
+pub const SYSTEM: u8 = 254;
+/// MAV_COMP_ID_MISSIONPLANNER: a ground station.
+const COMPONENT: u8 = 190;
+const AUTOPILOT: u8 = 1;
+const CAMERA: u8 = 100;
+/// Between two MANUAL_CONTROL, s: 50 Hz, what the monitor records.
+const STICKS_EVERY_S: f64 = 0.02;
+const HEARTBEAT_EVERY_S: f64 = 1.0;
+/// Centred sticks of a lost device for this long before the silence, s (estimate: long enough to be received on a bad radio).
+pub const NEUTRAL_S: f64 = 0.3;
+/// A command that is not answered is sent again after this, s, so many times (MAVLink command protocol; estimate).
+const AGAIN_S: f64 = 0.5;
+const TIMES: u8 = 5;
+/// What buttons depend on, and how often, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
+const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
+/// One press of a gimbal button, degrees.
+const GIMBAL_STEP_DEG: f32 = 10.0;
+/// PX4's main mode of position control and ArduCopter's POSHOLD.
+const PX4_POSITION: f32 = 3.0;
+const COPTER_POSHOLD: f32 = 16.0;
+
+/// What the vehicle said last.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Heard {
+    /// System id, once there is a heartbeat.
+    pub system: Option<u8>,
+    /// Whose interface it speaks.
+    pub autopilot: Option<MavAutopilot>,
+    /// Motors may turn.
+    pub armed: bool,
+    /// The lamp is on.
+    pub lamp: bool,
+    /// The gimbal's pitch, degrees over the horizon.
+    pub gimbal_deg: Option<f32>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Pending {
+    what: &'static str,
+    command: COMMAND_LONG_DATA,
+    sent: u8,
+    next: SimTime,
+}
+
+/// The bridge from a controller to a vehicle.
+#[derive(Debug, Clone)]
+pub struct Link {
+    decoder: Decoder,
+    encoder: Encoder,
+    out: VecDeque<Vec<u8>>,
+    told: VecDeque<String>,
+    unasked: bool,
+    /// What the vehicle said last.
+    pub heard: Heard,
+    sticks: Sticks,
+    lost: Option<SimTime>,
+    next_sticks: SimTime,
+    next_beat: SimTime,
+    pending: Vec<Pending>,
+    aim_deg: Option<f32>,
+}
+
+impl Default for Link {
+    fn default() -> Self {
+        Self {
+            decoder: Decoder::new(),
+            encoder: Encoder::new(SYSTEM, COMPONENT),
+            out: VecDeque::new(),
+            told: VecDeque::new(),
+            unasked: true,
+            heard: Heard::default(),
+            sticks: Sticks::default(),
+            lost: Some(SimTime::ZERO - SimTime::from_s(NEUTRAL_S)),
+            next_sticks: SimTime::ZERO,
+            next_beat: SimTime::ZERO,
+            pending: Vec::new(),
+            aim_deg: None,
+        }
+    }
+}
+
+impl Link {
+    /// The sticks as they are; `None` when there is no device. Without a device from the start nothing is sent but heartbeats.
+    pub fn set_sticks(&mut self, sticks: Option<Sticks>, now: SimTime) {
+        match sticks {
+            Some(sticks) => {
+                if self.lost.take().is_some() {
+                    self.next_sticks = now;
+                }
+                self.sticks = sticks;
+            }
+            None => {
+                self.lost.get_or_insert(now);
+                self.sticks = Sticks::default();
+            }
+        }
+    }
+
+    /// A datagram of the vehicle.
+    pub fn receive(&mut self, bytes: &[u8]) {
+        for frame in self.decoder.datagram(bytes) {
+            match frame.message {
+                Some(MavMessage::HEARTBEAT(beat)) if frame.component_id == AUTOPILOT => {
+                    self.heard.system = Some(frame.system_id);
+                    self.heard.autopilot = Some(beat.autopilot);
+                    self.heard.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
+                }
+                Some(MavMessage::ILLUMINATOR_STATUS(status)) => self.heard.lamp = status.enable != 0,
+                Some(MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(status)) => {
+                    let attitude = crate::base::frames::Rotation::<crate::base::frames::Frd, crate::base::frames::Ned>::from_wxyz(
+                        status.q.map(f64::from),
+                    );
+                    self.heard.gimbal_deg = attitude.map(|q| q.euler().1.to_degrees() as f32);
+                }
+                Some(MavMessage::COMMAND_ACK(ack)) if ack.target_system == SYSTEM || ack.target_system == 0 => {
+                    self.answered(ack.command, ack.result)
+                }
+                Some(MavMessage::STATUSTEXT(text)) => {
+                    if let Ok(words) = text.text.to_str() {
+                        self.told.push_back(words.to_owned());
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn answered(&mut self, command: MavCmd, result: MavResult) {
+        if result == MavResult::MAV_RESULT_IN_PROGRESS {
+            return;
+        }
+        if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
+            let done = self.pending.remove(k);
+            if result != MavResult::MAV_RESULT_ACCEPTED {
+                let name = result_name(result);
+                self.told.push_back(format!("{}: {name}", done.what));
+            }
+        }
+    }
+
+    /// Asks the vehicle for something. Without a vehicle it says so.
+    pub fn act(&mut self, action: Action, now: SimTime) {
+        let Some(system) = self.heard.system else {
+            self.told.push_back(format!("{}: no vehicle has been heard yet", action.name()));
+            return;
+        };
+        let (component, command, params) = self.wish(action);
+        let command = COMMAND_LONG_DATA {
+            command,
+            param1: params[0],
+            param2: params[1],
+            param3: params[2],
+            param4: params[3],
+            param5: params[4],
+            param6: params[5],
+            param7: params[6],
+            target_system: system,
+            target_component: component,
+            confirmation: 0,
+        };
+        // A newer wish of the same kind takes the place of an older one.
+        self.pending.retain(|p| p.command.command != command.command);
+        self.pending.push(Pending { what: action.name(), command, sent: 0, next: now });
+    }
+
+    /// What the buttons depend on is asked for once there is a vehicle.
+    fn ask_for_streams(&mut self, now: SimTime) {
+        let Some(system) = self.heard.system.filter(|_| self.unasked) else { return };
+        self.unasked = false;
+        for (id, rate_hz) in STREAMS {
+            let command = COMMAND_LONG_DATA {
+                command: MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL,
+                param1: id as f32,
+                param2: 1e6 / rate_hz,
+                target_system: system,
+                target_component: AUTOPILOT,
+                ..COMMAND_LONG_DATA::default()
+            };
+            self.pending.push(Pending { what: "telling of lamp and gimbal", command, sent: 0, next: now });
+        }
+    }
+
+    fn wish(&mut self, action: Action) -> (u8, MavCmd, [f32; 7]) {
+        use MavCmd as M;
+        const NAN: f32 = f32::NAN;
+        let one = |value: f32| [value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        match action {
+            Action::Lamp => (AUTOPILOT, M::MAV_CMD_ILLUMINATOR_ON_OFF, one(if self.heard.lamp { 0.0 } else { 1.0 })),
+            Action::Snapshot => (CAMERA, M::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0, 0.0, NAN, NAN, NAN]),
+            Action::Arm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)),
+            Action::Disarm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(0.0)),
+            Action::TakeOff => (AUTOPILOT, M::MAV_CMD_NAV_TAKEOFF, [NAN; 7]),
+            Action::Land => (AUTOPILOT, M::MAV_CMD_NAV_LAND, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
+            Action::Return => (AUTOPILOT, M::MAV_CMD_NAV_RETURN_TO_LAUNCH, [0.0; 7]),
+            Action::Hold => (AUTOPILOT, M::MAV_CMD_NAV_LOITER_UNLIM, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
+            Action::Position => self.position(),
+            Action::GimbalUp => self.aim(GIMBAL_STEP_DEG),
+            Action::GimbalDown => self.aim(-GIMBAL_STEP_DEG),
+        }
+    }
+
+    /// The mode in which sticks command velocity, each autopilot by its own number, any other by the standard's.
+    fn position(&self) -> (u8, MavCmd, [f32; 7]) {
+        let (command, [a, b]) = match self.heard.autopilot {
+            Some(MavAutopilot::MAV_AUTOPILOT_PX4) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, PX4_POSITION]),
+            Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, COPTER_POSHOLD]),
+            _ => (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, [MavStandardMode::MAV_STANDARD_MODE_POSITION_HOLD as u32 as f32, 0.0]),
+        };
+        (AUTOPILOT, command, [a, b, 0.0, 0.0, 0.0, 0.0, 0.0])
+    }
+
+    fn aim(&mut self, step: f32) -> (u8, MavCmd, [f32; 7]) {
+        let from = self.aim_deg.or(self.heard.gimbal_deg).unwrap_or(0.0);
+        let to = (from + step).clamp(-90.0, 90.0);
+        self.aim_deg = Some(to);
+        (AUTOPILOT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, f32::NAN, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
+    }
+
+    /// Queues what is due by now. Call it at least every [`STICKS_EVERY_S`].
+    pub fn handle_timeout(&mut self, now: SimTime) {
+        self.ask_for_streams(now);
+        if now >= self.next_beat {
+            self.next_beat = now + SimTime::from_s(HEARTBEAT_EVERY_S);
+            self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
+                mavtype: MavType::MAV_TYPE_GCS,
+                autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
+                mavlink_version: 3,
+                ..HEARTBEAT_DATA::default()
+            }));
+        }
+        let pilot = self.lost.is_none_or(|since| (now - since).s() < NEUTRAL_S);
+        if pilot && now >= self.next_sticks {
+            self.next_sticks = (self.next_sticks + SimTime::from_s(STICKS_EVERY_S)).max(now);
+            self.send_sticks();
+        }
+        self.send_commands(now);
+    }
+
+    fn send_sticks(&mut self) {
+        let Some(target) = self.heard.system else { return };
+        let scale = |value: f64| (value.clamp(-1.0, 1.0) * 1000.0).round() as i16;
+        let s = self.sticks;
+        // Throttle's middle is 500, its ends 0 and 1000: PX4's, ArduPilot's and QGroundControl's convention.
+        let z = (500.0 + 500.0 * s.up.clamp(-1.0, 1.0)).round() as i16;
+        self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
+            target,
+            x: scale(s.forward),
+            y: scale(s.right),
+            z,
+            r: scale(s.yaw),
+            ..MANUAL_CONTROL_DATA::default()
+        }));
+    }
+
+    fn send_commands(&mut self, now: SimTime) {
+        let mut pending = std::mem::take(&mut self.pending);
+        pending.retain_mut(|p| {
+            if now < p.next {
+                return true;
+            }
+            if p.sent == TIMES {
+                self.told.push_back(format!("{}: the vehicle does not answer", p.what));
+                return false;
+            }
+            p.command.confirmation = p.sent;
+            (p.sent, p.next) = (p.sent + 1, now + SimTime::from_s(AGAIN_S));
+            let bytes = self.encoder.encode(&MavMessage::COMMAND_LONG(p.command.clone()));
+            self.out.push_back(bytes);
+            true
+        });
+        self.pending = pending;
+    }
+
+    fn send(&mut self, message: &MavMessage) {
+        let bytes = self.encoder.encode(message);
+        self.out.push_back(bytes);
+    }
+
+    /// The next datagram to send.
+    pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
+        self.out.pop_front()
+    }
+
+    /// The next thing to tell the person: refusals, silence, the vehicle's own words.
+    pub fn poll_told(&mut self) -> Option<String> {
+        self.told.pop_front()
+    }
+}
+
+fn result_name(result: MavResult) -> &'static str {
+    match result {
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED => "not now",
+        MavResult::MAV_RESULT_DENIED => "denied",
+        MavResult::MAV_RESULT_UNSUPPORTED => "the vehicle has no such thing",
+        MavResult::MAV_RESULT_CANCELLED => "cancelled",
+        _ => "failed",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(s: f64) -> SimTime {
+        SimTime::from_s(s)
+    }
+
+    fn known() -> Link {
+        let mut link = Link::default();
+        let beat =
+            MavMessage::HEARTBEAT(HEARTBEAT_DATA { autopilot: MavAutopilot::MAV_AUTOPILOT_PX4, ..HEARTBEAT_DATA::default() });
+        link.receive(&Encoder::new(1, 1).encode(&beat));
+        link.handle_timeout(SimTime::ZERO);
+        let asked: Vec<_> = std::iter::from_fn(|| link.poll_transmit()).collect();
+        assert_eq!(asked.len(), 1 + STREAMS.len(), "a heartbeat and what the buttons depend on");
+        link.pending.clear();
+        link
+    }
+
+    /// What is sent between two times, seen every millisecond.
+    fn sent(link: &mut Link, from: f64, to: f64) -> Vec<MavMessage> {
+        let mut decoder = Decoder::new();
+        let mut found = Vec::new();
+        for ms in (from * 1000.0) as i64..(to * 1000.0) as i64 {
+            link.handle_timeout(SimTime::from_us(ms * 1000));
+            while let Some(bytes) = link.poll_transmit() {
+                found.extend(decoder.datagram(&bytes).into_iter().filter_map(|frame| frame.message));
+            }
+        }
+        found
+    }
+
+    fn sticks(messages: &[MavMessage]) -> Vec<(i16, i16, i16, i16)> {
+        messages
+            .iter()
+            .filter_map(|m| if let MavMessage::MANUAL_CONTROL(c) = m { Some((c.x, c.y, c.z, c.r)) } else { None })
+            .collect()
+    }
+
+    #[test]
+    fn exact_sticks_go_out_fifty_times_a_second() {
+        let mut link = known();
+        link.set_sticks(Some(Sticks { forward: 1.0, right: -0.5, up: -1.0, yaw: 0.25 }), at(0.0));
+        assert_eq!(sticks(&sent(&mut link, 0.0, 1.0)), vec![(1000, -500, 0, 250); 50]);
+    }
+
+    #[test]
+    fn exact_a_lost_device_is_neutral_and_then_silent_and_comes_back() {
+        let mut link = known();
+        link.set_sticks(Some(Sticks { forward: 1.0, ..Sticks::default() }), at(0.0));
+        sent(&mut link, 0.0, 0.1);
+        for ms in 100..2000 {
+            link.set_sticks(None, SimTime::from_us(ms * 1000));
+        }
+        let after = sticks(&sent(&mut link, 0.1, 2.0));
+        assert_eq!(after, vec![(0, 0, 500, 0); (NEUTRAL_S / STICKS_EVERY_S) as usize]);
+        link.set_sticks(Some(Sticks { up: 1.0, ..Sticks::default() }), at(2.0));
+        assert_eq!(sticks(&sent(&mut link, 2.0, 2.1)), vec![(0, 0, 1000, 0); 5]);
+    }
+
+    #[test]
+    fn exact_nobody_pretends_to_have_sticks() {
+        let mut link = known();
+        let messages = sent(&mut link, 0.0, 2.0);
+        assert!(messages.iter().all(|m| matches!(m, MavMessage::HEARTBEAT(_))), "{messages:?}");
+        assert_eq!(messages.len(), 1);
+    }
+
+    #[test]
+    fn exact_a_command_is_said_until_it_is_answered() {
+        let mut link = known();
+        link.act(Action::Lamp, at(0.0));
+        let count = |messages: &[MavMessage]| messages.iter().filter(|m| matches!(m, MavMessage::COMMAND_LONG(_))).count();
+        assert_eq!(count(&sent(&mut link, 0.0, 1.1)), 3);
+        let ack = MavMessage::COMMAND_ACK(crate::mav::dialect::COMMAND_ACK_DATA {
+            command: MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF,
+            result: MavResult::MAV_RESULT_DENIED,
+            target_system: SYSTEM,
+            ..Default::default()
+        });
+        link.receive(&Encoder::new(1, 1).encode(&ack));
+        assert_eq!(count(&sent(&mut link, 1.1, 5.0)), 0);
+        assert_eq!(link.poll_told().as_deref(), Some("lamp: denied"));
+        link.act(Action::Snapshot, at(5.0));
+        assert_eq!(count(&sent(&mut link, 5.0, 20.0)), usize::from(TIMES));
+        assert_eq!(link.poll_told().as_deref(), Some("snapshot: the vehicle does not answer"));
+        let mut alone = Link::default();
+        alone.act(Action::Arm, at(0.0));
+        assert_eq!(alone.poll_told().as_deref(), Some("arm: no vehicle has been heard yet"));
+    }
+}
