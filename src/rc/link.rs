@@ -231,7 +231,7 @@ impl Link {
         (AUTOPILOT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, f32::NAN, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
     }
 
-    /// Queues what is due by now. Call it at least every [`STICKS_EVERY_S`].
+    /// Queues what is due by now. Call it at least every 50 times a second.
     pub fn handle_timeout(&mut self, now: SimTime) {
         self.ask_for_streams(now);
         if now >= self.next_beat {
