@@ -11,6 +11,7 @@ pub mod mav;
 pub mod monitor;
 pub mod pilot;
 pub mod rc;
+pub mod report;
 pub mod scenario;
 pub mod site;
 pub mod sitl;

@@ -28,6 +28,7 @@ mod progress;
 mod questionnaire;
 mod rc;
 mod records;
+mod report;
 mod serial;
 mod session_folder;
 mod shell;
@@ -71,6 +72,7 @@ enum Command {
     Records(records::Args),
     Plan(plan::Args),
     Cohort(cohort::Args),
+    Report(report::Args),
     Check(check::Args),
 }
 
@@ -92,6 +94,7 @@ pub fn main() -> ExitCode {
         Command::Records(args) => records::run(args),
         Command::Plan(args) => plan::run(args),
         Command::Cohort(args) => cohort::run(args),
+        Command::Report(args) => report::run(args),
         Command::Check(args) => check::run(args),
     };
     match done {

@@ -7,6 +7,7 @@ use super::files::{self, ScenarioFile, VehicleFile};
 use super::net::{Arrival, Hub, SocketId};
 use super::pace::Speed;
 use super::progress::Progress;
+use super::report;
 use super::session_folder::{SessionFolder, Stored};
 use super::stop::Stop;
 use super::table;
@@ -251,9 +252,13 @@ impl Shell {
         let graded = self.outcome()?;
         let json = export::json_text(&graded.assessment);
         self.folder.assessment(&json)?;
+        // The scores stand; a page that cannot be written can be made later.
+        if let Err(error) = report::write(self.folder.path()) {
+            tracing::warn!("no report was written: {error}");
+        }
         if !announce {
             print!("{}", table::scores(&json!(graded.assessment)));
-            println!("session       {}", self.folder.path().display());
+            table::places(self.folder.path());
         }
         Ok(())
     }

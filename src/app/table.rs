@@ -1,7 +1,19 @@
 //! The assessment for people, from its JSON: the numbers are rounded here and nowhere before.
 
+use super::report;
+use crate::monitor::folder::REPORT;
 use serde_json::Value;
 use std::fmt::Write;
+use std::path::Path;
+
+/// Prints where a session lies, and its report's address.
+pub fn places(session: &Path) {
+    println!("session       {}", session.display());
+    let page = session.join(REPORT);
+    if page.is_file() {
+        println!("report        {}", report::address(&page));
+    }
+}
 
 /// The scores, tasks, crashes, pictures and the end of one session.
 pub fn scores(assessment: &Value) -> String {

@@ -98,7 +98,7 @@ pub fn tell(session: &Path) -> Result<(), AppError> {
         .map_err(|_| AppError::failed(format!("the session was not scored; what was recorded is in {}", session.display())))?;
     let assessment = serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: {error}", path.display())))?;
     print!("{}", table::scores(&assessment));
-    println!("session       {}", session.display());
+    table::places(session);
     Ok(())
 }
 

@@ -16,6 +16,10 @@ pub const SESSION: &str = "session.json";
 pub const EVENTS: &str = "events.jsonl";
 /// Scores.
 pub const ASSESSMENT: &str = "assessment.json";
+/// The page for people.
+pub const REPORT: &str = "report.html";
+/// Folder of the photographs.
+pub const SNAPSHOTS: &str = "snapshots";
 
 /// `session.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]

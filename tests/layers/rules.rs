@@ -15,7 +15,8 @@ const TABLE: &[(&str, &[&str])] = &[
     ("pilot", &["base", "mav", "scenario", "vehicle", "site", "telemetry"]),
     ("training", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "monitor"]),
     ("rc", &["base", "mav"]),
-    ("app", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "sitl", "monitor", "pilot", "rc", "training"]),
+    ("report", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "monitor", "training"]),
+    ("app", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "sitl", "monitor", "pilot", "rc", "training", "report"]),
 ];
 
 /// What only the shells may touch: sockets, files, clocks, threads, processes, terminals.

@@ -3,9 +3,12 @@
 mod cut;
 mod feedback;
 mod hostile;
+#[path = "../support/inspection.rs"]
+mod inspection;
 #[path = "../support/job.rs"]
 mod job;
 mod link;
 mod live;
 mod output;
+mod report;
 mod shipped;

@@ -1,0 +1,42 @@
+//! The report of a 25-minute session: how long reading, working out and writing take, and how large the page is. Prints against the ceilings.
+
+#[path = "../tests/support/inspection.rs"]
+mod inspection;
+#[path = "../tests/support/job.rs"]
+mod job;
+
+use spandrel::report::{About, Review, page};
+use std::time::Duration;
+
+/// The ceilings.
+const CEILING: Duration = Duration::from_secs(2);
+const LARGEST: usize = 10_000_000;
+const FLIGHT_S: f64 = 1480.0;
+const ROUNDS: usize = 3;
+
+#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+fn main() {
+    let (scenario, vehicle) = (inspection::two_bridges(), inspection::phantom());
+    let log = inspection::flown(&scenario, FLIGHT_S, 17).log(0);
+    let mut best = (Duration::MAX, Duration::MAX, 0, 0);
+    for _ in 0..ROUNDS {
+        let start = std::time::Instant::now();
+        let Ok(review) = Review::of(&log, &scenario, &vehicle, About::default()) else { return };
+        let worked_out = start.elapsed();
+        let page = page::session(&review);
+        if start.elapsed() < best.1 {
+            best = (worked_out, start.elapsed(), page.len(), review.pictures.len());
+        }
+    }
+    let (worked_out, whole, size, pictures) = best;
+    let kept = |holds: bool| if holds { "kept" } else { "EXCEEDED" };
+    println!("log: {:.1} MB, {pictures} pictures", log.len() as f64 / 1e6);
+    println!(
+        "report: {:.2} s ({:.2} s of it reading and working out); ceiling {:.0} s: {}",
+        whole.as_secs_f64(),
+        worked_out.as_secs_f64(),
+        CEILING.as_secs_f64(),
+        kept(whole <= CEILING)
+    );
+    println!("page: {:.2} MB; ceiling 10 MB: {}", size as f64 / 1e6, kept(size <= LARGEST));
+}

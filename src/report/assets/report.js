@@ -1,0 +1,361 @@
+// What moves in a report: the slider with the drone on every drawing, the curves, the model that can be turned. All words come from the page or
+// go in as text, never as markup.
+(function () {
+  'use strict';
+  const byId = (id) => document.getElementById(id);
+  const all = (selector) => Array.from(document.querySelectorAll(selector));
+  const block = byId('flight-data');
+  if (!block) return;
+  const data = JSON.parse(block.textContent);
+  const s = data.series;
+  const count = s.t.length;
+  if (count === 0) return;
+  const end = s.t[count - 1];
+  let now = 0;
+  const listeners = [];
+
+  const clock = (t) => {
+    const whole = Math.max(0, Math.round(t));
+    return Math.floor(whole / 60) + ':' + String(whole % 60).padStart(2, '0');
+  };
+  const number = (value, digits, unit) => (value === null ? '–' : value.toFixed(digits) + ' ' + unit);
+  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const indexAt = (t) => {
+    let low = 0, high = count - 1;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (s.t[middle] < t) low = middle + 1; else high = middle;
+    }
+    return low > 0 && t - s.t[low - 1] < s.t[low] - t ? low - 1 : low;
+  };
+  const taskName = (i) => (s.task[i] === null ? '–' : data.tasks[s.task[i]].id + ' · ' + data.tasks[s.task[i]].name);
+  const pathWords = (i) => ['between tasks', 'off path', 'on path'][s.state[i]];
+
+  // The slider.
+  const slider = byId('moment');
+  const drones = all('.drone').map((node) => ({ node, m: node.dataset.matrix.split(' ').map(Number) }));
+  const cursors = all('.cursor');
+  const readout = {
+    task: taskName,
+    state: pathWords,
+    distance: (i) => number(s.distance[i], 1, 'm'),
+    speed: (i) => number(s.speed[i], 1, 'm/s'),
+    clearance: (i) => number(s.clearance[i], 1, 'm'),
+    battery: (i) => number(s.battery[i], 0, '%'),
+  };
+  function show(index) {
+    now = Math.min(count - 1, Math.max(0, index));
+    const e = s.e[now], n = s.n[now], u = s.u[now];
+    for (const { node, m } of drones) {
+      const x = m[0] * e + m[1] * n + m[2] * u + m[3];
+      const y = m[4] * e + m[5] * n + m[6] * u + m[7];
+      node.setAttribute('transform', 'translate(' + x.toFixed(1) + ' ' + y.toFixed(1) + ')');
+    }
+    for (const cursor of cursors) {
+      const left = Number(cursor.dataset.left), right = Number(cursor.dataset.right);
+      cursor.setAttribute('transform', 'translate(' + (left + (right - left) * (end > 0 ? s.t[now] / end : 0)).toFixed(1) + ' 0)');
+    }
+    slider.value = String(now);
+    slider.setAttribute('aria-valuetext', clock(s.t[now]) + ', task ' + taskName(now) + ', ' + pathWords(now));
+    byId('moment-text').textContent = clock(s.t[now]);
+    for (const key of Object.keys(readout)) byId('now-' + key).textContent = readout[key](now);
+    byId('now-task').title = taskName(now);
+    for (const listener of listeners) listener(now);
+  }
+  slider.max = String(count - 1);
+  slider.addEventListener('input', () => { stop(); show(Number(slider.value)); });
+  byId('run').hidden = false;
+  byId('readout').hidden = false;
+  document.body.classList.add('live');
+
+  // Playing: eight times as fast as it was flown.
+  const play = byId('play');
+  let timer = null;
+  function stop() {
+    if (timer !== null) cancelAnimationFrame(timer);
+    timer = null;
+    play.textContent = 'Play';
+    play.setAttribute('aria-pressed', 'false');
+  }
+  play.addEventListener('click', () => {
+    if (timer !== null) { stop(); return; }
+    if (now >= count - 1) show(0);
+    let before = null, t = s.t[now];
+    const step = (at) => {
+      t += before === null ? 0 : (at - before) / 1000 * 8;
+      before = at;
+      show(indexAt(t));
+      if (t >= end) { stop(); return; }
+      timer = requestAnimationFrame(step);
+    };
+    play.textContent = 'Pause';
+    play.setAttribute('aria-pressed', 'true');
+    timer = requestAnimationFrame(step);
+  });
+
+  // The curves.
+  let charts = [];
+  const limits = {
+    speed: () => s.t.map(() => data.limits.speed),
+    distance: () => s.task.map((task) => (task === null ? null : data.tasks[task].within)),
+    clearance: () => s.t.map(() => data.limits.close),
+  };
+  function chart(host) {
+    const columns = host.dataset.columns.split(' ');
+    const own = ['--s1', '--s2', '--s3', '--s4'];
+    const axis = { stroke: colour('--faint'), grid: { stroke: colour('--grid'), width: 1 }, ticks: { stroke: colour('--grid'), width: 1 }, font: '12px system-ui, sans-serif' };
+    const series = [{}], values = [s.t];
+    columns.forEach((name, k) => {
+      series.push({ stroke: colour(own[k]), width: columns.length > 1 ? 1.2 : 1.6, points: { show: false } });
+      values.push(s[name]);
+    });
+    const limit = limits[columns[0]];
+    if (limit) {
+      series.push({ stroke: colour('--off'), width: 1.5, dash: [6, 4], points: { show: false } });
+      values.push(limit());
+    }
+    const range = { battery: [0, 100], fb: [-1, 1] }[columns[0]];
+    const most = { distance: 20, clearance: 20 }[columns[0]];
+    const plot = new uPlot({
+      width: host.clientWidth, height: 132, legend: { show: false }, cursor: { y: false, points: { show: false }, drag: { x: true, y: false }, sync: { key: 'flight' } },
+      scales: { x: { time: false }, y: { range: range || ((u, low, high) => [0, Math.max(1, most ? Math.min(most, high) : high) * 1.05]) } },
+      axes: [Object.assign({ values: (u, ticks) => ticks.map(clock), size: 30 }, axis), Object.assign({ size: 44 }, axis)],
+      series,
+    }, values, host);
+    const mark = document.createElement('div');
+    mark.className = 'now';
+    plot.over.appendChild(mark);
+    plot.over.addEventListener('click', () => {
+      if (plot.cursor.left >= 0) { stop(); show(plot.cursor.idx ?? now); }
+    });
+    const follow = () => {
+      const x = plot.valToPos(s.t[now], 'x');
+      mark.hidden = x < 0 || x > plot.over.clientWidth;
+      mark.style.transform = 'translateX(' + x.toFixed(1) + 'px)';
+    };
+    plot.hooks.setScale = [follow];
+    return { plot, host, follow };
+  }
+  const hosts = all('.chart');
+  function draw() {
+    for (const { plot } of charts) plot.destroy();
+    charts = hosts.filter((host) => host.clientWidth > 0).map(chart);
+    for (const { follow } of charts) follow();
+  }
+  listeners.push(() => { for (const { follow } of charts) follow(); });
+  new ResizeObserver(() => {
+    for (const { plot, host, follow } of charts) {
+      if (host.clientWidth > 0 && host.clientWidth !== plot.width) { plot.setSize({ width: host.clientWidth, height: 132 }); follow(); }
+    }
+  }).observe(document.body);
+  const repaint = () => { draw(); if (model) model.paint(); };
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
+  addEventListener('beforeprint', () => { document.documentElement.dataset.theme = 'light'; repaint(); });
+  addEventListener('afterprint', () => { delete document.documentElement.dataset.theme; repaint(); });
+
+  // The series as a file, made here and handed to the browser.
+  const csv = byId('series-csv');
+  csv.hidden = false;
+  csv.addEventListener('click', () => {
+    const names = Object.keys(s);
+    const heads = { t: 't_s', e: 'east_m', n: 'north_m', u: 'up_m', speed: 'speed_m_s', distance: 'distance_m', clearance: 'clearance_m', battery: 'battery_pct', task: 'task', state: 'path' };
+    const cell = (name, i) => {
+      if (name === 'task') return s.task[i] === null ? '' : data.tasks[s.task[i]].id;
+      if (name === 'state') return pathWords(i);
+      return s[name][i] ?? '';
+    };
+    const lines = s.t.map((_, i) => names.map((name) => cell(name, i)).join(','));
+    const text = names.map((name) => heads[name] || name).join(',') + '\n' + lines.join('\n') + '\n';
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([text], { type: 'text/csv' }));
+    link.download = 'series.csv';
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  });
+
+  // The model. Its library lies in the page as text and is started only when somebody asks for it.
+  let model = null;
+  const open = byId('model-open');
+  const probe = document.createElement('canvas').getContext('webgl2');
+  if (probe) {
+    open.hidden = false;
+    const lose = probe.getExtension('WEBGL_lose_context');
+    if (lose) lose.loseContext();
+  }
+  const address = (text) => URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
+  async function library() {
+    const module = byId('three-module');
+    const core = address(byId('three-core').textContent);
+    return import(address(module.textContent.replaceAll(module.dataset.core, core)));
+  }
+  open.addEventListener('click', async () => {
+    open.disabled = true;
+    const three = await library();
+    byId('model-live').hidden = false;
+    byId('model-note').hidden = false;
+    model = turnable(three, byId('model-live'));
+    byId('model-still').hidden = true;
+    open.hidden = true;
+    listeners.push(model.follow);
+    model.follow(now);
+  });
+
+  function bytes(text) {
+    const raw = atob(text), out = new Uint8Array(raw.length);
+    for (let k = 0; k < raw.length; k++) out[k] = raw.charCodeAt(k);
+    return new Uint16Array(out.buffer);
+  }
+
+  function turnable(T, host) {
+    // The site's east, north, up become x, -z, y.
+    const place = (p) => new T.Vector3(p[0], p[2], -p[1]);
+    const scene = new T.Scene();
+    const camera = new T.PerspectiveCamera(42, 1, 0.5, 4000);
+    const renderer = new T.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    const canvas = renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', 'Model of the site with the flight; arrow keys turn it, plus and minus change the distance');
+    host.appendChild(canvas);
+    const sun = new T.DirectionalLight(0xffffff, 1.6);
+    sun.position.set(-0.5, 1, 0.7);
+    const sky = new T.HemisphereLight(0xffffff, 0x777770, 1.5);
+    scene.add(sun, sky);
+
+    // The bridges.
+    const mesh = data.mesh, corners = bytes(mesh.corners);
+    const points = new Float32Array(corners.length);
+    for (let k = 0; k < corners.length; k += 3) {
+      points[k] = mesh.origin[0] + mesh.step * corners[k];
+      points[k + 1] = mesh.origin[2] + mesh.step * corners[k + 2];
+      points[k + 2] = -(mesh.origin[1] + mesh.step * corners[k + 1]);
+    }
+    const solid = new T.BufferGeometry();
+    solid.setAttribute('position', new T.BufferAttribute(points, 3));
+    solid.setIndex(new T.BufferAttribute(bytes(mesh.triangles), 1));
+    const structure = new T.Mesh(solid, new T.MeshLambertMaterial({ flatShading: true, side: T.DoubleSide }));
+    scene.add(structure);
+
+    // Ground and water.
+    const g = data.ground, relief = new T.PlaneGeometry(2 * g.half, 2 * g.half, g.side - 1, g.side - 1);
+    const heights = relief.getAttribute('position');
+    for (let row = 0; row < g.side; row++) {
+      for (let column = 0; column < g.side; column++) {
+        // The plane's rows run from north to south.
+        heights.setZ((g.side - 1 - row) * g.side + column, g.heights[row * g.side + column]);
+      }
+    }
+    const ground = new T.Mesh(relief, new T.MeshLambertMaterial({ flatShading: true }));
+    ground.rotation.x = -Math.PI / 2;
+    const water = new T.Mesh(new T.PlaneGeometry(2 * g.half, 2 * g.half), new T.MeshLambertMaterial({ transparent: true, opacity: 0.85 }));
+    water.rotation.x = -Math.PI / 2;
+    water.position.y = g.water;
+    scene.add(ground, water);
+
+    // Paths and the flight.
+    const line = (list, material) => new T.Line(new T.BufferGeometry().setFromPoints(list), material);
+    const pathStyle = new T.LineDashedMaterial({ dashSize: 2, gapSize: 1.4 });
+    for (const task of data.tasks) {
+      const way = task.path.map(place);
+      if (task.closed && way.length) way.push(way[0]);
+      const drawn = line(way, pathStyle);
+      drawn.computeLineDistances();
+      scene.add(drawn);
+    }
+    const flown = s.t.map((_, i) => new T.Vector3(s.e[i], s.u[i], -s.n[i]));
+    const track = line(flown, new T.LineBasicMaterial({ vertexColors: true }));
+    track.geometry.setAttribute('color', new T.BufferAttribute(new Float32Array(3 * count), 3));
+    scene.add(track);
+    // Lines are a pixel wide on most machines: dots along it make it thicker.
+    scene.add(new T.Points(track.geometry, new T.PointsMaterial({ size: 3.5, sizeAttenuation: false, vertexColors: true })));
+    const shared = {};
+    const ball = (at, kind, radius) => {
+      shared[kind] = shared[kind] || new T.MeshBasicMaterial();
+      const node = new T.Mesh(new T.SphereGeometry(radius, 14, 10), shared[kind]);
+      node.position.copy(place(at));
+      scene.add(node);
+      return node;
+    };
+    for (const at of data.crashes) ball(at, 'crash', 0.9);
+    for (const picture of data.pictures) ball(picture.at, picture.verdict, 0.9);
+    for (const defect of data.defects) ball(defect.at, defect.found ? 'found' : 'missed', 0.5);
+    const drone = ball([s.e[0], s.n[0], s.u[0]], 'drone', 1.1);
+
+    const speedColours = ['--q1', '--q2', '--q3', '--q4', '--bad-fill'];
+    const clearColours = ['--between', '--c4', '--c3', '--c2', '--c1'];
+    const stateColours = ['--between', '--off', '--on'];
+    const choose = {
+      'by-path': (i) => stateColours[s.state[i]],
+      'by-speed': (i) => speedColours[s.speed[i] > data.limits.speed ? 4 : Math.min(3, Math.max(0, Math.ceil(s.speed[i] / data.limits.speed * 4) - 1))],
+      'by-clearance': (i) => clearColours[s.clearance[i] === null ? 0 : 4 - data.limits.clearances.filter((limit) => s.clearance[i] >= limit).length],
+    };
+    function paint() {
+      const paintOf = (name) => new T.Color(colour(name));
+      scene.background = paintOf('--page');
+      structure.material.color = paintOf('--steel');
+      ground.material.color = paintOf('--ground');
+      water.material.color = paintOf('--water');
+      pathStyle.color = paintOf('--path');
+      const styles = { crash: '--bad-fill', 'v-hit': '--good-fill', 'v-repeat': '--good-fill', 'v-near': '--warn-fill', 'v-false': '--bad-fill', found: '--good', missed: '--bad', drone: '--ink' };
+      for (const kind of Object.keys(shared)) shared[kind].color = paintOf(styles[kind]);
+      const chosen = choose[document.querySelector('input[name="colouring"]:checked').value];
+      const known = {}, colours = track.geometry.getAttribute('color');
+      for (let i = 0; i < count; i++) {
+        const name = chosen(i);
+        const c = known[name] = known[name] || paintOf(name);
+        colours.setXYZ(i, c.r, c.g, c.b);
+      }
+      colours.needsUpdate = true;
+      render();
+    }
+    all('input[name="colouring"]').forEach((input) => input.addEventListener('change', paint));
+
+    // Turning: around a point in the middle of the bridges.
+    const box = new T.Box3().setFromObject(structure.geometry.getAttribute('position').count ? structure : track);
+    const target = box.getCenter(new T.Vector3());
+    let yaw = 0.5, pitch = 0.42, distance = Math.max(30, box.getSize(new T.Vector3()).length() * 0.62);
+    function render() {
+      const flat = Math.cos(pitch) * distance;
+      camera.position.set(target.x - Math.sin(yaw) * flat, target.y + Math.sin(pitch) * distance, target.z + Math.cos(yaw) * flat);
+      camera.lookAt(target);
+      renderer.render(scene, camera);
+    }
+    function turn(dyaw, dpitch, factor) {
+      yaw += dyaw;
+      pitch = Math.min(1.5, Math.max(-0.1, pitch + dpitch));
+      distance = Math.min(1500, Math.max(5, distance * factor));
+      render();
+    }
+    let held = null;
+    canvas.addEventListener('pointerdown', (event) => { held = [event.clientX, event.clientY]; canvas.setPointerCapture(event.pointerId); });
+    canvas.addEventListener('pointermove', (event) => {
+      if (!held) return;
+      turn((event.clientX - held[0]) * 0.006, (event.clientY - held[1]) * 0.006, 1);
+      held = [event.clientX, event.clientY];
+    });
+    canvas.addEventListener('pointerup', () => { held = null; });
+    canvas.addEventListener('wheel', (event) => { event.preventDefault(); turn(0, 0, Math.exp(event.deltaY * 0.001)); }, { passive: false });
+    const keys = { ArrowLeft: [-0.08, 0, 1], ArrowRight: [0.08, 0, 1], ArrowUp: [0, 0.06, 1], ArrowDown: [0, -0.06, 1], '+': [0, 0, 0.88], '=': [0, 0, 0.88], '-': [0, 0, 1.14] };
+    canvas.addEventListener('keydown', (event) => {
+      const by = keys[event.key];
+      if (by) { event.preventDefault(); turn(by[0], by[1], by[2]); }
+    });
+    function fit() {
+      const width = host.clientWidth, height = host.clientHeight;
+      if (width === 0 || height === 0) return;
+      renderer.setSize(width, height);
+      camera.aspect = width / height;
+      camera.updateProjectionMatrix();
+      render();
+    }
+    new ResizeObserver(fit).observe(host);
+    const follow = (i) => { drone.position.set(s.e[i], s.u[i], -s.n[i]); render(); };
+    fit();
+    paint();
+    return { paint, follow };
+  }
+
+  draw();
+  show(0);
+})();

@@ -1,0 +1,165 @@
+//! A finished session made into one page that opens offline: [`Review::of`] reads the telemetry again by the scorer's own code and works out
+//! what the page tells, [`page::session`] writes it. Pure: bytes and names in, text out.
+//!
+//! Whatever a user wrote (names, titles) reaches the page through maud's escaping, the tables of [`table`] or the data block of
+//! [`page::series`], and through nothing else.
+
+pub mod assets;
+pub mod coverage;
+pub mod cues;
+pub mod defects;
+pub mod outline;
+pub mod page;
+pub mod pictures;
+pub mod plots;
+pub mod sketch;
+pub mod table;
+pub mod track;
+pub mod words;
+
+use crate::base::geodesy::LocalPlane;
+use crate::monitor::assessment::{Assessment, check_identity, scored_flight};
+use crate::monitor::measures::crash::{self, Crash};
+use crate::monitor::measures::on_path::{OnPath, Paths};
+use crate::monitor::{AssessError, Job, assess};
+use crate::scenario::Scenario;
+use crate::site::Site;
+use crate::telemetry::timeline::LinkCounts;
+use crate::telemetry::{Flight, Frame, Timeline};
+use crate::vehicle::Vehicle;
+
+/// What the folder says besides the flight itself.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct About {
+    /// Who flew.
+    pub trainee: String,
+    /// Wall time of simulation time zero, µs since the Unix epoch.
+    pub started_unix_us: u64,
+    /// The same for people, UTC.
+    pub started_utc: String,
+    /// Name of the session folder.
+    pub folder: String,
+    /// SHA-256 of the scenario file, hexadecimal.
+    pub scenario_sha256: String,
+    /// SHA-256 of the vehicle file, hexadecimal.
+    pub vehicle_sha256: String,
+    /// SHA-256 of the telemetry, hexadecimal.
+    pub telemetry_sha256: String,
+    /// Pictures by their running number in the folder, small enough to be shown as they are.
+    pub pictures: Vec<(u32, Jpeg)>,
+}
+
+/// A picture's file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Jpeg {
+    /// JPEG.
+    pub bytes: Vec<u8>,
+}
+
+/// Everything that a report tells of one session, worked out once.
+#[derive(Debug)]
+pub struct Review {
+    /// Who, when, which files.
+    pub about: About,
+    /// The job.
+    pub scenario: Scenario,
+    /// The aircraft.
+    pub vehicle: Vehicle,
+    /// The site of this session's seed.
+    pub site: Site,
+    /// Seed.
+    pub seed: u64,
+    /// The scores.
+    pub assessment: Assessment,
+    /// Frames 1 to N.
+    pub frames: Vec<Frame>,
+    /// Frame by frame, how the drone stood to the tasks.
+    pub track: Vec<track::Step>,
+    /// Windows and on-path frames.
+    pub on_path: OnPath,
+    /// Onsets of contact.
+    pub crashes: Vec<Crash>,
+    /// What each task's window holds.
+    pub tasks: Vec<track::TaskFacts>,
+    /// Feedback and what the trainee did.
+    pub feedback: cues::Said,
+    /// Pictures.
+    pub pictures: Vec<pictures::Picture>,
+    /// Defects.
+    pub defects: Vec<defects::Fate>,
+    /// Surface seen, by element.
+    pub coverage: coverage::Coverage,
+    /// What the link did.
+    pub link: LinkCounts,
+}
+
+impl Review {
+    /// Reads a session's telemetry again.
+    ///
+    /// # Errors
+    /// When the log is of another scenario or seed, or holds no session.
+    pub fn of(log: &[u8], scenario: &Scenario, vehicle: &Vehicle, about: About) -> Result<Self, AssessError> {
+        let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
+        timeline.push_log(log);
+        let flight = scored_flight(&timeline, scenario, vehicle);
+        if flight.truths.is_empty() {
+            return Err(AssessError::NoTruth);
+        }
+        let seed = check_identity(&flight, scenario, None)?;
+        let site = Site::build(scenario, seed);
+        let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: &site })?;
+        let paths = Paths::new(scenario);
+        let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
+        let scene = Scene { flight: &flight, frames: &frames, scenario, vehicle, site: &site };
+        let track = track::steps(&paths, &on_path, &scene);
+        let pictures = pictures::judged(&scene, &assessment, &track);
+        Ok(Self {
+            crashes: crash::crashes(&frames, &on_path),
+            tasks: track::tasks(&scene, &on_path, &track),
+            feedback: cues::said(log, &scene, &track),
+            defects: defects::fates(&scene, &assessment),
+            coverage: coverage::covered(&scene, &pictures),
+            link: timeline.counts(),
+            about,
+            scenario: scenario.clone(),
+            vehicle: vehicle.clone(),
+            seed,
+            assessment,
+            track,
+            on_path,
+            pictures,
+            frames,
+            site,
+        })
+    }
+
+    /// Flight time of a frame, s since lift-off.
+    #[must_use]
+    pub fn t_s(&self, frame: usize) -> f64 {
+        let first = self.frames.first().map_or(0.0, |frame| frame.time.s());
+        self.frames.get(frame).map_or(0.0, |frame| frame.time.s() - first)
+    }
+}
+
+/// What the parts of a review look at.
+#[derive(Debug, Clone, Copy)]
+pub struct Scene<'a> {
+    /// The flight.
+    pub flight: &'a Flight,
+    /// Its frames.
+    pub frames: &'a [Frame],
+    /// The job.
+    pub scenario: &'a Scenario,
+    /// The aircraft.
+    pub vehicle: &'a Vehicle,
+    /// The site.
+    pub site: &'a Site,
+}
+
+impl Scene<'_> {
+    /// Seconds since lift-off of a simulation time.
+    #[must_use]
+    pub fn since_lift_off_s(&self, time: crate::base::time::SimTime) -> f64 {
+        self.frames.first().map_or(0.0, |first| (time - first.time).s())
+    }
+}

@@ -1,0 +1,96 @@
+//! Two sessions side by side.
+
+use super::{document, figure, legend, summary};
+use crate::report::Review;
+use crate::report::plots::bars::{Row, shares};
+use crate::report::plots::radar::{Spoke, radar};
+use crate::report::table::{Cell, Table};
+use maud::html;
+
+/// The page that compares two sessions.
+#[must_use]
+pub fn comparison(first: &Review, second: &Review) -> String {
+    let both = [first, second];
+    let named = both.map(|review| summary::named(&review.assessment.scores));
+    let spokes: Vec<Spoke> = (0..4)
+        .map(|k| Spoke { name: named[0][k].0, values: named.iter().map(|scores| scores[k].1.map(|score| score.pct)).collect() })
+        .collect();
+    let same = first.scenario.tasks.len() == second.scenario.tasks.len() && first.scenario.crc == second.scenario.crc;
+    let key = [("dot-1", words_of(first)), ("dot-2", words_of(second))];
+    document(
+        "Comparison of two sessions",
+        None,
+        &html! {
+            header {
+                div {
+                    p.kicker { "Comparison of two sessions" }
+                    h1 { (first.scenario.title) }
+                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.about.trainee) } " · " (review.about.started_utc) " · " (review.vehicle.name) } }
+                }
+            }
+            main {
+                @if !same { p.note { "The sessions are of different jobs: their scores are only roughly comparable." } }
+                section aria-labelledby="scores-head" {
+                    h2 id="scores-head" { "Scores" }
+                    div.split {
+                        (figure("The four scores, first / second", &html! { (legend(&key)) (radar(&spokes, "Kiviat diagram of both sessions")) }))
+                        (table(first, second).shown())
+                    }
+                }
+                @if same {
+                    section aria-labelledby="tasks-head" {
+                        h2 id="tasks-head" { "Tasks" }
+                        (figure("Share of each task's time on the path", &html! { (legend(&key)) (shares(&rows(first, second), "On the path by task, both sessions")) }))
+                    }
+                }
+            }
+        },
+    )
+}
+
+fn words_of(review: &Review) -> String {
+    format!("{}, {}", review.about.trainee, review.about.started_utc)
+}
+
+fn rows(first: &Review, second: &Review) -> Vec<Row> {
+    let tasks = first.scenario.tasks.iter().enumerate();
+    tasks
+        .map(|(k, task)| Row {
+            name: format!("{} · {}", task.id, task.name),
+            bars: vec![("dot-1", first.assessment.tasks[k].on_path), ("dot-2", second.assessment.tasks[k].on_path)],
+            instead: None,
+        })
+        .collect()
+}
+
+fn table(first: &Review, second: &Review) -> Table {
+    let number = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, 1));
+    let mut rows = Vec::new();
+    let mut put = |name: &str, values: [Option<f64>; 2]| {
+        let change = match values {
+            [Some(a), Some(b)] => Some(b - a),
+            _ => None,
+        };
+        rows.push(vec![name.into(), number(values[0]), number(values[1]), number(change)]);
+    };
+    let both = [first, second];
+    let named = both.map(|review| summary::named(&review.assessment.scores));
+    let [ours, theirs] = named;
+    for ((name, a), (_, b)) in ours.into_iter().zip(theirs) {
+        put(name, [a, b].map(|score| score.map(|score| score.pct)));
+    }
+    put("Overall", both.map(|review| Some(review.assessment.scores.overall)));
+    put("Flight time, s", both.map(|review| Some(review.assessment.end.seconds)));
+    put("Contacts", both.map(|review| Some(review.crashes.len() as f64)));
+    put("Pictures", both.map(|review| Some(review.pictures.len() as f64)));
+    put("Defects found", both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
+    put("Cues", both.map(|review| Some(review.feedback.episodes.len() as f64)));
+    put("Time too close or off the path, s", both.map(|review| Some(warned_s(review))));
+    Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["what", "first", "second", "change"], rows }
+}
+
+/// Time with the cue "too close" or "off path" on, s.
+fn warned_s(review: &Review) -> f64 {
+    let wanted = |kind: usize| matches!(crate::report::cues::KINDS[kind].name, "too close" | "off path");
+    review.feedback.episodes.iter().filter(|e| wanted(e.kind)).map(|e| e.to_s - e.from_s).sum()
+}

@@ -1,0 +1,133 @@
+//! Feedback that was given, and how fast the trainee's hands answered.
+
+use super::figure;
+use crate::report::Review;
+use crate::report::cues::{Episode, KINDS, median};
+use crate::report::plots::{line, sheet, ticks, unit};
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use maud::{Markup, html};
+
+const WIDTH: f64 = 620.0;
+const LEFT: f64 = 96.0;
+const RIGHT: f64 = 600.0;
+const ROW: f64 = 34.0;
+/// Right end of the axis, s: what answers later is no answer.
+const LONGEST_S: f64 = 5.0;
+
+/// The section.
+pub fn section(review: &Review) -> Markup {
+    let present: Vec<usize> = (0..KINDS.len()).filter(|kind| of(review, *kind).next().is_some()).collect();
+    html! {
+        @if present.is_empty() { p.calm { "No feedback was given." } } @else {
+            div.scroll tabindex="0" role="region" aria-label="Feedback in numbers" {
+                table {
+                    thead { tr { th scope="col" { "feedback" } th scope="col" { "times" } th scope="col" { "on for, s" } th scope="col" { "sticks answered" } th scope="col" { "median reaction, s" } } }
+                    tbody { @for kind in &present { (row(review, *kind)) } }
+                }
+            }
+            @if answered(review).next().is_some() {
+                (figure("From the cue to the first movement of a stick; a dot is one cue, the bar their median", &html! {
+                    div.scroll tabindex="0" role="region" aria-label="Reaction times" { (reactions(review)) }
+                }))
+            }
+            p.note { "A stick answers when it moves by a tenth of its travel within five seconds. A hand that was moving already may answer by chance." }
+        }
+        (episodes(review).folded())
+        (texts(review).folded())
+    }
+}
+
+fn of(review: &Review, kind: usize) -> impl Iterator<Item = &Episode> {
+    review.feedback.episodes.iter().filter(move |episode| episode.kind == kind)
+}
+
+fn answered(review: &Review) -> impl Iterator<Item = (usize, f64)> + '_ {
+    review.feedback.episodes.iter().filter_map(|episode| episode.answer_s.map(|answer_s| (episode.kind, answer_s)))
+}
+
+fn times(review: &Review, kind: usize) -> Vec<f64> {
+    of(review, kind).filter_map(|episode| episode.answer_s).collect()
+}
+
+fn row(review: &Review, kind: usize) -> Markup {
+    let count = of(review, kind).count();
+    let on: f64 = of(review, kind).map(|episode| episode.to_s - episode.from_s).sum();
+    let answers = times(review, kind);
+    html! {
+        tr {
+            th scope="row" { (KINDS[kind].name) }
+            td.number { (count) }
+            td.number { (words::number(on, 1)) }
+            @if KINDS[kind].wants_answer {
+                td.number { (answers.len()) " of " (count) }
+                td.number { (median(answers).map_or("–".into(), |s| words::number(s, 2))) }
+            } @else { td.number { "–" } td.number { "–" } }
+        }
+    }
+}
+
+/// Where a reaction lies on the sheet.
+fn x_of(answer_s: f64) -> f64 {
+    LEFT + (RIGHT - LEFT) * (answer_s / LONGEST_S).clamp(0.0, 1.0)
+}
+
+fn reactions(review: &Review) -> Markup {
+    let kinds: Vec<usize> = (0..KINDS.len()).filter(|kind| !times(review, *kind).is_empty()).collect();
+    let bottom = ROW * kinds.len() as f64 + 4.0;
+    sheet(
+        (WIDTH, bottom + 24.0),
+        "Reaction times by feedback",
+        "reactions",
+        &html! {
+            @for tick in ticks(LONGEST_S, 5) {
+                path.grid d=(line(&[(x_of(tick), 0.0), (x_of(tick), bottom)], false)) {}
+                text.tick x=(unit(x_of(tick))) y=(unit(bottom + 16.0)) text-anchor="middle" { (words::number(tick, 0)) " s" }
+            }
+            @for (k, kind) in kinds.iter().enumerate() {
+                @let y = ROW * k as f64 + 0.5 * ROW;
+                text.label x=(unit(LEFT - 10.0)) y=(unit(y + 5.0)) text-anchor="end" { (KINDS[*kind].name) }
+                @for answer_s in times(review, *kind) { circle.reaction cx=(unit(x_of(answer_s))) cy=(unit(y)) r="5" {} }
+                @if let Some(middle) = median(times(review, *kind)) { path.median d=(line(&[(x_of(middle), y - 11.0), (x_of(middle), y + 11.0)], false)) {} }
+            }
+        },
+    )
+}
+
+fn episodes(review: &Review) -> Table {
+    let row = |episode: &Episode| {
+        vec![
+            Cell::Clock(episode.from_s),
+            KINDS[episode.kind].name.into(),
+            Cell::Number(episode.to_s - episode.from_s, 2),
+            episode.answer_s.map_or(Cell::Empty, |answer_s| Cell::Number(answer_s, 2)),
+            episode.task.map_or("between tasks".into(), |task| format!("task {}", review.scenario.tasks[task].id)).into(),
+        ]
+    };
+    Table {
+        name: "feedback",
+        caption: "feedback as it was shown",
+        columns: vec!["time", "feedback", "on for, s", "stick moved after, s", "task"],
+        rows: review.feedback.episodes.iter().map(row).collect(),
+    }
+}
+
+fn texts(review: &Review) -> Table {
+    let row = |(t_s, text): &(f64, String)| vec![Cell::Clock(*t_s), text.clone().into()];
+    Table {
+        name: "texts",
+        caption: "texts as they were sent",
+        columns: vec!["time", "text"],
+        rows: review.feedback.texts.iter().map(row).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_reactions_lie_on_their_axis() {
+        assert_eq!((x_of(0.0), x_of(2.5), x_of(5.0), x_of(9.0)), (96.0, 348.0, 600.0, 600.0));
+    }
+}

@@ -1,0 +1,99 @@
+//! The page, section by section. What a user wrote goes through maud's escaping; what the page's script reads goes through [`series`].
+
+mod compare;
+mod conditions;
+mod feedback;
+mod flight;
+mod found;
+mod gallery;
+mod record;
+pub mod series;
+mod summary;
+mod surface;
+mod tasks;
+
+pub use compare::comparison;
+
+use super::Review;
+use super::assets;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// The page of one session.
+#[must_use]
+pub fn session(review: &Review) -> String {
+    let title = format!("Session of {}, {}", review.about.trainee, review.about.started_utc);
+    let sketcher = gallery::sketcher(review);
+    let sections = [
+        ("scores", "Scores", summary::scores(review)),
+        ("tasks", "Tasks", tasks::section(review)),
+        ("flight", "Flight", flight::section(review)),
+        ("pictures", "Pictures", gallery::section(review, &sketcher)),
+        ("defects", "Defects", found::section(review, &sketcher)),
+        ("feedback", "Feedback", feedback::section(review)),
+        ("coverage", "Coverage", surface::section(review)),
+        ("certification", "Certification", conditions::section(review)),
+        ("record", "Record", record::section(review)),
+    ];
+    let data = series::data(review);
+    document(
+        &title,
+        Some(&data),
+        &html! {
+            (summary::header(review))
+            nav aria-label="Sections" { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
+            main {
+                @for (id, name, body) in &sections {
+                    section id=(id) aria-labelledby={ (id) "-head" } { h2 id={ (id) "-head" } { (name) } (body) }
+                }
+            }
+        },
+    )
+}
+
+/// A whole document: policy, styles, the body, data and scripts. Styles and scripts are ours and the libraries', never a user's words.
+fn document(title: &str, data: Option<&str>, body: &Markup) -> String {
+    let policy = assets::policy(&[assets::UPLOT, assets::SCRIPT], &[assets::STYLE, assets::UPLOT_STYLE]);
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(policy);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="generator" content=(concat!("spandrel ", env!("CARGO_PKG_VERSION")));
+                title { (title) }
+                link rel="icon" href="data:,";
+                style { (PreEscaped(assets::UPLOT_STYLE)) }
+                style { (PreEscaped(assets::STYLE)) }
+            }
+            body {
+                (body)
+                @if let Some(data) = data {
+                    script type="application/json" id="flight-data" { (PreEscaped(data)) }
+                    script type="text/plain" id="three-core" { (PreEscaped(assets::THREE_CORE)) }
+                    script type="text/plain" id="three-module" data-core=(assets::THREE_CORE_NAME) { (PreEscaped(assets::THREE)) }
+                    script { (PreEscaped(assets::UPLOT)) }
+                    script { (PreEscaped(assets::SCRIPT)) }
+                }
+            }
+        }
+    }
+    .into_string()
+}
+
+/// A figure with its caption.
+fn figure(caption: &str, body: &Markup) -> Markup {
+    html! { figure { figcaption { (caption) } (body) } }
+}
+
+/// A legend: style of the swatch and words.
+fn legend(entries: &[(&str, String)]) -> Markup {
+    html! {
+        ul.legend {
+            @for (class, words) in entries {
+                li { svg.swatch viewBox="0 0 14 14" aria-hidden="true" { rect class=(class) x="1" y="1" width="12" height="12" rx="3" {} } (words) }
+            }
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! Bars: shares of a whole in rows, and counts in rows by kind.
+
+use super::{sheet, unit};
+use crate::report::words;
+use maud::{Markup, html};
+
+const WIDTH: f64 = 420.0;
+const LEFT: f64 = 4.0;
+const RIGHT: f64 = 372.0;
+const BAR: f64 = 14.0;
+
+/// A row of shares.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// What it is of.
+    pub name: String,
+    /// Bars below each other: style and share, 0 to 1.
+    pub bars: Vec<(&'static str, f64)>,
+    /// Said instead of bars, when there is nothing to show.
+    pub instead: Option<&'static str>,
+}
+
+/// Length of a bar for a share of `full`.
+#[must_use]
+pub fn length(share: f64, full: f64) -> f64 {
+    if full > 0.0 { (RIGHT - LEFT) * (share / full).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// Rows of shares, each name above its bars.
+#[must_use]
+pub fn shares(rows: &[Row], title: &str) -> Markup {
+    let mut y = 4.0;
+    let mut places = Vec::new();
+    for row in rows {
+        places.push(y);
+        y += 22.0 + (BAR + 4.0) * row.bars.len().max(1) as f64 + 8.0;
+    }
+    sheet(
+        (WIDTH, y),
+        title,
+        "bars",
+        &html! {
+            @for (row, top) in rows.iter().zip(&places) {
+                text.label x=(unit(LEFT)) y=(unit(top + 14.0)) { (row.name) }
+                @if let Some(words) = row.instead {
+                    text.tick x=(unit(LEFT)) y=(unit(top + 22.0 + 11.0)) { (words) }
+                } @else {
+                    @for (k, (class, share)) in row.bars.iter().enumerate() {
+                        @let at = top + 22.0 + (BAR + 4.0) * k as f64;
+                        rect.track x=(unit(LEFT)) y=(unit(at)) width=(unit(RIGHT - LEFT)) height=(unit(BAR)) rx="3" {}
+                        rect class=(class) x=(unit(LEFT)) y=(unit(at)) width=(unit(length(*share, 1.0))) height=(unit(BAR)) rx="3" {}
+                        text.tick x=(unit(WIDTH - 2.0)) y=(unit(at + 11.5)) text-anchor="end" { (words::number(100.0 * share, 0)) " %" }
+                    }
+                }
+            }
+        },
+    )
+}
+
+/// A row of counts, one segment per kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Counts {
+    /// What it is of.
+    pub name: String,
+    /// Style and count, from left to right.
+    pub kinds: Vec<(&'static str, usize)>,
+}
+
+/// Rows of counts on one scale.
+#[must_use]
+pub fn counts(rows: &[Counts], title: &str) -> Markup {
+    let sum = |row: &Counts| row.kinds.iter().map(|(_, count)| count).sum::<usize>();
+    let most = rows.iter().map(sum).max().unwrap_or(0).max(4) as f64;
+    sheet(
+        (WIDTH, 40.0 * rows.len() as f64 + 4.0),
+        title,
+        "bars",
+        &html! {
+            @for (k, row) in rows.iter().enumerate() {
+                @let top = 40.0 * k as f64;
+                text.label x=(unit(LEFT)) y=(unit(top + 14.0)) { (row.name) }
+                @for (class, from, count) in segments(row) {
+                    rect class=(class) x=(unit(LEFT + length(from as f64, most))) y=(unit(top + 19.0))
+                        width=(unit((length(count as f64, most) - 1.5).max(1.0))) height=(unit(BAR)) rx="2" {}
+                }
+                @let total = sum(row);
+                text.tick x=(unit(LEFT + length(total as f64, most) + 5.0)) y=(unit(top + 30.5)) { (total) }
+            }
+        },
+    )
+}
+
+/// Style, counts before it, count; nothing for a count of zero.
+fn segments(row: &Counts) -> Vec<(&'static str, usize, usize)> {
+    let mut before = 0;
+    let mut out = Vec::new();
+    for (class, count) in &row.kinds {
+        if *count > 0 {
+            out.push((*class, before, *count));
+        }
+        before += count;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_bars_are_as_long_as_their_share() {
+        assert_eq!((length(0.0, 1.0), length(0.25, 1.0), length(1.0, 1.0)), (0.0, 92.0, 368.0));
+        assert_eq!((length(2.0, 1.0), length(3.0, 12.0), length(1.0, 0.0)), (368.0, 92.0, 0.0));
+        let row = Row { name: "task <1>".into(), bars: vec![("on", 0.5)], instead: None };
+        let figure = shares(&[row], "t").into_string();
+        assert!(figure.contains("class=\"on\" x=\"4\" y=\"26\" width=\"184\""), "{figure}");
+        assert!(figure.contains("task &lt;1&gt;") && figure.contains("50 %"), "{figure}");
+    }
+
+    #[test]
+    fn exact_segments_follow_each_other() {
+        let row = Counts { name: "a".into(), kinds: vec![("x", 2), ("y", 0), ("z", 3)] };
+        assert_eq!(segments(&row), [("x", 0, 2), ("z", 2, 3)]);
+        let figure = counts(&[row], "t").into_string();
+        assert!(figure.contains("class=\"z\" x=\"151.2\""), "two of five along 368 from 4: {figure}");
+    }
+}

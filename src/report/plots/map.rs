@@ -1,0 +1,462 @@
+//! The flight drawn on the site in a parallel view: silhouettes of the members, reference paths, the track in one of three colourings,
+//! marks for pictures, crashes and defects, and the drone, which the page's slider moves.
+
+use super::{line, sheet, simplified, unit};
+use crate::base::frames::{Enu, Vec3};
+use crate::report::Review;
+use crate::report::outline::{View, outlines};
+use crate::report::words;
+use crate::scenario::Bridge;
+use crate::telemetry::Frame;
+use maud::{Markup, html};
+
+/// Width of the sheet.
+const WIDTH: f64 = 900.0;
+const MARGIN: f64 = 26.0;
+/// Tallest and flattest sheet.
+const HEIGHTS: (f64, f64) = (110.0, 760.0);
+/// What is smaller on the sheet is left out.
+const LEAST: f64 = 1.6;
+/// A track is drawn to this precision on the sheet.
+const TRACK_WITHIN: f64 = 0.35;
+/// Farther to the side of a bridge than this the flight is not drawn in its elevation, m.
+const BESIDE_M: f64 = 45.0;
+/// A step this long between two frames is no flight: the drone was put back, m.
+const JUMP_M: f64 = 2.5;
+/// Distance between the samples of lake and ground, m.
+const GROUND_STEP_M: f64 = 5.0;
+
+/// Limits of the clearance colours, m: below the first is closest.
+pub const CLEARANCES_M: [f64; 3] = [1.0, 2.5, 5.0];
+
+/// How the track may be coloured: name of the switch, class of the layer.
+pub const COLOURINGS: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by-speed"), ("clearance", "by-clearance")];
+
+/// A view fitted to a sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Map {
+    /// The view.
+    pub view: View,
+    /// Left and upper end of what is shown, m right and up.
+    corner_m: (f64, f64),
+    /// Units of the sheet per metre.
+    scale: f64,
+    /// Size of the sheet.
+    pub size: (f64, f64),
+}
+
+impl Map {
+    /// Fits a view to points.
+    #[must_use]
+    pub fn around(view: View, points_m: &[Vec3<Enu>]) -> Self {
+        let flat: Vec<(f64, f64)> = points_m.iter().map(|point| view.at(*point)).collect();
+        let span = |f: fn(&(f64, f64)) -> f64| {
+            let (low, high) = flat.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            if low <= high { (low, high) } else { (-1.0, 1.0) }
+        };
+        let ((left, right), (low, high)) = (span(|p| p.0), span(|p| p.1));
+        let (wide, tall) = ((right - left).max(10.0), (high - low).max(5.0));
+        let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((HEIGHTS.1 - 2.0 * MARGIN) / tall);
+        let height = (tall * scale + 2.0 * MARGIN).max(HEIGHTS.0);
+        // What does not fill the sheet stands in its middle.
+        let aside = (0.5 * (WIDTH / scale - (right - left)), 0.5 * (height / scale - (high - low)));
+        Self { view, corner_m: (left - aside.0, high + aside.1), scale, size: (WIDTH, height) }
+    }
+
+    /// Where a point of the site lies on the sheet.
+    #[must_use]
+    pub fn at(&self, point_m: Vec3<Enu>) -> (f64, f64) {
+        self.on_sheet(self.view.at(point_m))
+    }
+
+    fn on_sheet(&self, (right_m, up_m): (f64, f64)) -> (f64, f64) {
+        ((right_m - self.corner_m.0) * self.scale, (self.corner_m.1 - up_m) * self.scale)
+    }
+
+    /// The same for the page's script: x = m0 e + m1 n + m2 u + m3, y = m4 e + m5 n + m6 u + m7.
+    #[must_use]
+    pub fn matrix(&self) -> String {
+        let (r, u, k) = (self.view.right.array(), self.view.up.array(), self.scale);
+        let rows = [[r[0] * k, r[1] * k, r[2] * k, -self.corner_m.0 * k], [-u[0] * k, -u[1] * k, -u[2] * k, self.corner_m.1 * k]];
+        rows.iter().flatten().map(|value| format!("{value:.4}")).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// From above.
+#[must_use]
+pub fn plan(review: &Review) -> Markup {
+    let map = Map::around(View::plan(), &everything(review));
+    let all = |_: &Frame| true;
+    let body = html! {
+        (lake(review, &map))
+        (structure(review, &map, None))
+        (job(review, &map, None, &all))
+        (north(&map))
+    };
+    sheet(map.size, "Flight from above, north up", "map", &body)
+}
+
+/// From above and aside.
+#[must_use]
+pub fn oblique(review: &Review) -> Markup {
+    let map = Map::around(View::oblique(25.0, 22.0), &everything(review));
+    let all = |_: &Frame| true;
+    sheet(
+        map.size,
+        "Flight from above and aside, looking north",
+        "map",
+        &html! {
+            (structure(review, &map, None))
+            (job(review, &map, None, &all))
+        },
+    )
+}
+
+/// One bridge from its side, with the flight near it.
+#[must_use]
+pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
+    let view = View::side(bridge);
+    let axis = view.right;
+    let towards = view.towards();
+    let half = 0.5 * bridge.deck_length_m() + 25.0;
+    let near = move |frame: &Frame| {
+        let to = frame.position_m - bridge.centre_m;
+        to.dot(axis).abs() < half && to.dot(towards).abs() < BESIDE_M
+    };
+    let prefix = format!("{}/", bridge.name);
+    let members = review.site.members().iter().filter(|member| member.name.starts_with(&prefix));
+    let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
+    points.extend(review.frames.iter().filter(|frame| near(frame)).map(|frame| frame.position_m));
+    let water_m = review.scenario.terrain.water_level_m;
+    // Foundations deep in the ground would make all else small.
+    points.retain(|point| point.up() > water_m - 6.0);
+    points.push(Vec3::new(bridge.centre_m.east(), bridge.centre_m.north(), water_m - 4.0));
+    let map = Map::around(view, &points);
+    let title = format!("Flight at the bridge '{}' from the side", bridge.name);
+    sheet(
+        map.size,
+        &title,
+        "map",
+        &html! {
+            (ground(review, &map, bridge))
+            (structure(review, &map, Some(&prefix)))
+            (job(review, &map, Some(&bridge.name), &near))
+        },
+    )
+}
+
+/// A job without bridges, from the south.
+#[must_use]
+pub fn from_south(review: &Review) -> Markup {
+    let map = Map::around(View::from_south(), &everything(review));
+    let all = |_: &Frame| true;
+    sheet(map.size, "Flight from the south", "map", &html! { (structure(review, &map, None)) (job(review, &map, None, &all)) })
+}
+
+/// One bridge with its defects only: what was found and what was missed.
+#[must_use]
+pub fn findings(review: &Review, bridge: &Bridge, view: View, title: &str) -> Markup {
+    let prefix = format!("{}/", bridge.name);
+    let water_m = review.scenario.terrain.water_level_m;
+    let members = review.site.members().iter().filter(|member| member.name.starts_with(&prefix));
+    let points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
+    let map = Map::around(view, &points.into_iter().filter(|point| point.up() > water_m - 6.0).collect::<Vec<_>>());
+    let mine = review.defects.iter().filter(|fate| fate.defect.member.starts_with(&prefix));
+    sheet(
+        map.size,
+        title,
+        "map",
+        &html! {
+            (structure(review, &map, Some(&prefix)))
+            @for fate in mine {
+                @let (x, y) = map.at(fate.defect.position_m);
+                g transform={ "translate(" (unit(x)) " " (unit(y)) ")" } {
+                    title { "defect " (fate.defect.id) ": " (fate.words()) }
+                    @if fate.found_by.is_some() { circle.found r="9" {} } @else { path.missed d="M0 -12L12 0L0 12L-12 0Z" {} }
+                    text.mark y="4" text-anchor="middle" { (fate.defect.id) }
+                }
+            }
+        },
+    )
+}
+
+fn everything(review: &Review) -> Vec<Vec3<Enu>> {
+    let water_m = review.scenario.terrain.water_level_m;
+    let members = review.site.members().iter().flat_map(|member| member.solid.vertices_m.iter().copied());
+    let paths = review.scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied());
+    let flight = review.frames.iter().map(|frame| frame.position_m);
+    let all = members.chain(paths).chain(flight).chain([review.scenario.ground_team.pad_m]);
+    all.filter(|point| point.up() > water_m - 6.0).collect()
+}
+
+fn structure(review: &Review, map: &Map, prefix: Option<&str>) -> Markup {
+    let of = |name: &str| prefix.is_none_or(|prefix| name.starts_with(prefix));
+    let members = review.site.members().iter().filter(|member| of(&member.name));
+    let shapes = outlines(members, &map.view, LEAST / map.scale);
+    html! {
+        g.structure {
+            @for shape in &shapes {
+                path d=(line(&shape.corners.iter().map(|corner| map.on_sheet(*corner)).collect::<Vec<_>>(), true)) {}
+            }
+        }
+    }
+}
+
+/// Reference paths (of one bridge or of all), track, marks, the drone and a scale.
+fn job(review: &Review, map: &Map, bridge: Option<&str>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+    let of = |task: &&crate::scenario::Task| {
+        let own = task.bridge.and_then(|k| review.scenario.bridges.get(k)).map(|own| own.name.as_str());
+        bridge.is_none() || own.is_none() || own == bridge
+    };
+    let reference = |task: &crate::scenario::Task| {
+        let points: Vec<(f64, f64)> = task.path_m.iter().map(|point| map.at(*point)).collect();
+        line(&simplified(&points, TRACK_WITHIN), task.closed)
+    };
+    html! {
+        g.reference { @for task in review.scenario.tasks.iter().filter(of) { path d=(reference(task)) { title { "reference path of task " (task.id) } } } }
+        @for (layer, (_, class)) in COLOURINGS.iter().enumerate() {
+            g class={ "flown " (class) } {
+                @for (colour, data) in track(review, map, layer, shown) { path class=(colour) d=(data) {} }
+            }
+        }
+        (marks(review, map, shown))
+        g.drone data-matrix=(map.matrix()) { circle r="7" {} circle.core r="2.5" {} }
+        (scale(map))
+    }
+}
+
+fn marks(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+    let place = |point: Vec3<Enu>| {
+        let (x, y) = map.at(point);
+        format!("translate({} {})", unit(x), unit(y))
+    };
+    html! {
+        g.pad transform=(place(review.scenario.ground_team.pad_m)) { path d="M-6 -6H6V6H-6Z" {} title { "pad" } }
+        @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
+            g.crash transform=(place(review.frames[crash.frame].position_m)) {
+                path d="M-5 -5L5 5M5 -5L-5 5" {}
+                title { "crash with " (words::contact(crash.with)) " at " (words::clock(review.t_s(crash.frame))) }
+            }
+        }
+        @for picture in &review.pictures {
+            @let frame = &review.frames[(picture.frame as usize - 1).min(review.frames.len() - 1)];
+            @if shown(frame) {
+                g class={ "picture " (picture.verdict.class()) } transform=(place(frame.position_m)) {
+                    circle r="8.5" {}
+                    text.mark y="3.8" text-anchor="middle" { (picture.number) }
+                    title { "picture " (picture.number) ": " (picture.verdict.name()) }
+                }
+            }
+        }
+    }
+}
+
+/// The track in pieces of one colour: class and path data, in the order of the classes.
+fn track(review: &Review, map: &Map, layer: usize, shown: &dyn Fn(&Frame) -> bool) -> Vec<(&'static str, String)> {
+    let mut pieces: Vec<(&'static str, String)> = classes(layer).iter().map(|class| (*class, String::new())).collect();
+    let mut run: Vec<(f64, f64)> = Vec::new();
+    let mut colour = 0;
+    let mut close = |run: &mut Vec<(f64, f64)>, colour: usize| {
+        if run.len() > 1 {
+            pieces[colour].1.push_str(&line(&simplified(run, TRACK_WITHIN), false));
+        }
+        run.clear();
+    };
+    for (i, frame) in review.frames.iter().enumerate() {
+        let broken = i > 0 && (frame.position_m - review.frames[i - 1].position_m).norm() > JUMP_M;
+        if broken || !shown(frame) {
+            close(&mut run, colour);
+            if !shown(frame) {
+                continue;
+            }
+        }
+        let now = class_of(review, i, layer);
+        let here = map.at(frame.position_m);
+        if now != colour {
+            // The step between two colours belongs to the one that ends.
+            if !run.is_empty() {
+                run.push(here);
+            }
+            close(&mut run, colour);
+            colour = now;
+        }
+        run.push(here);
+    }
+    close(&mut run, colour);
+    pieces.retain(|(_, data)| !data.is_empty());
+    pieces
+}
+
+/// Classes of a colouring, as in its legend.
+#[must_use]
+pub fn classes(layer: usize) -> &'static [&'static str] {
+    match layer {
+        0 => &["p-between", "p-on", "p-off"],
+        1 => &["q-1", "q-2", "q-3", "q-4", "q-over"],
+        _ => &["c-unknown", "c-4", "c-3", "c-2", "c-1"],
+    }
+}
+
+/// Words of a colouring's legend, in the order of its classes.
+#[must_use]
+pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
+    let speed = |share: f64| words::number(share * limit_m_s, 1);
+    match layer {
+        0 => vec!["between tasks".into(), "on the path".into(), "off the path during a task".into()],
+        1 => vec![
+            format!("up to {} m/s", speed(0.25)),
+            format!("to {}", speed(0.5)),
+            format!("to {}", speed(0.75)),
+            format!("to {}", speed(1.0)),
+            format!("over the limit of {} m/s", words::number(limit_m_s, 2)),
+        ],
+        _ => {
+            let [a, b, c] = CLEARANCES_M.map(|limit| words::number(limit, 1));
+            vec!["nothing near".into(), format!("over {c} m"), format!("to {c} m"), format!("to {b} m"), format!("under {a} m")]
+        }
+    }
+}
+
+/// Index into [`classes`] for a frame.
+fn class_of(review: &Review, i: usize, layer: usize) -> usize {
+    let frame = &review.frames[i];
+    match layer {
+        0 => match (review.track[i].on, review.track[i].inside) {
+            (true, _) => 1,
+            (false, true) => 2,
+            (false, false) => 0,
+        },
+        1 => speed_class(frame.speed_m_s(), review.scenario.scoring.speed_limit_m_s),
+        _ => frame.clearance_m.map_or(0, clearance_class),
+    }
+}
+
+/// Quarters of the limit, and what is over it (strictly, as the score has it).
+fn speed_class(speed_m_s: f64, limit_m_s: f64) -> usize {
+    if speed_m_s > limit_m_s { 4 } else { ((speed_m_s / limit_m_s * 4.0).ceil() as usize).clamp(1, 4) - 1 }
+}
+
+fn clearance_class(clearance_m: f64) -> usize {
+    4 - CLEARANCES_M.iter().filter(|limit| clearance_m >= **limit).count()
+}
+
+/// Water as seen from above, in strips between its shores.
+fn lake(review: &Review, map: &Map) -> Markup {
+    let terrain = &review.scenario.terrain;
+    let half = 0.5 * terrain.size_m;
+    let count = (terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 400.0) as usize;
+    let coordinate = |k: usize| -half + (k as f64 + 0.5) * 2.0 * half / count as f64;
+    let mut strips = Vec::new();
+    for row in 0..count {
+        let n = coordinate(row);
+        let depth = |column: usize| terrain.water_level_m - review.site.ground_up_m(coordinate(column), n);
+        let mut wet: Option<f64> = None;
+        for column in 0..count {
+            let (now, e) = (depth(column), coordinate(column));
+            let shore = if column == 0 { e } else { crossing((coordinate(column - 1), depth(column - 1)), (e, now)) };
+            match wet {
+                None if now > 0.0 => wet = Some(shore),
+                Some(from) if now <= 0.0 => {
+                    strips.push((from, shore, n));
+                    wet = None;
+                }
+                None | Some(_) => {}
+            }
+        }
+        strips.extend(wet.map(|from| (from, half, n)));
+    }
+    let side = GROUND_STEP_M * map.scale;
+    html! {
+        g.lake {
+            @for (from, to, n) in strips {
+                @let (x0, y) = map.at(Vec3::new(from, n, 0.0));
+                @let (x1, _) = map.at(Vec3::new(to, n, 0.0));
+                @if y > -side && y < map.size.1 + side && x1 > 0.0 && x0 < map.size.0 {
+                    rect x=(unit(x0)) y=(unit(y - 0.5 * side)) width=(unit(x1 - x0)) height=(unit(side + 0.5)) {}
+                }
+            }
+        }
+    }
+}
+
+/// Where a value that changes its sign between two places is zero.
+fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
+    if (a.1 > 0.0) == (b.1 > 0.0) { b.0 } else { a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1) }
+}
+
+/// The ground under a bridge's axis, and the water.
+fn ground(review: &Review, map: &Map, bridge: &Bridge) -> Markup {
+    let axis = map.view.right;
+    let middle = map.view.at(bridge.centre_m).0;
+    let from = map.corner_m.0;
+    let to = from + map.size.0 / map.scale;
+    let count = ((to - from) / GROUND_STEP_M).ceil().clamp(1.0, 400.0) as usize;
+    let half = 0.5 * review.scenario.terrain.size_m;
+    let profile = (0..=count).map(|k| {
+        let along = from + (to - from) * k as f64 / count as f64;
+        let at = bridge.centre_m + axis * (along - middle);
+        let up = review.site.ground_up_m(at.east().clamp(-half, half), at.north().clamp(-half, half));
+        map.on_sheet((along, up))
+    });
+    let mut corners = vec![(0.0, map.size.1)];
+    corners.extend(profile.map(|(x, y)| (x, y.min(map.size.1))));
+    corners.push((map.size.0, map.size.1));
+    let (_, water) = map.on_sheet((0.0, review.scenario.terrain.water_level_m));
+    html! {
+        rect.water x="0" y=(unit(water)) width=(unit(map.size.0)) height=(unit((map.size.1 - water).max(0.0))) {}
+        path.ground d=(line(&simplified(&corners, 0.3), true)) {}
+    }
+}
+
+fn north(map: &Map) -> Markup {
+    html! {
+        g.north transform={ "translate(" (unit(map.size.0 - 24.0)) " 34)" } {
+            path d="M0 -18L7 6L0 1L-7 6Z" {}
+            text.tick y="22" text-anchor="middle" { "N" }
+        }
+    }
+}
+
+fn scale(map: &Map) -> Markup {
+    let length_m = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0].into_iter().rfind(|m| m * map.scale <= 160.0).unwrap_or(1.0);
+    let y = map.size.1 - 14.0;
+    html! {
+        g.scale {
+            path d=(line(&[(16.0, y - 5.0), (16.0, y), (16.0 + length_m * map.scale, y), (16.0 + length_m * map.scale, y - 5.0)], false)) {}
+            text.tick x=(unit(22.0 + length_m * map.scale)) y=(unit(y)) { (words::number(length_m, 0)) " m" }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_map_fits_its_points_keeps_proportions_and_its_matrix_agrees() {
+        let corners = [Vec3::new(-50.0, 10.0, 0.0), Vec3::new(50.0, 60.0, 20.0)];
+        let map = Map::around(View::plan(), &corners);
+        for point in corners {
+            let (x, y) = map.at(point);
+            assert!(x >= MARGIN - 1e-9 && x <= map.size.0 - MARGIN + 1e-9, "{x}");
+            assert!(y >= MARGIN - 1e-9 && y <= map.size.1 - MARGIN + 1e-9, "{y}");
+            let m: Vec<f64> = map.matrix().split(' ').map(|value| value.parse().unwrap()).collect();
+            let [e, n, u] = point.array();
+            // Four digits after the point, over at most 60 m.
+            assert!((m[0] * e + m[1] * n + m[2] * u + m[3] - x).abs() < 0.02);
+            assert!((m[4] * e + m[5] * n + m[6] * u + m[7] - y).abs() < 0.02);
+        }
+        let (a, b) = (map.at(corners[0]), map.at(corners[1]));
+        assert!(((b.0 - a.0) / 100.0 - (a.1 - b.1) / 50.0).abs() < 1e-9, "one scale for both axes; north is up");
+    }
+
+    #[test]
+    fn exact_speeds_and_clearances_fall_into_their_colours() {
+        assert_eq!([0.0, 1.0, 1.1, 3.0, 4.0, 4.1].map(|v| speed_class(v, 4.0)), [0, 0, 1, 2, 3, 4]);
+        assert_eq!([0.2, 1.0, 2.5, 5.0, 9.0].map(clearance_class), [4, 3, 2, 1, 1]);
+        for layer in 0..3 {
+            assert_eq!(classes(layer).len(), legend(layer, 4.0).len());
+        }
+        assert_eq!(crossing((0.0, 1.0), (10.0, -4.0)), 2.0);
+    }
+}

@@ -1,0 +1,81 @@
+//! The session in time: who flew, which task, what was said, pictures, gaps; one row each on one axis.
+
+use super::{line, sheet, ticks, unit};
+use crate::report::words;
+use maud::{Markup, html};
+
+const WIDTH: f64 = 900.0;
+const LEFT: f64 = 118.0;
+const RIGHT: f64 = 890.0;
+const ROW: f64 = 26.0;
+
+/// One row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strip {
+    /// Name.
+    pub name: String,
+    /// Stretches: style, from, to (s), and what is said of it.
+    pub stretches: Vec<(String, f64, f64, String)>,
+    /// Instants: style, time (s), and what is said of it.
+    pub marks: Vec<(String, f64, String)>,
+}
+
+/// Where an instant lies on the sheet.
+#[must_use]
+pub fn x_of(t_s: f64, end_s: f64) -> f64 {
+    LEFT + (RIGHT - LEFT) * if end_s > 0.0 { (t_s / end_s).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// All rows from 0 to `end_s`.
+#[must_use]
+pub fn strips(rows: &[Strip], end_s: f64, title: &str) -> Markup {
+    let bottom = 6.0 + ROW * rows.len() as f64;
+    // Whole and half minutes read better than tenths of them.
+    let minutes = ticks(end_s / 60.0, 8);
+    sheet(
+        (WIDTH, bottom + 26.0),
+        title,
+        "strips",
+        &html! {
+            @for minute in &minutes {
+                @let x = x_of(60.0 * minute, end_s);
+                path.grid d=(line(&[(x, 2.0), (x, bottom)], false)) {}
+                text.tick x=(unit(x)) y=(unit(bottom + 16.0)) text-anchor="middle" { (words::clock(60.0 * minute)) }
+            }
+            @for (k, row) in rows.iter().enumerate() {
+                @let top = 6.0 + ROW * k as f64;
+                text.label x=(unit(LEFT - 10.0)) y=(unit(top + 14.0)) text-anchor="end" { (row.name) }
+                path.grid d=(line(&[(LEFT, top + 9.5), (RIGHT, top + 9.5)], false)) {}
+                @for (class, from_s, to_s, said) in &row.stretches {
+                    @let x = x_of(*from_s, end_s);
+                    rect class=(class) x=(unit(x)) y=(unit(top + 2.0)) width=(unit((x_of(*to_s, end_s) - x).max(1.5))) height="15" rx="2" {
+                        title { (said) }
+                    }
+                }
+                @for (class, t_s, said) in &row.marks {
+                    circle class=(class) cx=(unit(x_of(*t_s, end_s))) cy=(unit(top + 9.5)) r="5" { title { (said) } }
+                }
+            }
+            path.cursor data-left=(unit(LEFT)) data-right=(unit(RIGHT)) d=(line(&[(0.0, 0.0), (0.0, bottom)], false)) {}
+        },
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_time_runs_from_left_to_right() {
+        assert_eq!((x_of(0.0, 100.0), x_of(50.0, 100.0), x_of(100.0, 100.0)), (118.0, 504.0, 890.0));
+        assert_eq!((x_of(-1.0, 100.0), x_of(101.0, 100.0), x_of(1.0, 0.0)), (118.0, 890.0, 118.0));
+        let row = Strip {
+            name: "row".into(),
+            stretches: vec![("on".into(), 25.0, 75.0, "<said>".into())],
+            marks: vec![("hit".into(), 100.0, String::new())],
+        };
+        let figure = strips(&[row], 100.0, "t").into_string();
+        assert!(figure.contains("x=\"311\" y=\"8\" width=\"386\""), "{figure}");
+        assert!(figure.contains("cx=\"890\"") && figure.contains("&lt;said&gt;"), "{figure}");
+    }
+}

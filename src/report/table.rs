@@ -1,0 +1,170 @@
+//! Numbers behind a figure: one table, shown rounded, downloaded whole.
+
+use super::words;
+use maud::{Markup, html};
+
+/// One cell.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cell {
+    /// Words.
+    Text(String),
+    /// A number and the digits after its point that are shown.
+    Number(f64, usize),
+    /// Flight time, s.
+    Clock(f64),
+    /// Nothing to tell.
+    Empty,
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(count: usize) -> Self {
+        Self::Number(count as f64, 0)
+    }
+}
+
+impl From<u32> for Cell {
+    fn from(count: u32) -> Self {
+        Self::Number(f64::from(count), 0)
+    }
+}
+
+impl Cell {
+    fn shown(&self) -> String {
+        match self {
+            Self::Text(text) => text.clone(),
+            Self::Number(value, digits) => words::number(*value, *digits),
+            Self::Clock(t_s) => words::clock(*t_s),
+            Self::Empty => String::new(),
+        }
+    }
+
+    fn is_number(&self) -> bool {
+        matches!(self, Self::Number(..) | Self::Clock(_))
+    }
+
+    /// As a field of a CSV file. Words that a spreadsheet would take for a formula get an apostrophe before them.
+    fn field(&self) -> String {
+        match self {
+            Self::Number(value, _) | Self::Clock(value) if value.is_finite() => value.to_string(),
+            Self::Number(..) | Self::Clock(_) | Self::Empty => String::new(),
+            Self::Text(text) => {
+                let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+                let text = if formula { format!("'{text}") } else { text.clone() };
+                if text.contains(['"', ',', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
+            }
+        }
+    }
+}
+
+/// A table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// File name without its ending.
+    pub name: &'static str,
+    /// What it tells.
+    pub caption: &'static str,
+    /// Heads, as shown.
+    pub columns: Vec<&'static str>,
+    /// Rows, each as long as `columns`.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// Folded away below its figure.
+    #[must_use]
+    pub fn folded(&self) -> Markup {
+        html! {
+            details.numbers {
+                summary { "Numbers: " (self.caption) }
+                (self.shown())
+            }
+        }
+    }
+
+    /// In full, with its download.
+    #[must_use]
+    pub fn shown(&self) -> Markup {
+        html! {
+            div.scroll tabindex="0" role="region" aria-label=(self.caption) {
+                table {
+                    caption { (self.caption) }
+                    thead { tr { @for column in &self.columns { th scope="col" { (column) } } } }
+                    tbody {
+                        @for row in &self.rows {
+                            tr {
+                                @for (k, cell) in row.iter().enumerate() {
+                                    @if k == 0 { th scope="row" .number[cell.is_number()] { (cell.shown()) } }
+                                    @else { td .number[cell.is_number()] { (cell.shown()) } }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+            p.download { a download={ (self.name) ".csv" } href=(self.link()) { "Download as CSV" } }
+        }
+    }
+
+    /// The file: full precision, one head line.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut csv = self.columns.iter().map(|column| Cell::from(*column).field()).collect::<Vec<_>>().join(",");
+        csv.push('\n');
+        for row in &self.rows {
+            csv.push_str(&row.iter().map(Cell::field).collect::<Vec<_>>().join(","));
+            csv.push('\n');
+        }
+        csv
+    }
+
+    fn link(&self) -> String {
+        let mut link = String::from("data:text/csv;charset=utf-8,");
+        for byte in self.csv().bytes() {
+            // RFC 3986, unreserved characters.
+            if byte.is_ascii_alphanumeric() || b"-._~".contains(&byte) {
+                link.push(char::from(byte));
+            } else {
+                link.push_str(&format!("%{byte:02X}"));
+            }
+        }
+        link
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(text: &str) -> Table {
+        let rows = vec![vec![text.into(), Cell::Number(1.0 / 3.0, 2), Cell::Clock(61.5)]];
+        Table { name: "t", caption: "a table", columns: vec!["words", "x, m", "time"], rows }
+    }
+
+    #[test]
+    fn exact_shown_rounded_and_downloaded_whole() {
+        let page = table("a").shown().into_string();
+        assert!(page.contains("0.33") && page.contains("1:02"), "{page}");
+        assert_eq!(table("a").csv(), "words,\"x, m\",time\na,0.3333333333333333,61.5\n");
+        assert!(page.contains("data:text/csv;charset=utf-8,words%2C%22x%2C%20m%22"), "{page}");
+    }
+
+    #[test]
+    fn exact_words_are_escaped_in_the_page_and_are_no_formulas_in_the_file() {
+        let evil = "=1+\"<script>alert(1)</script>\"";
+        let page = table(evil).shown().into_string();
+        assert!(!page.contains("<script"), "{page}");
+        assert!(table(evil).csv().contains("\"'=1+\"\"<script>"), "{}", table(evil).csv());
+    }
+}

@@ -1,0 +1,213 @@
+"""The report of a session in a real browser: no error, no request, the slider moves what it should, wide and narrow, light and dark."""
+
+import os
+import pathlib
+import re
+import shutil
+
+import pytest
+from playwright.sync_api import sync_playwright
+
+import spandrel
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+# In a container's root account Chromium has no sandbox of its own; SwiftShader draws the model without a GPU.
+FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
+# Pictures for people to look at go here, where it is set.
+PICTURES = os.environ.get("SPANDREL_PICTURES")
+# The issue's ceiling, bytes.
+LARGEST = 10_000_000
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    """A novice's session, which ends by writing its report and printing its address."""
+    sessions = tmp_path_factory.mktemp("sessions")
+    said = spandrel.run("demo", "--seed", "4", "--skill", "novice", "--speed", "max", "--sessions", str(sessions))
+    folder = next(sessions.iterdir())
+    address = re.search(r"^report +(file://\S+)$", said, re.MULTILINE)
+    assert address, said
+    assert address.group(1).endswith(f"{folder.name}/report.html")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """Debian's Chromium."""
+    assert CHROMIUM, "no chromium: apt-get install chromium"
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield chromium
+        chromium.close()
+
+
+def opened(browser, path, size="desktop", scheme="light"):
+    """A page with everything that went wrong on it."""
+    width, height = SIZES[size]
+    page = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme, accept_downloads=True).new_page()
+    wrong = []
+    page.on("console", lambda message: wrong.append(f"{message.type}: {message.text}") if message.type in ("error", "warning") else None)
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.on("request", lambda request: wrong.append(request.url) if not request.url.startswith(("file:", "data:", "blob:")) else None)
+    page.goto(pathlib.Path(path).as_uri())
+    page.wait_for_selector("body.live")
+    return page, wrong
+
+
+def keep(page, name):
+    """A picture for people."""
+    if PICTURES:
+        folder = pathlib.Path(PICTURES)
+        folder.mkdir(parents=True, exist_ok=True)
+        page.screenshot(path=str(folder / f"{name}.png"))
+
+
+def moment(page, index):
+    """Sets the slider as a hand would."""
+    page.evaluate(
+        "i => { const s = document.getElementById('moment'); s.value = i; s.dispatchEvent(new Event('input', {bubbles: true})); }", index
+    )
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", list(SIZES))
+def test_opens_without_error_or_request(browser, session, size, scheme):
+    page, wrong = opened(browser, session / "report.html", size, scheme)
+    moment(page, int(page.get_attribute("#moment", "max")) * 2 // 3)
+    keep(page, f"{size}-{scheme}-top")
+    for name in ("flight", "pictures", "defects"):
+        page.evaluate("id => document.getElementById(id).scrollIntoView({behavior: 'instant'})", name)
+        keep(page, f"{size}-{scheme}-{name}")
+    assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0], "nothing runs out of the page"
+    assert page.locator(".chart canvas").count() == 5
+    assert wrong == []
+
+
+def test_slider_moves_the_drone_on_every_drawing_and_the_curves(browser, session):
+    page, wrong = opened(browser, session / "report.html")
+    most = int(page.get_attribute("#moment", "max"))
+    assert most > 1000
+
+    def places():
+        drones = page.eval_on_selector_all(".drone", "nodes => nodes.map(node => node.getAttribute('transform'))")
+        marks = page.eval_on_selector_all(".chart .now", "nodes => nodes.map(node => node.style.transform)")
+        return drones + marks + [page.inner_text("#moment-text"), page.inner_text("#now-speed")]
+
+    moment(page, most // 4)
+    early = places()
+    moment(page, most // 2)
+    late = places()
+    assert len(early) >= 4 + 5 + 2
+    assert all(a != b for a, b in zip(early, late)), (early, late)
+    page.focus("#moment")
+    page.keyboard.press("ArrowRight")
+    assert int(page.input_value("#moment")) == most // 2 + 1
+    assert "task" in page.get_attribute("#moment", "aria-valuetext")
+    page.click("#play")
+    page.wait_for_function("before => Number(document.getElementById('moment').value) > before", arg=most // 2 + 5)
+    page.click("#play")
+    assert page.inner_text("#play") == "Play"
+    assert wrong == []
+
+
+def test_marker_stands_where_the_flight_was(browser, session):
+    """The marker of the plan against the frames that `export` writes, by the drawing's own matrix."""
+    page, _ = opened(browser, session / "report.html")
+    rows = spandrel.run("export", str(session), "--frames", "-").splitlines()
+    head = rows[0].split(",")
+    index = 500
+    moment(page, index)
+    # The page holds every third frame of the thirty a second.
+    frame = dict(zip(head, rows[1 + 3 * index].split(",")))
+    east, north, up = (float(frame[key]) for key in ("east_m", "north_m", "up_m"))
+    for drone in page.query_selector_all(".drone"):
+        m = [float(value) for value in drone.get_attribute("data-matrix").split()]
+        x, y = map(float, re.findall(r"-?[\d.]+", drone.get_attribute("transform")))
+        # A centimetre of rounding in the data, a tenth of a unit on the sheet.
+        assert abs(m[0] * east + m[1] * north + m[2] * up + m[3] - x) < 0.3
+        assert abs(m[4] * east + m[5] * north + m[6] * up + m[7] - y) < 0.3
+
+
+def test_colours_switch_on_all_drawings(browser, session):
+    page, wrong = opened(browser, session / "report.html")
+    shown = "nodes => nodes.filter(node => getComputedStyle(node).display !== 'none').length"
+    for chosen in ("by-speed", "by-clearance", "by-path"):
+        page.check(f"#{chosen}")
+        drawings = page.locator("#flight svg.map").count()
+        assert drawings >= 4
+        assert page.eval_on_selector_all(f"#flight .flown.{chosen}", shown) == drawings
+        assert page.eval_on_selector_all("#flight .flown", shown) == drawings
+    assert wrong == []
+
+
+def test_model_opens_turns_and_follows(browser, session):
+    page, wrong = opened(browser, session / "report.html")
+    page.click("#model-open")
+    canvas = page.wait_for_selector("#model-live canvas")
+    picture = "canvas => canvas.toDataURL()"
+    first = canvas.evaluate(picture)
+    assert len(first) > 20_000, "something is drawn"
+    canvas.focus()
+    page.keyboard.press("ArrowLeft")
+    second = canvas.evaluate(picture)
+    moment(page, 500)
+    third = canvas.evaluate(picture)
+    page.check("#by-speed")
+    fourth = canvas.evaluate(picture)
+    assert len({first, second, third, fourth}) == 4
+    canvas.scroll_into_view_if_needed()
+    keep(page, "model")
+    assert wrong == []
+
+
+def test_numbers_behind_a_figure_download(browser, session, tmp_path):
+    page, wrong = opened(browser, session / "report.html")
+    page.click("#tasks summary >> nth=0")
+    with page.expect_download() as download:
+        page.click("#tasks details[open] a[download]")
+    download.value.save_as(tmp_path / "tasks.csv")
+    lines = (tmp_path / "tasks.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0].startswith("task,name,") and len(lines) == 5
+    with page.expect_download() as download:
+        page.click("#series-csv")
+    download.value.save_as(tmp_path / "series.csv")
+    lines = (tmp_path / "series.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0].startswith("t_s,east_m,") and len(lines) > 1000
+    assert wrong == []
+
+
+def test_every_figure_has_its_numbers(browser, session):
+    page, _ = opened(browser, session / "report.html")
+    for section in page.query_selector_all("main > section"):
+        name = section.get_attribute("id")
+        assert section.query_selector("table") and section.query_selector("a[download]"), name
+
+
+def test_reads_without_script_and_prints(browser, session, tmp_path):
+    page = browser.new_context(java_script_enabled=False, viewport={"width": 1280, "height": 900}).new_page()
+    page.goto((session / "report.html").as_uri())
+    assert page.locator("#flight svg.map").count() >= 4
+    assert not page.is_visible("#moment"), "nothing is shown that would do nothing"
+    page, wrong = opened(browser, session / "report.html", scheme="dark")
+    printed = page.pdf(format="A4")
+    assert printed.startswith(b"%PDF") and len(printed) > 100_000
+    assert wrong == []
+
+
+def test_made_again_it_is_the_same_and_small(session, tmp_path):
+    page = (session / "report.html").read_bytes()
+    assert len(page) < LARGEST
+    spandrel.run("report", str(session), "--out", str(tmp_path / "again.html"))
+    assert (tmp_path / "again.html").read_bytes() == page
+
+
+def test_two_sessions_compared(browser, session, tmp_path):
+    spandrel.run("report", str(session), str(session), "--out", str(tmp_path / "both.html"))
+    page = browser.new_context(viewport={"width": 1280, "height": 900}).new_page()
+    wrong = []
+    page.on("console", lambda message: wrong.append(message.text))
+    page.goto((tmp_path / "both.html").as_uri())
+    keep(page, "comparison")
+    assert page.locator(".shape-1").count() == 1 and page.locator(".shape-2").count() == 1
+    assert wrong == []
