@@ -5,6 +5,7 @@ mod doors;
 pub mod inbox;
 mod instructor;
 mod radio;
+mod tick;
 
 use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
@@ -14,8 +15,8 @@ use super::endpoint::view::{Scoring, View};
 use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit};
 use super::faults::Faults;
 use super::log::Recorder;
-use super::physics::{self, Actuators, Air, Load, Model};
-use super::sensors::{BatteryReading, Readings, Sensors, Truth};
+use super::physics::{self, Actuators, Air, Model};
+use super::sensors::{Readings, Sensors};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::{Schedule, SimTime};
 use crate::scenario::Scenario;
@@ -382,53 +383,6 @@ impl Sim {
         self.keep_pace();
     }
 
-    fn tick(&mut self) {
-        let start = self.now;
-        self.heed_the_instructor();
-        self.endpoint.sticks_pass = self.faults.sticks_pass(start);
-        self.move_air(start);
-        if self.control_due.fire(start) {
-            self.control(start);
-        }
-        let load = Load { lamp_on: self.endpoint.payload.lamp.on, airborne: self.lifted };
-        let site = Arc::clone(&self.site);
-        let model = Arc::clone(&self.model);
-        model.advance(&mut self.state, &self.actuators, &self.air, site.as_ref(), load, start, STEP);
-        self.sensors.feel(&self.state.rigid, self.state.specific_force_m_s2, STEP);
-        self.now += STEP;
-        self.consequences();
-        self.look_around();
-        self.speak();
-        self.sign();
-    }
-
-    fn move_air(&mut self, now: SimTime) {
-        if self.wind_due.fire(now) {
-            let up = -self.state.rigid.position_m.down();
-            let over_water = up - self.config.scenario.terrain.water_level_m;
-            self.wind.update(now, over_water.max(0.3), self.state.rigid.velocity_m_s);
-        }
-        self.air.velocity_m_s = self.wind.air_velocity(now);
-        self.air.force_n = if self.lifted { self.wind.paper_force_n() } else { Vec3::zero() };
-    }
-
-    fn control(&mut self, now: SimTime) {
-        let b = &self.state.battery;
-        let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
-        let truth = Truth { rigid: &self.state.rigid, battery, lamp_on: self.endpoint.payload.lamp.on };
-        let mut fresh = self.sensors.sample(&truth, self.site.as_ref(), now);
-        self.faults.spoil(&mut fresh, now);
-        self.actuators = self.backend.step(&fresh, now);
-        self.faults.stop_motors(&mut self.actuators);
-        if self.ended.is_some() {
-            self.actuators = Actuators::default();
-        }
-        self.readings.keep(&fresh);
-        let camera = self.config.vehicle.camera;
-        let position = self.state.rigid.position_m.enu();
-        self.endpoint.payload.step(&camera, position, now, 1.0 / CONTROL_HZ);
-    }
-
     fn speak(&mut self) {
         let Backend::Builtin(autopilot) = &mut self.backend;
         let (events, reached) = (autopilot.drain_events(), autopilot.drain_reached());
@@ -436,18 +390,6 @@ impl Sim {
         let texts: Vec<(u8, &str)> = events.iter().map(|event| (event.severity.number(), event.text.as_str())).collect();
         self.recorder.observe(&view, &texts, || self.endpoint.parameters().map(|(name, value)| (name, value.into())));
         self.endpoint.observe(&view, events, reached);
-    }
-
-    /// The tick's state enters the digest bit by bit.
-    fn sign(&mut self) {
-        let r = &self.state.rigid;
-        let mut bits = [0u8; 8 * 13];
-        let values =
-            r.position_m.array().into_iter().chain(r.velocity_m_s.array()).chain(r.attitude.wxyz()).chain(r.rates_rad_s.array());
-        for (slot, value) in bits.chunks_exact_mut(8).zip(values) {
-            slot.copy_from_slice(&value.to_bits().to_le_bytes());
-        }
-        self.digest.update(bits);
     }
 }
 

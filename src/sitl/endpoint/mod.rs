@@ -7,6 +7,7 @@ pub mod buttons;
 pub mod camera;
 mod camera_params;
 pub mod commands;
+mod context;
 mod control;
 mod exchange;
 pub mod files;
@@ -28,17 +29,17 @@ mod persistence;
 mod places;
 mod receive;
 mod scoring;
+mod speak;
 mod storage;
 pub mod streams;
 mod texts;
 pub mod view;
 
 use crate::base::time::SimTime;
-use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavMissionType, MavResult, MavSeverity, TIMESYNC_DATA};
+use crate::mav::dialect::{MavMessage, MavMissionType, MavSeverity, TIMESYNC_DATA};
 use crate::mav::router::Router;
-use crate::sitl::autopilot::{Autopilot, Event, Severity};
-use crate::sitl::faults::{Kind, Unit};
-use camera::Shot;
+use crate::sitl::autopilot::Autopilot;
+pub use context::{Context, Injection};
 use flavour::Flavour;
 use guard::Guard;
 use link::Link;
@@ -51,7 +52,7 @@ use scoring::TruthRates;
 use std::collections::{BTreeMap, VecDeque};
 use storage::Storage;
 pub use storage::Wish;
-use streams::{AUTOPILOT, CAMERA, STREAMS};
+use streams::AUTOPILOT;
 use view::{Scoring, View};
 
 /// A link's name, chosen by the shell.
@@ -80,76 +81,6 @@ pub struct Transmit {
     pub link: LinkId,
     /// Whole frames.
     pub bytes: Vec<u8>,
-}
-
-/// What a command works on.
-pub struct Context<'a, 'v> {
-    /// The vehicle now.
-    pub view: View<'v>,
-    /// Who flies.
-    pub autopilot: &'a mut Autopilot,
-    /// Camera, gimbal, lamp.
-    pub payload: &'a mut Payload,
-    /// The link that asked.
-    pub link: &'a mut Link,
-    /// Texts for everybody.
-    pub texts: &'a mut Vec<(MavSeverity, String)>,
-    /// The parameters.
-    pub params: &'a mut Params,
-    /// Where they are kept.
-    pub storage: &'a mut Storage,
-    /// The autopilot's software is to start again.
-    pub restart: &'a mut bool,
-    /// Faults that are put in.
-    pub faults: &'a mut VecDeque<Injection>,
-    /// The flavour's number of the mode that was asked for last.
-    pub chosen: &'a mut u32,
-}
-
-/// A fault to put in, or with no kind to take out; the instance counts from 1, 0 is all.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Injection {
-    /// What.
-    pub unit: Unit,
-    /// How.
-    pub kind: Option<Kind>,
-    /// Which.
-    pub instance: usize,
-}
-
-impl Context<'_, '_> {
-    /// Says to everybody what is refused and why, as gravely as PX4 does.
-    pub fn tell(&mut self, text: &str) {
-        if self.texts.len() < MOST_TEXTS {
-            self.texts.push((MavSeverity::MAV_SEVERITY_CRITICAL, text.to_string()));
-        }
-    }
-
-    /// Refuses, and says why.
-    pub fn deny(&mut self, why: &str) -> MavResult {
-        self.tell(why);
-        MavResult::MAV_RESULT_DENIED
-    }
-
-    /// Says to everybody who this is.
-    pub fn introduce(&mut self) {
-        let room = MOST_TEXTS.saturating_sub(self.texts.len());
-        let lines = self.view.flavour.banner.iter().take(room);
-        self.texts.extend(lines.map(|line| (MavSeverity::MAV_SEVERITY_INFO, (*line).to_string())));
-    }
-
-    /// Whether the mode is flown that flies errands, where the flavour has one.
-    #[must_use]
-    pub fn in_errands(&self) -> bool {
-        let now = self.view.flavour.row_of(self.autopilot.status().mode, *self.chosen);
-        self.view.flavour.errands == Some(now.number)
-    }
-
-    /// Answers the link that asked.
-    pub fn answer(&mut self, component: u8, message: &MavMessage) -> MavResult {
-        self.link.send(component, message);
-        MavResult::MAV_RESULT_ACCEPTED
-    }
 }
 
 /// The endpoint's state.
@@ -400,132 +331,6 @@ impl Endpoint {
     pub fn tell(&mut self, severity: MavSeverity, text: &str) {
         if self.texts.len() < MOST_TEXTS {
             self.texts.push((severity, text.to_string()));
-        }
-    }
-
-    /// What is due now goes out.
-    pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
-        self.chosen = view.mode_row().number;
-        self.flight.follow(std::mem::replace(&mut self.was_armed, view.status.armed), view.status, view.now);
-        self.note_fence_switch(view.fence_enabled);
-        self.take_picture(view);
-        if self.pace != self.told_pace {
-            self.told_pace = self.pace;
-            self.tell(MavSeverity::MAV_SEVERITY_INFO, &format!("Time limits of clients are {} times as long", self.pace));
-        }
-        for event in events {
-            let severity = match event.severity {
-                Severity::Critical => MavSeverity::MAV_SEVERITY_CRITICAL,
-                Severity::Warning => MavSeverity::MAV_SEVERITY_WARNING,
-                Severity::Info => MavSeverity::MAV_SEVERITY_INFO,
-            };
-            self.texts.push((severity, event.text));
-        }
-        for seq in reached {
-            self.mission_payload(seq, view);
-            let message = MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq: seq as u16 + view.plans.lead });
-            self.broadcast(AUTOPILOT, &message);
-        }
-        let view = &view.with(&self.payload);
-        self.tell_news(view);
-        self.streams(view);
-        self.truth(view);
-        self.say_texts();
-        self.send_params();
-        ftp::speak(self);
-        self.tell_logs();
-        self.send_pictures();
-        if let Some((peer, message)) = self.plans.remind(view.now) {
-            self.send_to(peer, &message);
-        }
-    }
-
-    fn take_picture(&mut self, view: &View) {
-        let here = view.estimate.position_m.enu();
-        if !self.payload.camera.due(view.now, here) {
-            return;
-        }
-        let view = &view.with(&self.payload);
-        // The scoring judges what a picture shows: the field of view goes before it.
-        if view.vehicle.camera.zoom_max > 1.0 {
-            self.broadcast(CAMERA, &streams::field_of_view(view));
-        }
-        let message = self.payload.camera.take(Shot::of(view), view.now, here);
-        self.broadcast(CAMERA, &message);
-        if self.payload.camera.full(view.now) {
-            self.payload.news.warn("Memory card full");
-        }
-    }
-
-    /// What has changed in the payload is told to everybody.
-    fn tell_news(&mut self, view: &View) {
-        let (messages, warnings) = self.payload.news.take();
-        for (_, row) in messages.into_iter().flat_map(streams::rows_of) {
-            if let Some(message) = (row.build)(view) {
-                self.broadcast(row.component, &message);
-            }
-        }
-        for warning in warnings {
-            self.tell(MavSeverity::MAV_SEVERITY_WARNING, warning);
-        }
-    }
-
-    /// Pictures that were asked for again, one in a tick on each link that has room.
-    fn send_pictures(&mut self) {
-        for link in self.links.values_mut().filter(|link| !link.is_busy()) {
-            if let Some(message) = link.pictures.next().and_then(|index| self.payload.camera.again(index)) {
-                link.send(CAMERA, &message);
-            }
-        }
-    }
-
-    /// Items of the mission that are the payload's act when they are passed.
-    fn mission_payload(&mut self, seq: usize, view: &View) {
-        let Some(item) = items::aimed(self.plans.mission(), seq) else { return };
-        let command = commands::Command::of_item(&item, (self.system_id, AUTOPILOT));
-        if let Some(result) = commands::payload::handle(&command, view, &mut self.payload)
-            && result != MavResult::MAV_RESULT_ACCEPTED
-        {
-            let why = commands::payload::why(&command, view, &self.payload);
-            let text = format!("Mission item {}: {why}", seq + usize::from(view.plans.lead));
-            self.tell(MavSeverity::MAV_SEVERITY_WARNING, &text);
-        }
-    }
-
-    fn streams(&mut self, view: &View) {
-        let mut rows = std::mem::take(&mut self.row_buffer);
-        for link in self.links.values_mut() {
-            link.due(view.now, &mut rows);
-            let view = &view.towards(link.kind);
-            for row in &rows {
-                if let Some(message) = (STREAMS[*row].build)(view) {
-                    link.stream(STREAMS[*row].component, &message);
-                }
-            }
-        }
-        self.row_buffer = rows;
-    }
-
-    fn broadcast(&mut self, component: u8, message: &MavMessage) {
-        for link in self.links.values_mut() {
-            link.send(component, message);
-        }
-    }
-
-    /// To the links on which a peer has been heard.
-    fn send_to(&mut self, peer: mission::Peer, message: &MavMessage) {
-        for (id, link) in &mut self.links {
-            if self.router.heard_on(peer, *id) {
-                link.send(AUTOPILOT, message);
-            }
-        }
-    }
-
-    fn tell_logs(&mut self) {
-        let links = &self.links;
-        let ready = |link: &LinkId| links.get(link).is_none_or(|link| !link.is_busy());
-        for (link, message) in self.logs.poll(ready) {
-            self.answer(link, &message);
         }
     }
 }
