@@ -8,6 +8,9 @@ use crate::training::cohort::{Cohort, Selection, cohort, tables};
 use std::fmt::Write;
 use std::path::PathBuf;
 
+/// Contradictions told in words; all are in the tables.
+const CONTRADICTIONS: usize = 12;
+
 /// Show what a group of trainees shows
 ///
 /// Distributions of the scores, people and tasks, box plots by repetition, crashes, answers counted, self-rating against measurement,
@@ -125,8 +128,12 @@ fn words(cohort: &Cohort) -> String {
             let _ = writeln!(out, "at feedback {:.1}: {:.2} % per step of demand{ends}", one.feedback, one.effect);
         }
     }
-    for one in &cohort.self_rating.contradictions {
+    let contradictions = &cohort.self_rating.contradictions;
+    for one in contradictions.iter().take(CONTRADICTIONS) {
         let _ = writeln!(out, "{}: {}", one.trainee, one.words);
+    }
+    if contradictions.len() > CONTRADICTIONS {
+        let _ = writeln!(out, "and {} more such contradictions (--json, --csv)", contradictions.len() - CONTRADICTIONS);
     }
     for warning in &cohort.warnings {
         let _ = writeln!(out, "note: {warning}");

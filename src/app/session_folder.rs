@@ -204,6 +204,18 @@ impl Stored {
     }
 }
 
+/// Whose session it is, and the wall time of its simulation time zero, µs since the Unix epoch; quicker than reading all of it.
+///
+/// # Errors
+/// When it is no session folder or a file is wrong.
+pub fn whose(path: &Path) -> Result<(String, u64), AppError> {
+    let session = described(&path.join(SESSION))?;
+    match (session["trainee"].as_str(), session["started_unix_us"].as_u64()) {
+        (Some(trainee), Some(started_unix_us)) => Ok((trainee.to_owned(), started_unix_us)),
+        (_, _) => Stored::read(path).map(|stored| (stored.trainee, stored.started_unix_us)),
+    }
+}
+
 /// True for a folder that holds a session's telemetry.
 pub fn is_session(path: &Path) -> bool {
     path.join(TELEMETRY).is_file()

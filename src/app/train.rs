@@ -72,6 +72,9 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     monitor.finish();
     sim.finish();
     let told = tell(&session);
+    if told.is_ok() {
+        println!("questions     spandrel questionnaire {}", session.display());
+    }
     match lost {
         Some(error) => Err(error),
         None => told,

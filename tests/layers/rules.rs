@@ -156,6 +156,7 @@ mod tests {
             "use std::time::Instant;",
             "use std::time::{Duration, SystemTime};",
             "tokio::spawn(task);",
+            "sqlx::query(text);",
             "let now = Timestamp::now();",
             "std::env::var(name)",
         ] {

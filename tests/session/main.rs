@@ -10,5 +10,6 @@ mod job;
 mod link;
 mod live;
 mod output;
+mod records;
 mod report;
 mod shipped;

@@ -2,3 +2,4 @@
 
 mod documented;
 mod shipped;
+mod synthetic_cohort;

@@ -38,6 +38,28 @@ const SET_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role, age_band, dron
     drone_experience = excluded.drone_experience, gaming_experience = excluded.gaming_experience";
 const TRAINEES: &str = "SELECT pseudonym, role, age_band, drone_experience, gaming_experience FROM trainees ORDER BY pseudonym";
 
+const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason FROM sessions";
+const NEWEST: &str = "ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2";
+
+/// One line of a list of sessions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Listed {
+    /// Session.
+    pub id: String,
+    /// Pseudonym.
+    pub trainee: String,
+    /// µs since the Unix epoch.
+    pub started_unix_us: u64,
+    /// Job.
+    pub scenario: String,
+    /// Sum of the scores.
+    pub overall: f64,
+    /// What it is out of.
+    pub overall_max: f64,
+    /// Why it ended.
+    pub end_reason: String,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Sqlite,
@@ -142,6 +164,22 @@ impl Database {
             serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: session {id}: {error}", self.name)))
         };
         rows.into_iter().map(read).collect()
+    }
+
+    /// Sessions in short, the newest first: all, or one trainee's; so many after the first `skip`.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<Listed>, AppError> {
+        let query = match trainee {
+            Some(_) => format!("{LIST} WHERE trainee = $3 {NEWEST}"),
+            None => format!("{LIST} {NEWEST}"),
+        };
+        self.run(async {
+            let query = sqlx::query(&query).bind(i64::from(most)).bind(i64::from(skip));
+            let query = if let Some(trainee) = trainee { query.bind(trainee.to_owned()) } else { query };
+            query.fetch_all(&self.pool).await?.iter().map(listed).collect()
+        })
     }
 
     /// Ids and trainees of the sessions that started before this instant, µs since the Unix epoch.
@@ -338,6 +376,19 @@ fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &Record, text: Stri
         .bind(scores.overall_max)
         .bind(record.fingerprint.clone())
         .bind(text)
+}
+
+fn listed(row: &AnyRow) -> Result<Listed, sqlx::Error> {
+    let started: i64 = row.try_get(2)?;
+    Ok(Listed {
+        id: row.try_get(0)?,
+        trainee: row.try_get(1)?,
+        started_unix_us: u64::try_from(started).unwrap_or_default(),
+        scenario: row.try_get(3)?,
+        overall: row.try_get(4)?,
+        overall_max: row.try_get(5)?,
+        end_reason: row.try_get(6)?,
+    })
 }
 
 fn trainee(row: &AnyRow) -> Result<Trainee, sqlx::Error> {

@@ -82,7 +82,10 @@ enum What {
         /// Only this trainee's
         #[arg(long, value_name = "ID")]
         trainee: Option<TraineeId>,
-        /// As JSON, with everything that is kept
+        /// So many at most, the newest first
+        #[arg(long, value_name = "N", default_value_t = 50, conflicts_with = "json")]
+        last: u32,
+        /// All of them as JSON, the oldest first, with everything that is kept
         #[arg(long)]
         json: bool,
     },
@@ -126,7 +129,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     match &args.what {
         What::Import { folders } => take_in(place, folders),
         What::Rebuild { yes } => rebuild(place, *yes),
-        What::List { trainee, json } => list(&place.open()?, trainee.as_ref().map(TraineeId::as_str), *json),
+        What::List { trainee, json: true, .. } => {
+            let records = place.open()?.records(trainee.as_ref().map(TraineeId::as_str))?;
+            files::write("-", crate::monitor::export::json_text(&records).as_bytes())
+        }
+        What::List { trainee, last, .. } => list(&place.open()?, trainee.as_ref().map(TraineeId::as_str), *last),
         What::Export { trainee, out } => match trainee {
             Some(trainee) => people::export(place, trainee.as_str(), out),
             None => files::write(out, lines(&place.open()?.records(None)?)?.as_bytes()),
@@ -232,20 +239,14 @@ fn rebuild(place: &Place, yes: bool) -> Result<(), AppError> {
     Ok(())
 }
 
-fn list(database: &Database, trainee: Option<&str>, json: bool) -> Result<(), AppError> {
-    let records = database.records(trainee)?;
-    if json {
-        return files::write("-", crate::monitor::export::json_text(&records).as_bytes());
+fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), AppError> {
+    let mut table =
+        format!("{:<22}{:<16}{:<22}{:>8}{:>6}  {:<12}{}\n", "started", "trainee", "scenario", "overall", "of", "end", "session");
+    for one in database.list(trainee, last, 0)? {
+        let started = clock::utc(one.started_unix_us).0;
+        let (who, job, end, id) = (&one.trainee, &one.scenario, &one.end_reason, &one.id);
+        table.push_str(&format!("{started:<22}{who:<16}{job:<22}{:>8.1}{:>6.0}  {end:<12}{id}\n", one.overall, one.overall_max));
     }
-    let mut table = format!("{:<52}{:<14}{:>9}{:>6}  {}\n", "session", "trainee", "overall", "of", "end");
-    for record in &records {
-        let scores = &record.scores;
-        table.push_str(&format!(
-            "{:<52}{:<14}{:>9.1}{:>6.0}  {}\n",
-            record.id, record.trainee, scores.overall, scores.overall_max, record.end_reason
-        ));
-    }
-    table.push_str(&format!("{} sessions\n", records.len()));
     files::write("-", table.as_bytes())
 }
 
@@ -253,7 +254,7 @@ fn retention(place: &Place, days: u64, yes: bool) -> Result<(), AppError> {
     let limit_us = clock::unix_us().saturating_sub(days.saturating_mul(DAY_US));
     let database = place.open()?;
     let old = database.older_than(limit_us)?;
-    let folders = people::folders_where(&place.sessions, |stored| stored.started_unix_us < limit_us)?;
+    let folders = people::folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)?;
     let before = clock::utc(limit_us).0;
     if !yes {
         println!("{} sessions and {} folders are from before {before}; --yes erases them", old.len(), folders.len());

@@ -4,7 +4,7 @@ use super::{Database, Place, import};
 use crate::app::args::TraineeId;
 use crate::app::errors::AppError;
 use crate::app::files;
-use crate::app::session_folder::Stored;
+use crate::app::session_folder::whose;
 use crate::monitor::export::json_text;
 use crate::training::record::Record;
 use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
@@ -118,19 +118,19 @@ fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError>
 }
 
 fn folders_of(place: &Place, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
-    folders_where(&place.sessions, |stored| stored.trainee == trainee)
+    folders_where(&place.sessions, |owner, _| owner == trainee)
 }
 
-/// Session folders that are so; what cannot be read is told, for it may be one of them.
+/// Session folders whose trainee and start (µs since the Unix epoch) are so; what cannot be read is told, for it may be one of them.
 ///
 /// # Errors
 /// When the folder of sessions cannot be read.
-pub fn folders_where(sessions: &[PathBuf], is: impl Fn(&Stored) -> bool) -> Result<Vec<PathBuf>, AppError> {
+pub fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let mut found = Vec::new();
     for path in import::session_folders(&here)? {
-        match Stored::read(&path) {
-            Ok(stored) if is(&stored) => found.push(path),
+        match whose(&path) {
+            Ok((trainee, started_unix_us)) if is(&trainee, started_unix_us) => found.push(path),
             Ok(_) => {}
             Err(error) => tracing::warn!("cannot tell whose this is: {error}"),
         }

@@ -47,6 +47,13 @@ fn takes_in_once_and_gives_back_the_same(target: &str) {
     assert_eq!(database.put(&records), Ok(0), "taking in again changes nothing");
     assert_eq!(database.records(Some("anna")).unwrap(), records[..2]);
     assert_eq!(database.records(None).unwrap().len(), 3);
+    let ids = |trainee, most, skip| -> Vec<String> {
+        database.list(trainee, most, skip).unwrap().into_iter().map(|one| one.id).collect()
+    };
+    assert_eq!(ids(None, 10, 0), ["session-anna-002", "session-anna-001", "session-o'brien-001"], "the newest first");
+    assert_eq!(ids(None, 1, 1), ["session-anna-001"]);
+    assert_eq!(ids(Some("o'brien"), 10, 0), ["session-o'brien-001"]);
+    assert_eq!(database.list(Some("anna"), 1, 0).unwrap()[0].overall, records[1].scores.overall);
     let mut changed = records[0].clone();
     changed.fingerprint = "other".into();
     changed.scores.safety = 94.0;
