@@ -263,6 +263,12 @@ impl Database {
         })
     }
 
+    /// Begins to write and does not end.
+    #[cfg(test)]
+    pub fn keep_writing(&self) -> Result<(), AppError> {
+        self.run(async { self.pool.execute("BEGIN IMMEDIATE").await.map(|_| ()) })
+    }
+
     /// Its place, without a password, for messages.
     pub fn name(&self) -> &str {
         &self.name
@@ -281,6 +287,13 @@ impl Database {
     }
 
     async fn migrate(&self) -> Result<(), sqlx::Error> {
+        // Who finds the tables made takes no lock: readers do not wait for writers.
+        let version = sqlx::query("SELECT version FROM schema_version").fetch_optional(&self.pool).await;
+        if let Ok(Some(row)) = version
+            && row.try_get::<i64, _>(0).is_ok_and(|version| usize::try_from(version) == Ok(MIGRATIONS.len()))
+        {
+            return Ok(());
+        }
         let mut change = self.begin().await?;
         if self.kind == Kind::Postgres {
             change.execute(MIGRATION_LOCK).await?;

@@ -65,7 +65,7 @@ pub struct Place {
 
 #[derive(Debug, clap::Subcommand)]
 enum What {
-    /// Take sessions in; what is there unchanged stays untouched
+    /// Take sessions in; what is there unchanged stays untouched (every folder is read to know; name a session to be quick)
     Import {
         /// Session folders [default: all of --sessions]
         #[arg(value_name = "SESSION")]

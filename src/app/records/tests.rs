@@ -133,6 +133,18 @@ fn exact_twenty_stations_may_make_the_same_new_file_at_once() {
 }
 
 #[test]
+fn exact_readers_do_not_wait_for_a_writer() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("records.sqlite").display().to_string();
+    let writer = Database::open(&file).unwrap();
+    writer.put(&[record("anna", 1)]).unwrap();
+    writer.keep_writing().unwrap();
+    let reader = Database::open(&file).unwrap();
+    assert_eq!(reader.records(None).unwrap().len(), 1);
+    assert_eq!(reader.list(None, 10, 0).unwrap().len(), 1);
+}
+
+#[test]
 fn exact_what_is_erased_is_gone_from_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("records.sqlite");
