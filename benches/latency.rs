@@ -178,10 +178,11 @@ fn at_rest(client: &mut Client, time: Duration) -> Vec<f64> {
 /// From a step of the stick in flight to the first roll rate that is no noise: rotors and airframe are in it.
 fn rates(client: &mut Client) -> (f64, f64) {
     order(client, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [30.0, 2_500.0, 0.0]);
+    at_rest(client, CENTRED_FOR);
     order(client, MavCmd::MAV_CMD_DO_SET_MODE, TAKE_OFF);
     order(client, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0]);
     client.wait(|m| if let MavMessage::HEARTBEAT(beat) = m { (beat.custom_mode == HOLDING).then_some(()) } else { None });
-    client.send(&stick(0));
+    at_rest(client, CENTRED_FOR);
     order(client, MavCmd::MAV_CMD_DO_SET_MODE, ALTITUDE);
     let calm = at_rest(client, FLOOD_FOR);
     let mean = calm.iter().sum::<f64>() / calm.len() as f64;
