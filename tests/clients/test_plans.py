@@ -121,8 +121,9 @@ def test_wire_mavsdk_imports_the_exported_plan_flies_pauses_and_goes_on(vehicle)
 
 
 @pytest.mark.timeout(600)
+@pytest.mark.parametrize("vehicle", ["px4", "ardupilot"], indirect=True)
 def test_wire_mavsdk_sets_a_fence_that_holds_the_vehicle(vehicle):
-    """Uploaded, given back, and breached by set-points: it holds."""
+    """Uploaded, given back, and breached by set-points: it holds, as the ArduPilot that MAVSDK takes it for as well."""
     system, telemetry = vehicle
     fence, action, offboard = Geofence(system), Action(system), Offboard(system)
     here = wait_for("a position", lambda: (p := telemetry.position()) and p.latitude_deg != 0.0 and p)
@@ -131,7 +132,7 @@ def test_wire_mavsdk_sets_a_fence_that_holds_the_vehicle(vehicle):
     assert [round(c.radius, 3) for c in fence.download_geofence().circles] == [12.0]
     action.arm()
     action.takeoff()
-    wait_for("the hover", lambda: telemetry.flight_mode() == FlightMode.HOLD and place(telemetry)[2] < -1.5)
+    wait_for("the hover", lambda: telemetry.flight_mode() in (FlightMode.HOLD, FlightMode.OFFBOARD) and place(telemetry)[2] < -1.5)
     offboard.set_velocity_body(VelocityBodyYawspeed(2.0, 0.0, 0.0, 0.0))
     offboard.start()
     wait_for("offboard flight", lambda: telemetry.flight_mode() == FlightMode.OFFBOARD)

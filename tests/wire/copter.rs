@@ -18,7 +18,7 @@ pub(super) const GUIDED: f32 = 4.0;
 pub(super) const LOITER: f32 = 5.0;
 const RTL: f32 = 6.0;
 const POSHOLD: f32 = 16.0;
-const BRAKE: f32 = 17.0;
+pub(super) const BRAKE: f32 = 17.0;
 /// A height counts as reached within this, m (the autopilot's own 0.4 m and its way to rest).
 const HEIGHT_M: f32 = 0.6;
 /// The drill's pad in 1e-7 degrees, and metres for one of them north.

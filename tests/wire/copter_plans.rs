@@ -1,7 +1,7 @@
 //! As an ArduCopter it takes plans: item 0 is home, and the fence acts while its parameter says so.
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
-use super::copter::{ARM, AUTO, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode};
+use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
 use super::plans::upload;
 use super::station::{Station, one};
 use spandrel::mav::dialect::*;
@@ -57,6 +57,35 @@ fn flight_a_copters_fence_acts_while_its_parameter_says_so() {
         }));
         assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPOSITION, there), result, "enabled {enabled}");
     }
+}
+
+/// Set-points that lead out of the fence are flown no more once it holds the vehicle, though they go on coming.
+#[test]
+fn flight_a_copters_fence_ends_guided_flight() {
+    let mut station = copter_at(5.0);
+    let circle = MISSION_ITEM_INT_DATA {
+        param1: 15.0,
+        mission_type: MavMissionType::MAV_MISSION_TYPE_FENCE,
+        ..item(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, 0.0, 0.0)
+    };
+    assert_eq!(upload(&mut station, &[circle]), MavMissionResult::MAV_MISSION_ACCEPTED);
+    let north = MavMessage::SET_POSITION_TARGET_LOCAL_NED(SET_POSITION_TARGET_LOCAL_NED_DATA {
+        target_system: 1,
+        target_component: 1,
+        coordinate_frame: MavFrame::MAV_FRAME_LOCAL_NED,
+        type_mask: PositionTargetTypemask::from_bits_retain(0x0DC7),
+        vx: 2.0,
+        ..Default::default()
+    });
+    station.heard.clear();
+    for _ in 0..150 {
+        station.send(&north);
+        station.run_ms(100);
+    }
+    assert!(station.said("Geofence breached: out of bounds, holding"), "{:?}", station.texts());
+    assert_eq!(next_beat(&mut station).custom_mode, BRAKE as u32);
+    let [away, ..] = station.place_after(100);
+    assert!((13.0..20.0).contains(&away), "{away} m north of the pad");
 }
 
 #[test]

@@ -130,6 +130,8 @@ pub struct FenceState {
     pub breach: Option<Breach>,
     /// Breaches so far.
     pub count: u16,
+    /// Breaches at which the mode was changed.
+    pub taken: u16,
     /// When the last one began.
     pub at: SimTime,
 }
@@ -297,6 +299,7 @@ impl Autopilot {
         if self.tuning.fence_action == FenceAction::Terminate {
             self.disarm("Disarmed: geofence");
         } else if let Some(mode) = mode {
+            self.status.fence.taken = self.status.fence.taken.saturating_add(1);
             self.watch.intended = mode;
             self.watch.overridden = false;
             self.enter(mode, now);

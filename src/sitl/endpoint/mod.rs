@@ -122,6 +122,7 @@ pub struct Endpoint {
     row_buffer: Vec<usize>,
     flight: view::Flight,
     was_armed: bool,
+    fence_took: u16,
 }
 
 /// Texts that wait for the next tick; a flood of refusals says no more than these.
@@ -165,6 +166,7 @@ impl Endpoint {
             row_buffer: Vec::new(),
             flight: view::Flight::default(),
             was_armed: false,
+            fence_took: 0,
         }
     }
 

@@ -10,7 +10,7 @@ use crate::sitl::autopilot::{Event, Severity};
 impl Endpoint {
     /// What is due now goes out.
     pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
-        self.chosen = view.mode_row().number;
+        self.chosen = self.shown(view);
         self.flight.follow(std::mem::replace(&mut self.was_armed, view.status.armed), view.status, view.now);
         self.note_fence_switch(view.fence_enabled);
         self.take_picture(view);
@@ -43,6 +43,14 @@ impl Endpoint {
         if let Some((peer, message)) = self.plans.remind(view.now) {
             self.send_to(peer, &message);
         }
+    }
+
+    /// The flavour's number of the mode that is flown. One that the fence has changed to nobody chose: what flies errands as they come does
+    /// not go on doing so.
+    fn shown(&mut self, view: &View) -> u32 {
+        let taken = view.status.fence.taken;
+        let changed = std::mem::replace(&mut self.fence_took, taken) != taken;
+        if changed { self.flavour.usual(view.status.mode).number } else { view.mode_row().number }
     }
 
     fn take_picture(&mut self, view: &View) {
