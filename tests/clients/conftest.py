@@ -26,9 +26,10 @@ def job():
 @pytest.fixture
 def vehicle(request, tmp_path):
     """MAVSDK's system for a simulated vehicle that would arm, in PX4's flavour unless the test says another, and its telemetry."""
+    flavour = getattr(request, "param", "px4")
     port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--flavour", getattr(request, "param", "px4"))
+    process = spandrel.start_sim(tmp_path, port, "--flavour", flavour)
     mavsdk, system = sdk.connect(port)
-    yield system, sdk.ready(system)
+    yield system, (sdk.asked if flavour == "ardupilot" else sdk.ready)(system)
     mavsdk.destroy()
     spandrel.end(process)

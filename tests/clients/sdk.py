@@ -26,6 +26,15 @@ def ready(system):
     return telemetry
 
 
+def asked(system):
+    """Telemetry of a vehicle that says nothing until it is asked, as an ArduPilot does; it knows its home by now."""
+    telemetry = Telemetry(system)
+    telemetry.set_rate_position(10.0)
+    telemetry.set_rate_position_velocity_ned(10.0)
+    wait_for("its home", lambda: telemetry.health().is_home_position_ok and telemetry.position().latitude_deg > 1)
+    return telemetry
+
+
 def take_off(system, height_m):
     """Armed and on its way up, so high; its action and telemetry."""
     action, telemetry = Action(system), ready(system)
