@@ -18,3 +18,4 @@ pub mod sitl;
 pub mod telemetry;
 pub mod training;
 pub mod vehicle;
+pub mod view;

@@ -28,6 +28,7 @@ mod progress;
 mod questionnaire;
 mod rc;
 mod records;
+mod render;
 mod report;
 mod serial;
 mod session_folder;
@@ -73,6 +74,7 @@ enum Command {
     Plan(plan::Args),
     Cohort(cohort::Args),
     Report(report::Args),
+    Render(render::Args),
     Check(check::Args),
 }
 
@@ -95,6 +97,7 @@ pub fn main() -> ExitCode {
         Command::Plan(args) => plan::run(args),
         Command::Cohort(args) => cohort::run(args),
         Command::Report(args) => report::run(args),
+        Command::Render(args) => render::run(args),
         Command::Check(args) => check::run(args),
     };
     match done {

@@ -120,16 +120,30 @@ impl LightModel {
         let facing = normal.map_or(0.25, |n| n.dot(day.sun).max(0.0));
         let direct = if facing > 0.0 { facing * self.direct_lux(origin, &day, cast) } else { 0.0 };
         let gathered = match normal {
-            Some(n) => {
-                let (a, b) = tangents(n);
-                let rays = self.disc.iter().map(|(x, y)| a * *x + b * *y + n * (1.0 - x * x - y * y).max(0.0).sqrt());
-                self.gather(origin, rays, &day, cast)
-            }
+            Some(n) => self.gather(origin, over(n, &self.disc), &day, cast),
             None => self.gather(origin, self.sphere.iter().copied(), &day, cast),
         };
-        // Enclosure: what is seen of the structure receives, beside its own direct sun, the same indirect light as this point.
-        let first = gathered.outside_lux + gathered.structure_lux;
-        direct + first / (1.0 - STRUCTURE_ALBEDO * gathered.structure_share)
+        direct + gathered.indirect_lux()
+    }
+
+    /// What a surface receives besides the sun itself, by the same model as [`Self::ambient_lux`]: as a share of the sky's horizontal
+    /// illuminance and as a share of the sun's on a surface that faces it. So a picture of the same place at another brightness of the
+    /// day needs no new rays. `rays` (see [`spread`]) may be fewer than the measures use.
+    #[must_use]
+    pub fn indirect_shares(
+        &self,
+        position_m: Vec3<Enu>,
+        normal: Vec3<Enu>,
+        sun: Vec3<Enu>,
+        rays: &[(f64, f64)],
+        cast: Cast,
+    ) -> (f64, f64) {
+        let origin = position_m + normal * LIFT_M;
+        let under = |direct_normal_lux: f64, sky_lux: f64| {
+            let day = Daylight { sun, direct_normal_lux, sky_lux };
+            self.gather(origin, over(normal, rays), &day, cast).indirect_lux()
+        };
+        (under(0.0, 1.0), if sun.up() > 0.0 { under(1.0, 0.0) } else { 0.0 })
     }
 
     fn direct_lux(&self, origin: Vec3<Enu>, day: &Daylight, cast: Cast) -> f64 {
@@ -137,8 +151,8 @@ impl LightModel {
         if shaded { 0.0 } else { day.direct_normal_lux }
     }
 
-    fn gather(&self, origin: Vec3<Enu>, rays: impl Iterator<Item = Vec3<Enu>>, day: &Daylight, cast: Cast) -> Gathered {
-        let share = 1.0 / RAYS as f64;
+    fn gather(&self, origin: Vec3<Enu>, rays: impl ExactSizeIterator<Item = Vec3<Enu>>, day: &Daylight, cast: Cast) -> Gathered {
+        let share = 1.0 / rays.len() as f64;
         let mut sum = Gathered::default();
         for direction in rays {
             let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
@@ -173,6 +187,25 @@ impl LightModel {
             Surface::Bridge | Surface::Vehicle | Surface::Person => None,
         }
     }
+}
+
+impl Gathered {
+    /// Enclosure: what is seen of the structure receives, beside its own direct sun, the same indirect light as this point.
+    fn indirect_lux(&self) -> f64 {
+        (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_share)
+    }
+}
+
+/// A cosine-weighted bundle over the hemisphere about `n`.
+fn over(n: Vec3<Enu>, disc: &[(f64, f64)]) -> impl ExactSizeIterator<Item = Vec3<Enu>> + '_ {
+    let (a, b) = tangents(n);
+    disc.iter().map(move |(x, y)| a * *x + b * *y + n * (1.0 - x * x - y * y).max(0.0).sqrt())
+}
+
+/// Rays of a bundle of any size for [`LightModel::indirect_shares`].
+#[must_use]
+pub fn spread(count: usize) -> Vec<(f64, f64)> {
+    spiral(count.max(1))
 }
 
 /// Two unit vectors that complete a right-handed frame with `n`.
@@ -301,6 +334,18 @@ mod tests {
         };
         assert_eq!(lux(0.0), 0.0);
         assert!((lux(0.10) / lux(0.05) - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn exact_shares_of_the_day_are_the_ambient_light_without_the_sun_itself() {
+        for cloud in [0.0, 0.7] {
+            let m = model(cloud);
+            let (day, soffit) = (m.daylight(SimTime::ZERO), Vec3::new(0.0, 1.0, 20.0));
+            let (sky, sun) = m.indirect_shares(soffit, DOWN, day.sun, &spread(RAYS), &deck(12.0));
+            let got = sky * day.sky_lux + sun * day.direct_normal_lux;
+            let ambient = m.ambient_lux(soffit, Some(DOWN), SimTime::ZERO, &deck(12.0));
+            assert!((got / ambient - 1.0).abs() < 1e-9, "{got} against {ambient}");
+        }
     }
 
     #[test]

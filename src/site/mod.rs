@@ -212,6 +212,18 @@ impl Site {
         &self.plane
     }
 
+    /// Sun, sky and what they leave in the shade.
+    #[must_use]
+    pub fn light(&self) -> &light::LightModel {
+        &self.dynamics.light
+    }
+
+    /// Cars, trucks and people, and where they are when.
+    #[must_use]
+    pub fn traffic(&self) -> &traffic::TrafficPlan {
+        &self.dynamics.traffic
+    }
+
     /// The defects of this session.
     #[must_use]
     pub fn defects(&self) -> &[PlacedDefect] {

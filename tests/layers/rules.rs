@@ -16,7 +16,25 @@ const TABLE: &[(&str, &[&str])] = &[
     ("training", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "monitor"]),
     ("rc", &["base", "mav"]),
     ("report", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "monitor", "training"]),
-    ("app", &["base", "mav", "scenario", "vehicle", "site", "telemetry", "sitl", "monitor", "pilot", "rc", "training", "report"]),
+    ("view", &["base", "mav", "scenario", "vehicle", "site", "telemetry"]),
+    (
+        "app",
+        &[
+            "base",
+            "mav",
+            "scenario",
+            "vehicle",
+            "site",
+            "telemetry",
+            "sitl",
+            "monitor",
+            "pilot",
+            "rc",
+            "training",
+            "report",
+            "view",
+        ],
+    ),
 ];
 
 /// What only the shells may touch: sockets, files, clocks, threads, processes, terminals.

@@ -1,0 +1,91 @@
+//! `spandrel render`: pictures of a recorded session, or of a scenario from anywhere.
+
+use super::args;
+use super::errors::{AppError, EXIT_CODES};
+#[cfg(feature = "view")]
+#[path = "render/draw.rs"]
+mod draw;
+
+/// Draw any moment of a recorded session, or a scenario from anywhere, as a PNG picture
+///
+/// Of a session: what the aircraft's camera saw at a simulation time, what the inspector at the pad saw, or both side by side, with the
+/// head-up display. Of a scenario: from any point towards another. No window and no graphics card are needed: a software Vulkan driver
+/// does (Debian and Ubuntu: mesa-vulkan-drivers).
+#[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel render sessions/20260801T... --at 95 --out both.png
+  spandrel render sessions/20260801T... --at 95 --view camera --size 4000x3000 --quality high --no-hud
+  spandrel render two-bridges --from=-150,-60,12 --look 0,0,25 --utc 2026-06-20T08:00:00Z --cloud 0.2
+  spandrel render two-bridges --from 20,-1,28 --look 0,0,31 --lamp --seed 7
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Session folder, scenario file, or the name of a shipped scenario
+    #[arg(value_name = "SESSION|SCENARIO")]
+    what: String,
+    /// Simulation time, s; of a session without it: the middle of the flight
+    #[arg(long, value_name = "S")]
+    at: Option<f64>,
+    /// Where the picture goes; '-' for standard output
+    #[arg(long, value_name = "FILE", default_value = "picture.png")]
+    out: String,
+    /// Which view of a session
+    #[arg(long, value_name = "VIEW", value_parser = ["camera", "inspector", "both"], default_value = "both")]
+    view: String,
+    /// Size of each view, px
+    #[arg(long, value_name = "WxH", default_value = "1280x720")]
+    size: String,
+    /// How much the picture may cost: low, medium, high or ultra
+    #[arg(long, value_name = "PRESET", default_value = "high")]
+    quality: String,
+    /// Without the head-up display
+    #[arg(long)]
+    no_hud: bool,
+    /// Where the eye is, m from the scenario's origin: east, north, up
+    #[arg(long, value_name = "E,N,U", allow_hyphen_values = true, requires = "look")]
+    from: Option<String>,
+    /// What it looks at, m
+    #[arg(long, value_name = "E,N,U", allow_hyphen_values = true, requires = "from")]
+    look: Option<String>,
+    /// Horizontal field of view, deg; without it the aircraft's camera's
+    #[arg(long, value_name = "DEG")]
+    fov: Option<f64>,
+    /// The lamp is on, at the eye
+    #[arg(long)]
+    lamp: bool,
+    /// Another start of the session, UTC, for another sun (2026-06-20T08:00:00Z); only of a scenario
+    #[arg(long, value_name = "UTC")]
+    utc: Option<String>,
+    /// Another share of clouds, 0 to 1; only of a scenario
+    #[arg(long, value_name = "SHARE")]
+    cloud: Option<f64>,
+    /// Aircraft of a scenario: a file, or the name of a shipped one
+    #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
+    vehicle: String,
+    /// Seed that places defects and traffic of a scenario without a seed of its own
+    #[arg(long, value_name = "N", value_parser = args::seed)]
+    seed: Option<u64>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files are wrong, there is no such moment, or nothing to draw with.
+#[cfg(feature = "view")]
+pub fn run(args: &Args) -> Result<(), AppError> {
+    draw::run(args)
+}
+
+/// Says what is missing.
+///
+/// # Errors
+/// Always.
+#[cfg(not(feature = "view"))]
+pub fn run(args: &Args) -> Result<(), AppError> {
+    Err(AppError::failed(format!(
+        "this program was built without the view, so '{}' cannot be drawn: build it with `cargo build --release --features view`",
+        args.what
+    )))
+}

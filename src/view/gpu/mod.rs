@@ -1,0 +1,13 @@
+//! The only part of the view that knows a graphics device: uploads a scene, draws shots, reads pictures back.
+
+mod device;
+mod overlay;
+mod pass;
+mod pipelines;
+mod renderer;
+mod targets;
+mod uniforms;
+
+pub use device::{Gpu, GpuError};
+pub use overlay::Overlay;
+pub use renderer::{Counts, Renderer, picture_texture, read};

@@ -1,0 +1,293 @@
+//! How each kind of thing is drawn.
+
+use super::device::Gpu;
+use crate::view::mesh::Vertex;
+use crate::view::quality::Quality;
+use crate::view::scene::{Instance, Patch};
+use crate::view::shaders;
+use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm8x4};
+
+/// Light on the sensor.
+pub const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Depth: 1 at the lens, 0 at infinity.
+pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Finished pictures: encoded in sRGB by the shader.
+pub const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// Layouts, samplers and pipelines.
+pub struct Pipelines {
+    /// Globals, shadow maps and their sampler.
+    pub globals_layout: wgpu::BindGroupLayout,
+    /// The mirror and its sampler.
+    pub water_layout: wgpu::BindGroupLayout,
+    /// What `develop` reads.
+    pub develop_layout: wgpu::BindGroupLayout,
+    /// A shadow map's projection.
+    pub map_layout: wgpu::BindGroupLayout,
+    /// Linear between texels, ends at the edge.
+    pub smooth: wgpu::Sampler,
+    /// Linear, repeats.
+    pub tiled: wgpu::Sampler,
+    /// Compares with a shadow map.
+    pub compare: wgpu::Sampler,
+    /// Solids.
+    pub surface: wgpu::RenderPipeline,
+    /// Solids, mirrored.
+    pub surface_mirrored: wgpu::RenderPipeline,
+    /// What shines through.
+    pub sheer: wgpu::RenderPipeline,
+    /// Defects.
+    pub defect: wgpu::RenderPipeline,
+    /// The lake.
+    pub water: wgpu::RenderPipeline,
+    /// The sky.
+    pub sky: wgpu::RenderPipeline,
+    /// The sky, mirrored.
+    pub sky_mirrored: wgpu::RenderPipeline,
+    /// Depth in a shadow map.
+    pub shadow: wgpu::RenderPipeline,
+    /// From light to a picture.
+    pub develop: wgpu::RenderPipeline,
+}
+
+const fn attribute(shader_location: u32, offset: u64, format: wgpu::VertexFormat) -> wgpu::VertexAttribute {
+    wgpu::VertexAttribute { format, offset, shader_location }
+}
+
+const CORNER: &[wgpu::VertexAttribute] = &[
+    attribute(0, 0, Float32x3),
+    attribute(1, 12, Float32x3),
+    attribute(2, 24, Float32x2),
+    attribute(3, 32, Float32x2),
+    attribute(4, 40, Uint32),
+    attribute(5, 44, Unorm8x4),
+    attribute(9, 48, Float32),
+];
+const COPY: &[wgpu::VertexAttribute] = &[
+    attribute(6, 0, Float32x4),
+    attribute(7, 16, Float32x4),
+    attribute(8, 32, Float32x4),
+    attribute(10, 48, Float32x4),
+    attribute(11, 64, Float32x4),
+];
+const PATCH: &[wgpu::VertexAttribute] = &[
+    attribute(0, 0, Float32x4),
+    attribute(1, 16, Float32x4),
+    attribute(2, 32, Float32x4),
+    attribute(3, 48, Float32x4),
+    attribute(4, 64, Float32x4),
+    attribute(5, 80, Float32x4),
+];
+
+fn corners() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Vertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: CORNER,
+    }
+}
+
+fn copies() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Instance>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: COPY,
+    }
+}
+
+fn patches() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Patch>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: PATCH,
+    }
+}
+
+/// What sets one pipeline apart.
+struct Kind<'a> {
+    module: &'a wgpu::ShaderModule,
+    layouts: &'a [Option<&'a wgpu::BindGroupLayout>],
+    buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+    target: Option<wgpu::TextureFormat>,
+    blend: Option<wgpu::BlendState>,
+    /// Whether depth is kept, and how it decides; `None`: no depth at all.
+    depth: Option<(bool, wgpu::CompareFunction)>,
+    bias: i32,
+    cull: Option<wgpu::Face>,
+    front: wgpu::FrontFace,
+    samples: u32,
+}
+
+fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: kind.layouts,
+        immediate_size: 0,
+    });
+    let targets =
+        [kind.target.map(|format| wgpu::ColorTargetState { format, blend: kind.blend, write_mask: wgpu::ColorWrites::ALL })];
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: kind.module,
+            entry_point: Some("vs"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: kind.buffers,
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: kind.cull, front_face: kind.front, ..Default::default() },
+        depth_stencil: kind.depth.map(|(write, compare)| wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(write),
+            depth_compare: Some(compare),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState { constant: kind.bias, slope_scale: kind.bias.signum() as f32, clamp: 0.0 },
+        }),
+        multisample: wgpu::MultisampleState { count: kind.samples, ..Default::default() },
+        fragment: kind.target.map(|_| wgpu::FragmentState {
+            module: kind.module,
+            entry_point: Some("fs"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn layout(gpu: &Gpu, entries: &[(wgpu::ShaderStages, wgpu::BindingType)]) -> wgpu::BindGroupLayout {
+    let entries: Vec<wgpu::BindGroupLayoutEntry> = entries
+        .iter()
+        .enumerate()
+        .map(|(k, (visibility, ty))| wgpu::BindGroupLayoutEntry {
+            binding: k as u32,
+            visibility: *visibility,
+            ty: *ty,
+            count: None,
+        })
+        .collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+}
+
+const UNIFORM: wgpu::BindingType =
+    wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
+
+fn seen(sample_type: wgpu::TextureSampleType, array: bool, multisampled: bool) -> wgpu::BindingType {
+    let view_dimension = if array { wgpu::TextureViewDimension::D2Array } else { wgpu::TextureViewDimension::D2 };
+    wgpu::BindingType::Texture { sample_type, view_dimension, multisampled }
+}
+
+fn module(gpu: &Gpu, name: &str, change: impl Fn(String) -> String) -> wgpu::ShaderModule {
+    let source = wgpu::ShaderSource::Wgsl(change(shaders::source(name)).into());
+    gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(name), source })
+}
+
+/// Layouts of what is bound.
+struct Layouts {
+    globals: wgpu::BindGroupLayout,
+    water: wgpu::BindGroupLayout,
+    develop: wgpu::BindGroupLayout,
+    map: wgpu::BindGroupLayout,
+}
+
+impl Layouts {
+    fn new(gpu: &Gpu, quality: &Quality) -> Self {
+        use wgpu::{BindingType::Sampler, SamplerBindingType, ShaderStages, TextureSampleType};
+        let (both, fragment) = (ShaderStages::VERTEX_FRAGMENT, ShaderStages::FRAGMENT);
+        let filtered = seen(TextureSampleType::Float { filterable: true }, false, false);
+        let smooth = Sampler(SamplerBindingType::Filtering);
+        let maps = seen(TextureSampleType::Depth, true, false);
+        let depth = seen(TextureSampleType::Depth, false, quality.samples > 1);
+        let compare = Sampler(SamplerBindingType::Comparison);
+        let globals = [(both, UNIFORM), (fragment, maps), (fragment, compare), (fragment, filtered), (fragment, smooth)];
+        Self {
+            globals: layout(gpu, &globals),
+            water: layout(gpu, &[(fragment, filtered), (fragment, smooth)]),
+            develop: layout(gpu, &[(fragment, UNIFORM), (fragment, filtered), (fragment, smooth), (fragment, depth)]),
+            map: layout(gpu, &[(ShaderStages::VERTEX, UNIFORM)]),
+        }
+    }
+}
+
+fn sampler(gpu: &Gpu, address: wgpu::AddressMode, compare: Option<wgpu::CompareFunction>) -> wgpu::Sampler {
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        address_mode_u: address,
+        address_mode_v: address,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        compare,
+        ..Default::default()
+    })
+}
+
+/// Nearer is greater; what is as near as before is drawn over.
+const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
+
+impl Pipelines {
+    /// Compiles everything.
+    pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
+        let layouts = Layouts::new(gpu, quality);
+        let same = |text| text;
+        let multisampled = |text: String| {
+            if quality.samples > 1 { text.replace("texture_depth_2d;", "texture_depth_multisampled_2d;") } else { text }
+        };
+        let [surface, sky, defect, water, shadow] =
+            ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name, same));
+        let develop = module(gpu, "develop", multisampled);
+        let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
+        let globals = [Some(&layouts.globals)];
+        let (solid_buffers, patch_buffers, water_buffers) =
+            ([Some(corners()), Some(copies())], [Some(patches())], [Some(corners())]);
+        let (lake_layouts, map_layouts, develop_layouts) =
+            ([Some(&layouts.globals), Some(&layouts.water)], [Some(&layouts.map)], [Some(&layouts.develop)]);
+        let solid = Kind {
+            module: &surface,
+            layouts: &globals,
+            buffers: &solid_buffers,
+            target: Some(LIGHT),
+            blend: None,
+            depth: Some((true, NEARER)),
+            bias: 0,
+            cull: Some(wgpu::Face::Back),
+            front,
+            samples: quality.samples,
+        };
+        let shown = Some((false, NEARER));
+        let back = Kind { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
+        let sheer = Kind { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, ..solid };
+        // Towards the eye: in front of the faces that they lie in.
+        let flat = Kind { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
+        let lake = Kind { module: &water, layouts: &lake_layouts, buffers: &water_buffers, blend: over, cull: None, ..solid };
+        // Away from the sun.
+        let dark = Kind { module: &shadow, layouts: &map_layouts, target: None, bias: -2, cull: None, samples: 1, ..solid };
+        let film = Kind {
+            module: &develop,
+            layouts: &develop_layouts,
+            buffers: &[],
+            target: Some(PICTURE),
+            depth: None,
+            cull: None,
+            samples: 1,
+            ..solid
+        };
+        Self {
+            surface: build(gpu, &solid),
+            surface_mirrored: build(gpu, &Kind { front: wgpu::FrontFace::Cw, samples: 1, ..solid }),
+            sheer: build(gpu, &sheer),
+            defect: build(gpu, &flat),
+            water: build(gpu, &lake),
+            sky_mirrored: build(gpu, &Kind { samples: 1, ..back }),
+            sky: build(gpu, &back),
+            shadow: build(gpu, &dark),
+            develop: build(gpu, &film),
+            smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None),
+            tiled: sampler(gpu, wgpu::AddressMode::Repeat, None),
+            compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(NEARER)),
+            globals_layout: layouts.globals,
+            water_layout: layouts.water,
+            develop_layout: layouts.develop,
+            map_layout: layouts.map,
+        }
+    }
+}

@@ -1,0 +1,369 @@
+//! Draws shots of one scene.
+
+use super::device::{Gpu, GpuError};
+use super::overlay::Overlay;
+use super::pass::{Copies, Solid, begin, begin_depth, upload};
+use super::pipelines::{DEPTH, PICTURE, Pipelines};
+use super::targets::{Targets, noise_texture};
+use super::uniforms::{Develop, Globals, MAPS, Maps};
+use crate::base::frames::{Enu, Vec3};
+use crate::view::hud::Item;
+use crate::view::picture::Picture;
+use crate::view::quality::Quality;
+use crate::view::scene::{Instance, Model, Scene};
+use crate::view::shadows::{self, Map};
+use crate::view::shot::Shot;
+use std::collections::BTreeMap;
+
+/// The sun's map over the whole site is drawn anew when the sun has moved so far (cosine of a quarter of a degree).
+const SUN_MOVED: f64 = 0.999_990_5;
+/// Texture copies must start rows at multiples of this, bytes.
+const ROW: u32 = 256;
+
+/// What one picture cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Triangles sent.
+    pub triangles: u64,
+    /// Draw calls.
+    pub draws: u32,
+}
+
+struct Fixed {
+    solid: Solid,
+    copies: Copies,
+    casts: bool,
+}
+
+/// A scene on the device, and how it is drawn.
+pub struct Renderer {
+    quality: Quality,
+    pipelines: Pipelines,
+    fixed: Vec<Fixed>,
+    models: Vec<Option<Solid>>,
+    water: Option<Solid>,
+    patches: Option<(wgpu::Buffer, u32)>,
+    bounds_m: (Vec3<Enu>, f64),
+    water_m: f64,
+    globals: wgpu::Buffer,
+    globals_mirrored: wgpu::Buffer,
+    bound: wgpu::BindGroup,
+    bound_mirrored: wgpu::BindGroup,
+    maps: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
+    site_map_sun: Option<Vec3<Enu>>,
+    targets: BTreeMap<(u32, u32), Targets>,
+    counts: Counts,
+}
+
+impl Renderer {
+    /// Uploads a scene.
+    #[must_use]
+    pub fn new(gpu: &Gpu, quality: Quality, scene: &Scene) -> Self {
+        let pipelines = Pipelines::new(gpu, &quality);
+        let maps_texture = maps_texture(gpu, &quality);
+        let all = maps_texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        let noise = noise_texture(gpu);
+        let bind = |data: &wgpu::Buffer| {
+            let view = wgpu::BindingResource::TextureView;
+            let sampler = wgpu::BindingResource::Sampler;
+            let bound =
+                [data.as_entire_binding(), view(&all), sampler(&pipelines.compare), view(&noise), sampler(&pipelines.tiled)];
+            let entries: Vec<wgpu::BindGroupEntry> =
+                bound.into_iter().enumerate().map(|(k, resource)| wgpu::BindGroupEntry { binding: k as u32, resource }).collect();
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &pipelines.globals_layout,
+                entries: &entries,
+            })
+        };
+        let (globals, globals_mirrored) = (uniform(gpu, size_of::<Globals>()), uniform(gpu, size_of::<Globals>()));
+        let (bound, bound_mirrored) = (bind(&globals), bind(&globals_mirrored));
+        let layers = 0..maps_texture.depth_or_array_layers();
+        Self {
+            fixed: fixed(gpu, scene),
+            models: scene.models.iter().map(|mesh| Solid::new(gpu, mesh)).collect(),
+            water: Solid::new(gpu, &scene.water),
+            patches: (!scene.patches.is_empty()).then(|| {
+                let bytes = bytemuck::cast_slice(&scene.patches);
+                (upload(gpu, bytes, wgpu::BufferUsages::VERTEX), scene.patches.len() as u32)
+            }),
+            bounds_m: scene.bounds_m,
+            water_m: scene.water_m(),
+            bound,
+            bound_mirrored,
+            maps: layers.map(|k| layer(gpu, &pipelines, &maps_texture, k)).collect(),
+            globals,
+            globals_mirrored,
+            site_map_sun: None,
+            targets: BTreeMap::new(),
+            counts: Counts::default(),
+            quality,
+            pipelines,
+        }
+    }
+
+    /// What the last picture cost.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Draws a shot into `target` (a texture of [`wgpu::TextureFormat::Rgba8Unorm`] of the shot's size).
+    pub fn draw(&mut self, gpu: &Gpu, shot: &Shot, target: &wgpu::TextureView) {
+        self.counts = Counts::default();
+        let sun_maps = shadows::sun_maps(&self.quality, &shot.eye, self.bounds_m, shot.sky.sun);
+        let lamp_map = shot
+            .beam
+            .filter(|_| self.quality.lamp_shadow && sun_maps.len() < self.maps.len())
+            .map(|beam| shadows::lamp_map(&beam, self.quality.shadow_px));
+        let maps = Maps { sun: &sun_maps, lamp: lamp_map.as_ref() };
+        for (buffer, mirrored) in [(&self.globals, false), (&self.globals_mirrored, true)] {
+            let globals = Globals::new(shot, &self.quality, self.water_m, &maps, mirrored);
+            gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(&globals));
+        }
+        let moving = self.moving(gpu, &shot.moving);
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.draw_maps(gpu, &mut encoder, shot, (&sun_maps, lamp_map.as_ref()), &moving);
+        let targets =
+            self.targets.remove(&shot.size_px).unwrap_or_else(|| Targets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
+        if self.quality.reflection > 0.0 {
+            self.draw_mirror(&mut encoder, &targets, &moving);
+        }
+        self.draw_light(&mut encoder, &targets, &moving);
+        let develop = Develop::new(shot, &self.quality);
+        gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
+        {
+            let mut pass = begin(&mut encoder, target, None, None);
+            pass.set_pipeline(&self.pipelines.develop);
+            pass.set_bind_group(0, &targets.develop, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        self.targets.insert(shot.size_px, targets);
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Draws a shot and reads it back.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn picture(&mut self, gpu: &Gpu, shot: &Shot) -> Result<Picture, GpuError> {
+        let texture = picture_texture(gpu, shot.size_px);
+        self.draw(gpu, shot, &texture.create_view(&wgpu::TextureViewDescriptor::default()));
+        read(gpu, &texture)
+    }
+
+    /// Draws a shot with a display over it and reads it back.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn picture_with(&mut self, gpu: &Gpu, shot: &Shot, overlay: &mut Overlay, items: &[Item]) -> Result<Picture, GpuError> {
+        let texture = picture_texture(gpu, shot.size_px);
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.draw(gpu, shot, &view);
+        if !items.is_empty() {
+            overlay.draw(gpu, items, &view, shot.size_px);
+        }
+        read(gpu, &texture)
+    }
+
+    fn moving(&self, gpu: &Gpu, moving: &[(Model, Instance)]) -> Vec<(Model, Copies)> {
+        let of = |model: Model| {
+            let copies: Vec<Instance> = moving.iter().filter(|m| m.0 == model).map(|m| m.1).collect();
+            Copies::new(gpu, &copies).map(|copies| (model, copies))
+        };
+        Model::ALL.into_iter().filter_map(of).collect()
+    }
+
+    fn draw_maps(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        shot: &Shot,
+        (sun, lamp): (&[Map], Option<&Map>),
+        moving: &[(Model, Copies)],
+    ) {
+        // One map over the whole site holds what stands still and is kept while the sun stands.
+        let whole = self.quality.cascades <= 1;
+        let kept = whole && self.site_map_sun.is_some_and(|was| was.dot(shot.sky.sun) > SUN_MOVED);
+        for (k, map) in sun.iter().chain(lamp).enumerate() {
+            let of_sun = k < sun.len();
+            if (of_sun && kept) || (of_sun && shot.sky.direct_lux <= 0.0) {
+                continue;
+            }
+            let Some((view, data, group)) = self.maps.get(k) else { continue };
+            gpu.queue.write_buffer(data, 0, bytemuck::bytes_of(&map.projection.columns()));
+            let mut pass = begin_depth(encoder, view);
+            pass.set_pipeline(&self.pipelines.shadow);
+            pass.set_bind_group(0, group, &[]);
+            for fixed in self.fixed.iter().filter(|f| f.casts) {
+                count(&mut self.counts, &fixed.solid, &fixed.copies);
+                fixed.solid.draw(&mut pass, &fixed.copies);
+            }
+            if !(of_sun && whole) {
+                let solids = moving.iter().filter(|(model, _)| *model != Model::Disc);
+                draw_models(&mut pass, &self.models, solids, &mut self.counts);
+            }
+        }
+        if whole && shot.sky.direct_lux > 0.0 {
+            self.site_map_sun = if kept { self.site_map_sun } else { Some(shot.sky.sun) };
+        }
+    }
+
+    fn draw_mirror(&mut self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, moving: &[(Model, Copies)]) {
+        let mut pass = begin(encoder, &targets.mirror, None, Some(&targets.mirror_depth));
+        pass.set_bind_group(0, &self.bound_mirrored, &[]);
+        pass.set_pipeline(&self.pipelines.surface_mirrored);
+        for fixed in &self.fixed {
+            count(&mut self.counts, &fixed.solid, &fixed.copies);
+            fixed.solid.draw(&mut pass, &fixed.copies);
+        }
+        let solids = moving.iter().filter(|(model, _)| *model != Model::Disc);
+        draw_models(&mut pass, &self.models, solids, &mut self.counts);
+        pass.set_pipeline(&self.pipelines.sky_mirrored);
+        pass.draw(0..3, 0..1);
+    }
+
+    fn draw_light(&mut self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, moving: &[(Model, Copies)]) {
+        let mut pass = begin(encoder, &targets.light, targets.resolved.as_ref(), Some(&targets.depth));
+        pass.set_bind_group(0, &self.bound, &[]);
+        pass.set_pipeline(&self.pipelines.surface);
+        let solids = moving.iter().filter(|(model, _)| *model != Model::Disc);
+        draw_models(&mut pass, &self.models, solids, &mut self.counts);
+        for fixed in &self.fixed {
+            count(&mut self.counts, &fixed.solid, &fixed.copies);
+            fixed.solid.draw(&mut pass, &fixed.copies);
+        }
+        if let Some((buffer, patches)) = &self.patches {
+            pass.set_pipeline(&self.pipelines.defect);
+            pass.set_vertex_buffer(0, buffer.slice(..));
+            pass.draw(0..6, 0..*patches);
+            self.counts.draws += 1;
+        }
+        pass.set_pipeline(&self.pipelines.sky);
+        pass.draw(0..3, 0..1);
+        if let Some(water) = &self.water {
+            pass.set_pipeline(&self.pipelines.water);
+            pass.set_bind_group(1, &targets.water, &[]);
+            water.draw_alone(&mut pass);
+            self.counts.draws += 1;
+            self.counts.triangles += u64::from(water.triangles());
+        }
+        pass.set_pipeline(&self.pipelines.sheer);
+        let sheer = moving.iter().filter(|(model, _)| *model == Model::Disc);
+        draw_models(&mut pass, &self.models, sheer, &mut self.counts);
+    }
+}
+
+fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: size as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// All shadow maps; at least two layers, or it would be no array to some drivers.
+fn maps_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
+    let layers = (quality.cascades + u32::from(quality.lamp_shadow)).clamp(2, MAPS as u32);
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadows"),
+        size: wgpu::Extent3d { width: quality.shadow_px, height: quality.shadow_px, depth_or_array_layers: layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    })
+}
+
+/// One shadow map: where it is drawn, and its projection.
+fn layer(gpu: &Gpu, pipelines: &Pipelines, maps: &wgpu::Texture, k: u32) -> (wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup) {
+    let view = maps.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer: k,
+        array_layer_count: Some(1),
+        ..Default::default()
+    });
+    let data = uniform(gpu, 64);
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipelines.map_layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: data.as_entire_binding() }],
+    });
+    (view, data, group)
+}
+
+fn fixed(gpu: &Gpu, scene: &Scene) -> Vec<Fixed> {
+    let part = |part: &crate::view::scene::Part| {
+        let (solid, copies) = (Solid::new(gpu, &part.mesh)?, Copies::new(gpu, &part.instances)?);
+        Some(Fixed { solid, copies, casts: part.casts })
+    };
+    scene.parts.iter().filter_map(part).collect()
+}
+
+fn draw_models<'a>(
+    pass: &mut wgpu::RenderPass,
+    models: &[Option<Solid>],
+    moving: impl Iterator<Item = &'a (Model, Copies)>,
+    counts: &mut Counts,
+) {
+    for (model, copies) in moving {
+        let Some(Some(solid)) = models.get(*model as usize) else { continue };
+        count(counts, solid, copies);
+        solid.draw(pass, copies);
+    }
+}
+
+fn count(counts: &mut Counts, solid: &Solid, copies: &Copies) {
+    counts.draws += 1;
+    counts.triangles += u64::from(solid.triangles()) * u64::from(copies.count());
+}
+
+/// A texture for a finished picture that can be read back.
+pub fn picture_texture(gpu: &Gpu, (width, height): (u32, u32)) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("picture"),
+        size: wgpu::Extent3d { width: width.max(1), height: height.max(1), depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: PICTURE,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
+/// Reads a texture back.
+///
+/// # Errors
+/// When the device fails.
+pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Picture, GpuError> {
+    let (width, height) = (texture.width(), texture.height());
+    let row = (4 * width).div_ceil(ROW) * ROW;
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read"),
+        size: u64::from(row) * u64::from(height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
+        },
+        texture.size(),
+    );
+    gpu.queue.submit([encoder.finish()]);
+    buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Failed(error.to_string()))?;
+    let mapped = buffer.get_mapped_range(..).map_err(|error| GpuError::Failed(error.to_string()))?;
+    let rgba = mapped.chunks(row as usize).flat_map(|line| &line[..4 * width as usize]).copied().collect();
+    Ok(Picture { width, height, rgba })
+}

@@ -1,0 +1,23 @@
+//! What a trainee sees, drawn from the scenario and from telemetry alone: never from the simulator's insides. Everything up to the graphics
+//! card is plain data and pure functions; only `gpu` (feature `view`) knows a device.
+//!
+//! [`scene`] turns a [`Site`](crate::site::Site) into meshes once and into what moves for every picture; [`camera`] says from where and how
+//! bright; [`hud`] lays the head-up display out; [`shaders`] holds the sources of the shaders.
+
+pub mod camera;
+pub mod exposure;
+pub mod feed;
+#[cfg(feature = "view")]
+pub mod gpu;
+pub mod hud;
+pub mod matrix;
+pub mod mesh;
+pub mod noise;
+pub mod picture;
+pub mod quality;
+pub mod scene;
+pub mod shaders;
+pub mod shadows;
+pub mod shot;
+pub mod sky;
+pub mod stage;

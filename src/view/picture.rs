@@ -1,0 +1,65 @@
+//! A finished picture.
+
+/// Pixels, row by row from the upper left, 8-bit sRGB and alpha.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Picture {
+    /// Width, px.
+    pub width: u32,
+    /// Height, px.
+    pub height: u32,
+    /// Four bytes a pixel.
+    pub rgba: Vec<u8>,
+}
+
+impl Picture {
+    /// Red, green, blue of a pixel; black outside.
+    #[must_use]
+    pub fn at(&self, x: u32, y: u32) -> [u8; 3] {
+        let k = 4 * (y as usize * self.width as usize + x as usize);
+        match self.rgba.get(k..k + 3) {
+            Some(&[r, g, b]) if x < self.width => [r, g, b],
+            _ => [0; 3],
+        }
+    }
+
+    /// Mean luma (0..255) of a rectangle, cut off at the picture's edges.
+    #[must_use]
+    pub fn luma(&self, (left, top): (u32, u32), (right, bottom): (u32, u32)) -> f64 {
+        let mut sum = 0.0;
+        let mut count = 0.0;
+        for y in top..bottom.min(self.height) {
+            for x in left..right.min(self.width) {
+                let [r, g, b] = self.at(x, y).map(f64::from);
+                sum += 0.2126 * r + 0.7152 * g + 0.0722 * b;
+                count += 1.0;
+            }
+        }
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
+
+    /// Mean absolute difference per channel (0..255); `None` when the sizes differ.
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> Option<f64> {
+        if (self.width, self.height) != (other.width, other.height) || self.rgba.is_empty() {
+            return None;
+        }
+        let sum: f64 = self.rgba.iter().zip(&other.rgba).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+        // The alpha channel is the same everywhere.
+        Some(sum / (0.75 * self.rgba.len() as f64))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_differences_and_means() {
+        let grey = |v: u8| Picture { width: 2, height: 1, rgba: vec![v, v, v, 255, v, v, v, 255] };
+        assert_eq!(grey(10).difference(&grey(13)), Some(3.0));
+        assert_eq!(grey(10).difference(&Picture { width: 1, height: 1, rgba: vec![0; 4] }), None);
+        assert!((grey(40).luma((0, 0), (9, 9)) - 40.0).abs() < 1e-9);
+        assert_eq!(grey(7).at(1, 0), [7, 7, 7]);
+        assert_eq!(grey(7).at(2, 0), [0, 0, 0]);
+    }
+}

@@ -1,0 +1,185 @@
+//! Every member of every bridge, with coordinates in its faces and light at its corners.
+
+use super::super::mesh::{Material, Mesh, Vertex, single};
+use super::super::quality::Quality;
+use super::bake::{Bake, INSET_M, filled};
+use crate::base::frames::{Enu, Vec3};
+use crate::scenario::bridges::Member;
+use crate::scenario::{Bridge, Scenario};
+
+/// Coat of the main steelwork, linear (a weathered green, as many old suspension bridges are painted; estimate).
+pub(super) const COAT: [u8; 3] = [38, 68, 56];
+/// Coat of railings.
+const RAIL: [u8; 3] = [58, 76, 74];
+/// Bearings: bare, greased steel.
+const BEARING: [u8; 3] = [38, 34, 30];
+/// Wires.
+const WIRE: [u8; 3] = [92, 94, 92];
+const WHITE: [u8; 3] = [255, 255, 255];
+/// Faces narrower than this have the same light across, m.
+const NARROW_M: f64 = 0.8;
+
+/// What an element is made of, by its AASHTO number, and its coat.
+pub(super) fn matter(element: u32) -> (Material, [u8; 3]) {
+    match element {
+        147..=149 => (Material::Cable, WIRE),
+        310..=316 => (Material::Steel, BEARING),
+        330 => (Material::Steel, RAIL),
+        28..=30 | 102 | 107 | 113 | 120 | 141 | 152 | 161 | 162 | 202 | 207 | 225 | 231 => (Material::Steel, COAT),
+        _ => (Material::Concrete, WHITE),
+    }
+}
+
+/// Bridges' own axes for coordinates in faces.
+struct Axes {
+    origin_m: Vec3<Enu>,
+    along: Vec3<Enu>,
+    left: Vec3<Enu>,
+    half_deck_m: f64,
+}
+
+/// All members as one mesh.
+pub fn mesh(scenario: &Scenario, bake: &Bake, quality: &Quality) -> Mesh {
+    let mut mesh = Mesh::default();
+    for bridge in &scenario.bridges {
+        let axes = axes(bridge);
+        for member in bridge.members() {
+            add(&mut mesh, &member, &axes, bake, quality);
+        }
+    }
+    mesh
+}
+
+fn axes(bridge: &Bridge) -> Axes {
+    let placement = bridge.placement();
+    Axes {
+        origin_m: bridge.centre_m,
+        along: placement.direction([1.0, 0.0, 0.0]),
+        left: placement.direction([0.0, 1.0, 0.0]),
+        half_deck_m: 0.5 * bridge.deck_width_m(),
+    }
+}
+
+fn add(mesh: &mut Mesh, member: &Member, axes: &Axes, bake: &Bake, quality: &Quality) {
+    let (material, tint) = matter(member.element);
+    for face in &member.solid.faces {
+        let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
+        let normal = normal(&corners);
+        let road = matches!(member.element, 12 | 13 | 15 | 16 | 28..=31 | 38 | 39) && normal.up() > 0.9;
+        let look = Look {
+            normal,
+            material: if road { Material::Deck } else { material },
+            tint,
+            smooth: material == Material::Cable && face.len() == 4,
+        };
+        match <[Vec3<Enu>; 4]>::try_from(corners.as_slice()) {
+            Ok(quad) => quad_face(mesh, member, &quad, &look, axes, bake, quality),
+            Err(_) => fan_face(mesh, &corners, &look, axes, bake),
+        }
+    }
+}
+
+struct Look {
+    normal: Vec3<Enu>,
+    material: Material,
+    tint: [u8; 3],
+    smooth: bool,
+}
+
+fn normal(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
+    let count = corners.len();
+    (0..count).fold(Vec3::zero(), |sum, k| sum + corners[k].cross(corners[(k + 1) % count])).unit()
+}
+
+/// Coordinates in a face: along the bridge and across it on level faces, level and up on walls.
+fn uv(p: Vec3<Enu>, normal: Vec3<Enu>, axes: &Axes) -> [f32; 2] {
+    let from = p - axes.origin_m;
+    if normal.up().abs() > 0.8 {
+        return [from.dot(axes.along) as f32, from.dot(axes.left) as f32];
+    }
+    let level = Vec3::new(0.0, 0.0, 1.0).cross(normal).unit();
+    [from.dot(level) as f32, from.dot(normal.cross(level)) as f32]
+}
+
+fn corner(p: Vec3<Enu>, look: &Look, axes: &Axes, light: [f32; 2]) -> Vertex {
+    let [r, g, b] = look.tint;
+    Vertex {
+        position: single(p),
+        normal: single(look.normal),
+        uv: uv(p, look.normal, axes),
+        light,
+        material: look.material as u32,
+        tint: [r, g, b, 255],
+        aux: if look.material == Material::Deck { axes.half_deck_m as f32 } else { 0.0 },
+    }
+}
+
+fn fan_face(mesh: &mut Mesh, corners: &[Vec3<Enu>], look: &Look, axes: &Axes, bake: &Bake) {
+    let middle = corners.iter().fold(Vec3::zero(), |sum, c| sum + *c) / corners.len() as f64;
+    let light = bake.on_member(middle, look.normal).unwrap_or([0.0, 0.0]);
+    let first = mesh.vertices.len() as u32;
+    mesh.vertices.extend(corners.iter().map(|c| corner(*c, look, axes, light)));
+    for k in 2..corners.len() as u32 {
+        mesh.indices.extend([first, first + k - 1, first + k]);
+    }
+}
+
+fn quad_face(mesh: &mut Mesh, member: &Member, quad: &[Vec3<Enu>; 4], look: &Look, axes: &Axes, bake: &Bake, quality: &Quality) {
+    let [a, b, c, d] = *quad;
+    let lengths = ((b - a).norm().max((c - d).norm()), (d - a).norm().max((c - b).norm()));
+    let steps = |length: f64| ((length / quality.light_cell_m).ceil() as usize).max(1);
+    let (nu, nv) = if look.smooth { (1, 1) } else { (steps(lengths.0), steps(lengths.1)) };
+    let at = |s: f64, t: f64| a.lerp(b, s).lerp(d.lerp(c, s), t);
+    // Samples stay a little inside; across a narrow face one is enough.
+    let inside = |k: usize, n: usize, length: f64| {
+        let margin = (INSET_M / length).min(0.25);
+        if length < NARROW_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }
+    };
+    let (columns, rows) = (nu + 1, nv + 1);
+    let mut samples: Vec<Option<[f32; 2]>> = Vec::with_capacity(columns * rows);
+    for row in 0..rows {
+        for column in 0..columns {
+            let same = if column > 0 && lengths.0 < NARROW_M {
+                Some(samples.len() - 1)
+            } else if row > 0 && lengths.1 < NARROW_M {
+                Some(samples.len() - columns)
+            } else {
+                None
+            };
+            let sample = match same {
+                Some(known) => samples[known],
+                None => bake.on_member(at(inside(column, nu, lengths.0), inside(row, nv, lengths.1)), look.normal),
+            };
+            samples.push(sample);
+        }
+    }
+    let light = filled(&samples, columns);
+    let first = mesh.vertices.len() as u32;
+    for row in 0..rows {
+        for column in 0..columns {
+            let p = at(column as f64 / nu as f64, row as f64 / nv as f64);
+            let mut vertex = corner(p, look, axes, light[row * columns + column]);
+            if look.smooth {
+                vertex.normal = single(rounded(member, p, look.normal));
+            }
+            mesh.vertices.push(vertex);
+        }
+    }
+    for row in 0..nv as u32 {
+        for column in 0..nu as u32 {
+            let i = first + row * columns as u32 + column;
+            let over = i + columns as u32;
+            mesh.indices.extend([i, i + 1, over + 1, i, over + 1, over]);
+        }
+    }
+}
+
+/// Normal of a round bar at one of its corners: the mean of the sides that meet there.
+fn rounded(member: &Member, p: Vec3<Enu>, own: Vec3<Enu>) -> Vec3<Enu> {
+    let solid = &member.solid;
+    let meets = |face: &&Vec<u32>| face.len() == 4 && face.iter().any(|k| (solid.vertices_m[*k as usize] - p).norm() < 1e-6);
+    let sides = solid.faces.iter().filter(meets);
+    let sum = sides
+        .fold(Vec3::zero(), |sum, face| sum + normal(&face.iter().map(|k| solid.vertices_m[*k as usize]).collect::<Vec<_>>()));
+    if sum.norm() > 1e-6 { sum.unit() } else { own }
+}

@@ -1,0 +1,62 @@
+//! Sources of the shaders. Each is the common part followed by its own; plain tests parse and validate all of them with no graphics card.
+
+/// Structures, noise, shadows and shading that the others share.
+const COMMON: &str = include_str!("shaders/common.wgsl");
+
+/// A shader: name and source.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Source {
+    /// Name, for messages.
+    pub name: &'static str,
+    /// WGSL.
+    pub text: String,
+}
+
+/// Every shader.
+#[must_use]
+pub fn all() -> Vec<Source> {
+    let drawn = [
+        ("surface", include_str!("shaders/surface.wgsl")),
+        ("defect", include_str!("shaders/defect.wgsl")),
+        ("water", include_str!("shaders/water.wgsl")),
+        ("sky", include_str!("shaders/sky.wgsl")),
+    ];
+    let mut sources: Vec<Source> = drawn.iter().map(|(name, own)| Source { name, text: format!("{COMMON}\n{own}") }).collect();
+    sources.push(Source { name: "shadow", text: include_str!("shaders/shadow.wgsl").to_owned() });
+    sources.push(Source { name: "develop", text: include_str!("shaders/develop.wgsl").to_owned() });
+    sources
+}
+
+/// The source of a name; empty for a name that is none.
+#[must_use]
+pub fn source(name: &str) -> String {
+    all().into_iter().find(|source| source.name == name).map_or_else(String::new, |source| source.text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+    #[test]
+    fn exact_every_shader_is_valid() {
+        for source in all() {
+            let module = naga::front::wgsl::parse_str(&source.text)
+                .unwrap_or_else(|error| panic!("{}: {}", source.name, error.emit_to_string(&source.text)));
+            Validator::new(ValidationFlags::all(), Capabilities::empty())
+                .validate(&module)
+                .unwrap_or_else(|error| panic!("{}: {}", source.name, error.emit_to_string(&source.text)));
+            assert!(!module.entry_points.is_empty(), "{}: no entry point", source.name);
+        }
+    }
+
+    #[test]
+    fn exact_a_shader_that_is_wrong_is_noticed() {
+        assert!(
+            naga::front::wgsl::parse_str("fn f() -> f32 { return 1u; }").is_err_and(|e| !e.message().is_empty()) || {
+                let module = naga::front::wgsl::parse_str("fn f() -> f32 { return 1u; }").unwrap();
+                Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module).is_err()
+            }
+        );
+    }
+}

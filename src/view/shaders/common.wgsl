@@ -1,0 +1,253 @@
+// Light is carried as pi times radiance, in lux over the exposure's white: a white matte surface under the white illuminance is 1.
+
+struct Globals {
+    view_proj: mat4x4<f32>,
+    // Eye position; seconds.
+    eye: vec4<f32>,
+    // Right and up times the picture's half sizes at distance 1, and forward; w of the last: radians per pixel.
+    right: vec4<f32>,
+    up: vec4<f32>,
+    forward: vec4<f32>,
+    // Towards the sun; its illuminance.
+    sun: vec4<f32>,
+    // Its colour; share of clouds.
+    sun_rgb: vec4<f32>,
+    // Colour of the sky's light; its horizontal illuminance.
+    sky_rgb: vec4<f32>,
+    // Factor on the sky's relative radiance; water level; haze, 1/m.
+    scene: vec4<f32>,
+    // Lamp: position, cosine of half the beam; direction, candela.
+    lamp: vec4<f32>,
+    lamp_dir: vec4<f32>,
+    // 1/white; wind speed; wind direction (towards), east and north.
+    look: vec4<f32>,
+    // Number of sun maps; texels a side of their filter; 1 where the lamp has a map; 1 where the water has a reflection.
+    shadow: vec4<f32>,
+    // Size of a texel in each map, m.
+    texel: vec4<f32>,
+    // Picture size, px.
+    size: vec4<f32>,
+    shadow_proj: array<mat4x4<f32>, 5>,
+}
+
+@group(0) @binding(0) var<uniform> g: Globals;
+@group(0) @binding(1) var shadow_map: texture_depth_2d_array;
+@group(0) @binding(2) var shadow_sampler: sampler_comparison;
+// Noise of several octaves, of one octave, distance to the nearest of scattered points, that point's number (noise.rs).
+@group(0) @binding(3) var noise_map: texture_2d<f32>;
+@group(0) @binding(4) var noise_sampler: sampler;
+
+const PI: f32 = 3.14159265;
+
+// ---- noise ----
+
+fn hash2(p: vec2<i32>) -> f32 {
+    var h = bitcast<u32>(p.x) * 0x8da6b343u + bitcast<u32>(p.y) * 0xd8163841u;
+    h = (h ^ (h >> 15u)) * 0x2c1b3c6du;
+    h = (h ^ (h >> 12u)) * 0x297a2d39u;
+    h = h ^ (h >> 15u);
+    return f32(h >> 8u) / 16777216.0;
+}
+
+// Smooth noise of one octave with cells of 1.
+fn noise(p: vec2<f32>) -> f32 {
+    return textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0).g;
+}
+
+// Several octaves about 0.5, averaged over the footprint (in the units of p).
+fn fbm(p: vec2<f32>, footprint: f32) -> f32 {
+    return textureSampleLevel(noise_map, noise_sampler, p / 16.0, log2(max(footprint * 32.0, 1.0))).r;
+}
+
+// Cells of a random pattern: distance to the nearest centre, and a number of that cell.
+fn pebbles(p: vec2<f32>) -> vec2<f32> {
+    let found = textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0);
+    return vec2<f32>(found.b * 1.28, found.a);
+}
+
+// Share of a pixel `footprint` wide that a line of `width` at distance d covers.
+fn cover(d: f32, width: f32, footprint: f32) -> f32 {
+    let f = max(footprint, 1e-6);
+    return clamp((0.5 * (width + f) - d) / f, 0.0, min(1.0, width / f));
+}
+
+// The same for lines repeated every `spacing`; far away their mean.
+fn lines(x: f32, spacing: f32, width: f32, footprint: f32) -> f32 {
+    let d = abs(fract(x / spacing) - 0.5) * spacing;
+    let mean = width / spacing;
+    return mix(cover(0.5 * spacing - d, width, footprint), mean, smoothstep(0.25, 0.6, footprint / spacing));
+}
+
+// ---- sky ----
+
+fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {
+    let up = clamp(direction.z, 0.0, 1.0);
+    let down = 1.0 - up;
+    let fall = down * down * down * down;
+    let angle = acos(clamp(dot(direction, g.sun.xyz), -1.0, 1.0));
+    let glow = 1.0 + 2.2 * exp(-3.2 * angle) + 5.0 * exp(-22.0 * angle);
+    let clear = (0.32 + 0.68 * fall) * glow * mix(vec3<f32>(0.62, 0.97, 2.0), vec3<f32>(0.94, 0.995, 1.24), fall);
+    let grey = (1.0 + 2.0 * up) / 3.0 * vec3<f32>(0.97, 1.0, 1.05);
+    return g.scene.x * mix(clear, grey, g.sun_rgb.w);
+}
+
+// ---- shadows ----
+
+fn compared(layer: i32, uv: vec2<f32>, depth: f32) -> f32 {
+    return textureSampleCompareLevel(shadow_map, shadow_sampler, uv, layer, depth);
+}
+
+// Mean over a square of texels around a place in a map.
+fn map_visible(layer: i32, q: vec3<f32>) -> f32 {
+    let uv = vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y);
+    let s = 1.0 / f32(textureDimensions(shadow_map).x);
+    let a = 0.5 * s * (g.shadow.y - 1.0);
+    var sum = compared(layer, uv + vec2<f32>(-a, -a), q.z) + compared(layer, uv + vec2<f32>(a, -a), q.z)
+        + compared(layer, uv + vec2<f32>(-a, a), q.z) + compared(layer, uv + vec2<f32>(a, a), q.z);
+    if g.shadow.y < 2.5 {
+        return 0.25 * sum;
+    }
+    sum += compared(layer, uv + vec2<f32>(-a, 0.0), q.z) + compared(layer, uv + vec2<f32>(a, 0.0), q.z)
+        + compared(layer, uv + vec2<f32>(0.0, -a), q.z) + compared(layer, uv + vec2<f32>(0.0, a), q.z) + compared(layer, uv, q.z);
+    return sum / 9.0;
+}
+
+fn in_map(layer: i32, p: vec3<f32>) -> vec4<f32> {
+    let clip = g.shadow_proj[layer] * vec4<f32>(p, 1.0);
+    let q = clip.xyz / clip.w;
+    let inside = clip.w > 0.0 && max(abs(q.x), abs(q.y)) < 0.985 && q.z > 0.0 && q.z < 1.0;
+    return vec4<f32>(q, select(0.0, 1.0, inside));
+}
+
+fn sun_visible(p: vec3<f32>, n: vec3<f32>) -> f32 {
+    if g.sun.w <= 0.0 {
+        return 0.0;
+    }
+    // A step off the surface that grows as the sun grazes it keeps a surface from shading itself.
+    let lean = 0.6 + 1.6 * (1.0 - clamp(dot(n, g.sun.xyz), 0.0, 1.0));
+    let count = i32(g.shadow.x);
+    var layer = 0;
+    var q = in_map(0, p + n * (g.texel.x * lean));
+    if q.w < 0.5 && count > 1 {
+        layer = 1;
+        q = in_map(1, p + n * (g.texel.y * lean));
+    }
+    if q.w < 0.5 && count > 2 {
+        layer = 2;
+        q = in_map(2, p + n * (g.texel.z * lean));
+    }
+    if q.w < 0.5 && count > 3 {
+        layer = 3;
+        q = in_map(3, p + n * (g.texel.w * lean));
+    }
+    if q.w < 0.5 {
+        return 1.0;
+    }
+    return map_visible(layer, q.xyz);
+}
+
+// ---- shading ----
+
+struct Matter {
+    albedo: vec3<f32>,
+    roughness: f32,
+    metal: f32,
+    normal: vec3<f32>,
+    // Shares of the sky's and of the sun's illuminance that arrive indirectly.
+    light: vec2<f32>,
+}
+
+fn ggx(n: vec3<f32>, v: vec3<f32>, l: vec3<f32>, f0: vec3<f32>, roughness: f32) -> vec3<f32> {
+    let h = normalize(v + l);
+    let a = roughness * roughness;
+    let nh = clamp(dot(n, h), 0.0, 1.0);
+    let nv = max(dot(n, v), 1e-3);
+    let nl = max(dot(n, l), 1e-3);
+    let d = nh * nh * (a * a - 1.0) + 1.0;
+    let distribution = a * a / (PI * d * d);
+    let visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a * a) + a * a) + nv * sqrt(nl * nl * (1.0 - a * a) + a * a));
+    let f = pow(1.0 - clamp(dot(v, h), 0.0, 1.0), 5.0);
+    return distribution * visible * (f0 + (1.0 - f0) * f);
+}
+
+fn lamp_lux(p: vec3<f32>, n: vec3<f32>) -> f32 {
+    let to = p - g.lamp.xyz;
+    let distance = length(to);
+    if g.lamp_dir.w <= 0.0 || distance < 1e-3 {
+        return 0.0;
+    }
+    let ray = to / distance;
+    let edge = g.lamp.w;
+    let beam = smoothstep(edge - 0.02, edge + 0.02, dot(ray, g.lamp_dir.xyz));
+    if beam <= 0.0 {
+        return 0.0;
+    }
+    var seen = 1.0;
+    if g.shadow.z > 0.5 {
+        let layer = i32(g.shadow.x);
+        let q = in_map(layer, p + n * 0.03 - ray * 0.03);
+        if q.w > 0.5 {
+            seen = map_visible(layer, q.xyz);
+        }
+    }
+    return g.lamp_dir.w * beam * seen * max(-dot(ray, n), 0.0) / max(distance * distance, 0.01);
+}
+
+// Ripples of light that waves throw up at what hangs over the water.
+fn caustics(p: vec3<f32>) -> f32 {
+    let t = g.eye.w;
+    let q = p.xy * 0.55;
+    let a = noise(q + vec2<f32>(0.35 * t, 0.2 * t));
+    let b = noise(q * 1.9 - vec2<f32>(0.3 * t, -0.4 * t) + 7.3);
+    let ridge = 1.0 - abs(a + b - 1.0) * 2.2;
+    return clamp(ridge, 0.0, 1.0);
+}
+
+fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
+    let away = g.eye.xyz - p;
+    let distance = length(away);
+    let v = away / max(distance, 1e-6);
+    let n = m.normal;
+    let f0 = mix(vec3<f32>(0.04), m.albedo, m.metal);
+    let matte = m.albedo * (1.0 - m.metal);
+    let facing = max(dot(n, g.sun.xyz), 0.0);
+    var direct = 0.0;
+    if facing > 0.0 {
+        direct = g.sun.w * facing * sun_visible(p, n);
+    }
+    var bounce = m.light.y * g.sun.w;
+    if n.z < -0.3 && bounce > 0.0 && p.z < g.scene.y + 60.0 {
+        bounce *= 0.86 + 0.45 * caustics(p);
+    }
+    let indirect = m.light.x * g.sky_rgb.w * g.sky_rgb.xyz + bounce * g.sun_rgb.xyz;
+    let sun = direct * g.sun_rgb.xyz;
+    let lamp = lamp_lux(p, n);
+    var out = matte * (indirect + sun + lamp);
+    if direct > 0.0 && m.roughness < 0.85 {
+        out += PI * ggx(n, v, g.sun.xyz, f0, m.roughness) * sun;
+    }
+    if lamp > 0.0 {
+        out += PI * ggx(n, v, normalize(g.lamp.xyz - p), f0, m.roughness) * lamp;
+    }
+    if m.roughness < 0.7 {
+        let r = reflect(-v, n);
+        let open = clamp(m.light.x * 1.2, 0.0, 1.0);
+        let fresnel = f0 + (max(vec3<f32>(1.0 - m.roughness), f0) - f0) * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 5.0);
+        var seen = sky_radiance(r);
+        if r.z < 0.0 {
+            seen = 0.12 * (g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * g.sun_rgb.xyz);
+        }
+        out += fresnel * mix(indirect, seen, (1.0 - m.roughness) * open) * (1.0 - 0.5 * m.roughness);
+    }
+    return haze(out, v, distance);
+}
+
+// Air between: things fade into the sky's horizon.
+fn haze(colour: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
+    let horizon = normalize(vec3<f32>(-v.x, -v.y, 0.04));
+    return mix(sky_radiance(horizon) * 0.85, colour, exp(-distance * g.scene.z));
+}
+
+fn exposed(colour: vec3<f32>) -> vec4<f32> {
+    return vec4<f32>(min(colour * g.look.x, vec3<f32>(200.0)), 1.0);
+}

@@ -1,0 +1,323 @@
+// Defects, each a patch on its member, drawn by kind. Lines cover shares of pixels, so that a crack narrower than a pixel
+// fades with its width over the ground sampling distance, as it does on a sensor.
+
+struct Patch {
+    // Centre; AASHTO code.
+    @location(0) centre: vec4<f32>,
+    // Normal; a number of its own in 0..1.
+    @location(1) normal: vec4<f32>,
+    // Along the longest extent; length, m.
+    @location(2) along: vec4<f32>,
+    // Width, m; condition state; down in the patch's own axes.
+    @location(3) size: vec4<f32>,
+    // Indirect light; half sizes of the quad.
+    @location(4) light: vec4<f32>,
+    // Colour of the coat on steel.
+    @location(5) tint: vec4<f32>,
+}
+
+struct Fragment {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) p: vec3<f32>,
+    @location(1) q: vec2<f32>,
+    @location(2) @interpolate(flat) kind: u32,
+    @location(3) @interpolate(flat) normal: vec4<f32>,
+    @location(4) @interpolate(flat) along: vec4<f32>,
+    @location(5) @interpolate(flat) size: vec4<f32>,
+    @location(6) @interpolate(flat) light: vec2<f32>,
+    @location(7) @interpolate(flat) tint: vec3<f32>,
+}
+
+@vertex
+fn vs(@builtin(vertex_index) k: u32, d: Patch) -> Fragment {
+    var corners = array<vec2<f32>, 6>(
+        vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, -1.0), vec2<f32>(1.0, 1.0),
+        vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, 1.0), vec2<f32>(-1.0, 1.0),
+    );
+    let q = corners[k] * d.light.zw;
+    let across = cross(d.normal.xyz, d.along.xyz);
+    var out: Fragment;
+    out.p = d.centre.xyz + d.along.xyz * q.x + across * q.y;
+    // A little towards the eye: in front of the surface that it lies in.
+    let shown = out.p + d.normal.xyz * 0.0015;
+    out.clip = g.view_proj * vec4<f32>(shown, 1.0);
+    out.q = q;
+    out.kind = u32(d.centre.w + 0.5);
+    out.normal = d.normal;
+    out.along = d.along;
+    out.size = d.size;
+    out.light = d.light.xy;
+    out.tint = d.tint.rgb;
+    return out;
+}
+
+struct Look {
+    matter: Matter,
+    alpha: f32,
+}
+
+// How far a crack's middle strays sideways at x, m: straight legs and kinks, no more than 25 mm.
+fn stray(x: f32, seed: f32, footprint: f32) -> f32 {
+    let s = seed * 91.7;
+    var y = 0.016 * (noise(vec2<f32>(x * 4.0 + s, s)) * 2.0 - 1.0);
+    y += 0.006 * (noise(vec2<f32>(x * 17.0 + s, s + 7.0)) * 2.0 - 1.0) * (1.0 - smoothstep(0.006, 0.03, footprint));
+    y += 0.002 * (noise(vec2<f32>(x * 71.0 + s, s + 3.0)) * 2.0 - 1.0) * (1.0 - smoothstep(0.002, 0.008, footprint));
+    return y;
+}
+
+// Share of the pixel that the crack covers; the widest part has 1.5 times the width that counts.
+fn crack(in: Fragment, footprint: f32, off: f32) -> f32 {
+    let half = 0.5 * in.along.w;
+    let x = in.q.x;
+    let taper = smoothstep(0.0, 0.12, 1.0 - abs(x) / half);
+    let width = in.size.x * mix(0.35, 1.0, taper) * (0.7 + 0.6 * noise(vec2<f32>(x * 23.0, in.normal.w * 50.0)));
+    let inside = smoothstep(-footprint, footprint, half - abs(x));
+    return cover(abs(off), width, footprint) * inside;
+}
+
+// Ragged outline: below 1 inside, in shares of the half sizes.
+fn outline(q: vec2<f32>, half: vec2<f32>, seed: f32) -> f32 {
+    let u = q / half;
+    let angle = atan2(u.y, u.x);
+    let s = seed * 37.0;
+    let ragged = 0.86 + 0.16 * (noise(vec2<f32>(3.0 * cos(angle) + s, 3.0 * sin(angle) + s)) - 0.5)
+        + 0.10 * (noise(vec2<f32>(9.0 * cos(angle) + s, 9.0 * sin(angle))) - 0.5);
+    // Between an ellipse and a box: broken edges run straight.
+    let e = pow(pow(abs(u.x), 3.0) + pow(abs(u.y), 3.0), 1.0 / 3.0);
+    return e / ragged;
+}
+
+// Depth under the surface, m.
+fn pit(q: vec2<f32>, half: vec2<f32>, seed: f32, deepest: f32) -> f32 {
+    let e = outline(q, half, seed);
+    let rough = fbm(q * 45.0 + seed * 10.0, 0.0) - 0.5;
+    return deepest * smoothstep(1.0, 0.80, e) * (0.8 + 0.35 * rough);
+}
+
+fn frame_normal(in: Fragment, slope: vec2<f32>) -> vec3<f32> {
+    let across = cross(in.normal.xyz, in.along.xyz);
+    return normalize(in.normal.xyz - in.along.xyz * slope.x - across * slope.y);
+}
+
+// Share of sunlight that the lip of a pit leaves at a place in it.
+fn lip_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards: vec3<f32>) -> f32 {
+    let across = cross(in.normal.xyz, in.along.xyz);
+    let l = vec3<f32>(dot(towards, in.along.xyz), dot(towards, across), dot(towards, in.normal.xyz));
+    if l.z <= 0.02 {
+        return 1.0;
+    }
+    let here = pit(q, half, in.normal.w, deepest);
+    let reach = l.xy / l.z * here;
+    var lit = 1.0;
+    for (var k = 1; k <= 5; k++) {
+        let t = f32(k) / 5.0;
+        let depth = pit(q + reach * t, half, in.normal.w, deepest);
+        lit = min(lit, 1.0 - smoothstep(0.0, 0.25 * deepest, here * (1.0 - t) - depth));
+    }
+    return lit;
+}
+
+// Broken concrete in a pit, with the edge's shadow.
+fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, look: ptr<function, Look>) {
+    let seed = in.normal.w;
+    let e = outline(q, half, seed);
+    let step = max(0.002, f);
+    let here = pit(q, half, seed, deepest);
+    let slope = -vec2<f32>(pit(q + vec2<f32>(step, 0.0), half, seed, deepest) - here, pit(q + vec2<f32>(0.0, step), half, seed, deepest) - here) / step;
+    (*look).matter.normal = frame_normal(in, clamp(slope, vec2<f32>(-2.5), vec2<f32>(2.5)));
+    let stone = pebbles(q * 38.0);
+    let shown = 1.0 - smoothstep(0.006, 0.03, f);
+    var colour = vec3<f32>(0.46, 0.435, 0.39) * (0.8 + 0.4 * (fbm(q * 24.0 + seed, f * 24.0) - 0.5));
+    let pebble = mix(vec3<f32>(0.30, 0.27, 0.24), vec3<f32>(0.56, 0.53, 0.48), stone.y);
+    colour = mix(colour, pebble, shown * (1.0 - smoothstep(0.28, 0.42, stone.x)) * 0.8);
+    let shelter = smoothstep(0.6, 1.0, e) * smoothstep(0.0, 0.06, deepest);
+    (*look).matter.light *= 1.0 - 0.55 * shelter;
+    colour *= mix(1.0, lip_shadow(in, q, half, deepest, g.sun.xyz), 0.55);
+    // The broken edge itself is a dark line.
+    let edge = fwidth(e);
+    colour *= 1.0 - 0.55 * (1.0 - smoothstep(0.0, 0.06 + edge, abs(e - 0.96)));
+    (*look).matter.albedo = colour;
+    (*look).matter.roughness = 0.95;
+    (*look).alpha = 1.0 - smoothstep(1.0 - 0.5 * edge, 1.0 + 0.5 * edge, e);
+}
+
+fn rust(q: vec2<f32>, f: f32) -> vec3<f32> {
+    let a = fbm(q * 18.0, f * 18.0);
+    let b = fbm(q * 70.0 + 9.0, f * 70.0);
+    return mix(vec3<f32>(0.10, 0.035, 0.018), vec3<f32>(0.36, 0.135, 0.04), a) * (0.65 + 0.7 * b);
+}
+
+fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    broken(in, in.q, half, 0.035, f, look);
+    let seed = in.normal.w;
+    // Bars of 12 to 16 mm radius along the patch, as many as fit.
+    let count = max(1.0, floor(in.size.x / 0.11));
+    let gap = in.size.x / count;
+    let lane = (fract(in.q.y / gap + 0.5 * count) - 0.5) * gap;
+    let radius = 0.011 + 0.004 * seed;
+    let t = clamp(lane / radius, -1.0, 1.0);
+    let bar = cover(abs(lane), 2.0 * radius, f) * (1.0 - smoothstep(0.86, 0.94, outline(in.q, half, seed)));
+    let rib = lines(in.q.x + 0.6 * lane, 0.012, 0.004, f);
+    // Rust has run over the concrete beside the bars.
+    let bleed = exp(-pow(lane / (2.6 * radius), 2.0)) * smoothstep(0.3, 0.7, fbm(in.q * 14.0 + seed * 9.0, f * 14.0));
+    (*look).matter.albedo = mix((*look).matter.albedo, vec3<f32>(0.34, 0.16, 0.07), 0.75 * bleed);
+    let steel = rust(in.q + seed, f) * (1.25 + 0.5 * rib);
+    (*look).matter.albedo = mix((*look).matter.albedo, steel, bar);
+    let round = frame_normal(in, vec2<f32>(0.0, -1.3 * t));
+    (*look).matter.normal = normalize(mix((*look).matter.normal, round, bar));
+    // Beside a bar lies its shadow.
+    let under = (1.0 - bar) * (1.0 - smoothstep(radius, 2.2 * radius, abs(lane)));
+    (*look).matter.albedo *= 1.0 - 0.5 * under * (1.0 - smoothstep(0.9, 1.0, outline(in.q, half, seed)));
+}
+
+// White lime that has run down from a joint or a crack; with rust where it is worse.
+fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    let seed = in.normal.w;
+    let u = in.q / half;
+    let wall = abs(in.size.z) > 0.3;
+    var body = 0.0;
+    if wall {
+        // x runs downhill: a source at the top, tongues below it.
+        let down = 0.5 + 0.5 * u.x * sign(in.size.z);
+        let tongue = fbm(vec2<f32>(in.q.y * 17.0 + seed * 40.0, in.q.x * 1.2), f * 17.0);
+        let drip = fbm(vec2<f32>(in.q.y * 55.0 + seed * 11.0, in.q.x * 2.5), f * 55.0);
+        let side = 1.0 - smoothstep(0.25, 1.0, abs(u.y) + 0.9 * (tongue - 0.5));
+        let reach = (0.15 + 0.95 * tongue + 0.35 * (drip - 0.5)) * (0.55 + 0.75 * side);
+        let top = smoothstep(0.0, 0.03 + 0.06 * drip, down - 0.10 * drip);
+        body = top * (1.0 - smoothstep(reach - 0.10, reach + 0.12, down)) * smoothstep(0.0, 0.25, side) * (0.65 + 0.5 * drip);
+    } else {
+        let web = abs(fbm(in.q * 9.0 + seed * 20.0, f * 9.0) - 0.5);
+        body = (1.0 - smoothstep(0.02, 0.12, web)) * (1.0 - smoothstep(0.6, 1.0, outline(in.q, half, seed)));
+        body = max(body, smoothstep(0.6, 0.72, fbm(in.q * 5.0 + seed * 8.0, f * 5.0)) * (1.0 - smoothstep(0.5, 0.9, length(u))));
+    }
+    let crust = fbm(in.q * 60.0, f * 60.0);
+    var colour = vec3<f32>(0.84, 0.83, 0.80) * (0.72 + 0.5 * crust);
+    if in.size.y > 2.5 {
+        let stain = smoothstep(0.45, 0.75, fbm(vec2<f32>(in.q.y * 19.0 + 5.0 + seed, in.q.x * 1.2), f * 19.0));
+        colour = mix(colour, vec3<f32>(0.38, 0.17, 0.06), 0.75 * stain);
+    }
+    (*look).matter.albedo = colour;
+    (*look).matter.roughness = 0.8;
+    let bump = 0.5 * (vec2<f32>(noise(in.q * 55.0), noise(in.q * 55.0 + 19.0)) - 0.5) * (1.0 - smoothstep(0.004, 0.02, f));
+    (*look).matter.normal = frame_normal(in, bump);
+    (*look).alpha = clamp(body, 0.0, 1.0) * 0.92;
+}
+
+// The skin of the concrete is gone and its stones stand out.
+fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    let e = outline(in.q, half, in.normal.w) + 0.35 * (fbm(in.q * 12.0, f * 12.0) - 0.5);
+    let stone = pebbles(in.q * 42.0);
+    let shown = 1.0 - smoothstep(0.006, 0.025, f);
+    let pebble = mix(vec3<f32>(0.16, 0.15, 0.14), vec3<f32>(0.52, 0.47, 0.40), stone.y);
+    let paste = vec3<f32>(0.25, 0.235, 0.21);
+    let mask = 1.0 - smoothstep(0.30, 0.46, stone.x);
+    (*look).matter.albedo = mix(vec3<f32>(0.27, 0.25, 0.225), mix(paste, pebble, mask), shown) * (0.85 + 0.4 * (fbm(in.q * 5.0, f * 5.0) - 0.5));
+    let bump = 1.2 * mask * (vec2<f32>(noise(in.q * 42.0), noise(in.q * 42.0 + 11.0)) - 0.5) * shown;
+    (*look).matter.normal = frame_normal(in, bump);
+    (*look).alpha = 1.0 - smoothstep(0.78, 1.02, e);
+}
+
+// Coat gone, rust in flakes, a stain running down.
+fn corroded(in: Fragment, f: f32, look: ptr<function, Look>) {
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    let seed = in.normal.w;
+    let e = outline(in.q, half, seed);
+    let eaten = e + 0.9 * (fbm(in.q * 11.0 + seed * 30.0, f * 11.0) - 0.5);
+    let core = 1.0 - smoothstep(0.72, 0.78 + f * 4.0, eaten);
+    let rim = (1.0 - smoothstep(0.0, 0.05 + f, abs(eaten - 0.78)));
+    let stain = 1.0 - smoothstep(0.8, 1.15, e);
+    var colour = rust(in.q + seed * 3.0, f);
+    let flake = pebbles(in.q * vec2<f32>(30.0, 55.0));
+    let shown = 1.0 - smoothstep(0.004, 0.02, f);
+    colour *= 1.0 + 0.7 * shown * (flake.y - 0.5);
+    let halo = mix(in.tint, vec3<f32>(0.30, 0.12, 0.04), 0.65);
+    (*look).matter.albedo = mix(mix(halo, in.tint * 1.3, 0.6 * rim), colour, core);
+    let bump = 1.6 * core * shown * (vec2<f32>(noise(in.q * 40.0), noise(in.q * 40.0 + 23.0)) - 0.5);
+    (*look).matter.normal = frame_normal(in, bump);
+    (*look).matter.roughness = mix(0.6, 0.95, core);
+    (*look).alpha = max(core, max(0.85 * rim * stain, 0.55 * stain * smoothstep(0.35, 0.6, fbm(in.q * 6.0 + 4.0, f * 6.0))));
+}
+
+// Two rows of bolts on a splice plate; some are gone, some have rust around them.
+fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    let inside = max(abs(in.q.x) / half.x, abs(in.q.y) / half.y);
+    let pitch = max(0.032, min(0.07, in.size.x * 0.45));
+    let cell = floor(in.q / pitch);
+    let at = in.q - (cell + 0.5) * pitch;
+    let d = length(at);
+    let radius = 0.3 * pitch;
+    let luck = hash2(vec2<i32>(cell) + vec2<i32>(i32(in.normal.w * 1000.0), 3));
+    let first = all(cell == vec2<f32>(0.0, 0.0));
+    let missing = select(0.0, 1.0, luck > 0.88 || first);
+    let head = cover(d, 2.0 * radius, f);
+    var colour = in.tint * 0.92;
+    let hole = cover(d, 1.3 * radius, f);
+    let ring = cover(abs(d - 0.95 * radius), 0.35 * radius, f);
+    let gone = mix(mix(colour, vec3<f32>(0.45, 0.42, 0.38), ring), vec3<f32>(0.008), hole);
+    let bolt = mix(colour, in.tint * (1.25 - 0.8 * smoothstep(0.6 * radius, radius, d)), head);
+    colour = mix(bolt, gone, missing);
+    let bleed = smoothstep(0.35, 0.75, fbm(in.q * 25.0 + in.normal.w * 9.0, f * 25.0)) * missing * (1.0 - smoothstep(radius, 2.4 * radius, d));
+    colour = mix(colour, rust(in.q, f), 0.8 * bleed * (1.0 - hole));
+    let plate = cover(abs(inside - 0.97) * min(half.x, half.y), 0.004, f);
+    (*look).matter.albedo = colour * (1.0 - 0.6 * plate);
+    (*look).matter.normal = frame_normal(in, at / radius * 0.8 * head * (1.0 - missing));
+    (*look).matter.roughness = 0.5;
+    (*look).alpha = 1.0 - smoothstep(0.98, 1.0, inside);
+}
+
+// A line in steel that bleeds rust.
+fn fatigue(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
+    let line = crack(in, f, off);
+    let half = 0.5 * in.along.w;
+    let near = exp(-abs(off) / 0.006) * (1.0 - smoothstep(half * 0.95, half * 1.05 + f, abs(in.q.x)));
+    let bleed = near * (0.35 + 0.65 * fbm(vec2<f32>(in.q.x * 60.0, in.q.y * 9.0), f * 60.0));
+    (*look).matter.albedo = mix(vec3<f32>(0.30, 0.12, 0.045), vec3<f32>(0.012), line);
+    (*look).alpha = max(line, 0.8 * bleed);
+}
+
+fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
+    let line = crack(in, f, off);
+    // Lime has come out of some.
+    let half = 0.5 * in.along.w;
+    let limed = select(0.0, 1.0, fract(in.normal.w * 7.0) > 0.55);
+    let rim = limed * exp(-abs(off) / 0.007) * smoothstep(0.45, 0.7, noise(vec2<f32>(in.q.x * 9.0, in.normal.w * 31.0)))
+        * (1.0 - smoothstep(0.85 * half, half, abs(in.q.x)));
+    (*look).matter.albedo = mix(vec3<f32>(0.74, 0.73, 0.69), vec3<f32>(0.012, 0.011, 0.010), clamp(line / max(line + 0.6 * rim, 1e-4), 0.0, 1.0));
+    (*look).matter.roughness = 0.95;
+    (*look).alpha = max(line, 0.55 * rim);
+}
+
+@fragment
+fn fs(in: Fragment) -> @location(0) vec4<f32> {
+    let f = max(length(vec2<f32>(dpdx(in.q.x), dpdy(in.q.x))), length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y))));
+    let off = in.q.y - stray(in.q.x, in.normal.w, f);
+    // Size of a pixel across the line.
+    let across = length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y)));
+    var look: Look;
+    look.matter.normal = in.normal.xyz;
+    look.matter.roughness = 0.9;
+    look.matter.metal = 0.0;
+    look.matter.light = in.light;
+    look.matter.albedo = vec3<f32>(0.4);
+    look.alpha = 0.0;
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    switch in.kind {
+        case 1000u: { corroded(in, f, &look); }
+        case 1010u: { fatigue(in, across, off, &look); }
+        case 1020u: { bolts(in, f, &look); }
+        case 1080u: { broken(in, in.q, half, select(0.018, 0.05, in.size.y > 2.5), f, &look); }
+        case 1090u: { rebar(in, f, &look); }
+        case 1110u, 1130u: { cracked(in, across, off, &look); }
+        case 1120u: { lime(in, f, &look); }
+        default: { worn(in, f, &look); }
+    }
+    if look.alpha <= 0.002 {
+        discard;
+    }
+    let alpha = clamp(look.alpha, 0.0, 1.0);
+    return vec4<f32>(exposed(shade(look.matter, in.p)).rgb * alpha, alpha);
+}

@@ -1,0 +1,80 @@
+// From light on the sensor to a picture: motion blur, noise, tone curve, vignette.
+
+struct Develop {
+    // From clip space of this picture to clip space where the eye was when the shutter opened.
+    reproject: mat4x4<f32>,
+    // Noise at mid grey; running number; samples along the motion; vignette.
+    grain: vec4<f32>,
+    // Size of the picture; its corner in the target.
+    size: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> d: Develop;
+@group(0) @binding(1) var light: texture_2d<f32>;
+@group(0) @binding(2) var light_sampler: sampler;
+@group(0) @binding(3) var depth: texture_depth_2d;
+
+struct Fragment {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) uv: vec2<f32>,
+}
+
+@vertex
+fn vs(@builtin(vertex_index) k: u32) -> Fragment {
+    let at = vec2<f32>(f32((k << 1u) & 2u), f32(k & 2u));
+    var out: Fragment;
+    out.clip = vec4<f32>(at * 2.0 - 1.0, 0.0, 1.0);
+    out.uv = vec2<f32>(at.x, 1.0 - at.y);
+    return out;
+}
+
+fn random(p: vec2<u32>, k: u32) -> f32 {
+    var h = p.x * 0x8da6b343u + p.y * 0xd8163841u + k * 0xcb1ab31fu;
+    h = (h ^ (h >> 15u)) * 0x2c1b3c6du;
+    h = (h ^ (h >> 12u)) * 0x297a2d39u;
+    h = h ^ (h >> 15u);
+    return f32(h >> 8u) / 16777216.0;
+}
+
+// A curve like film's: a soft toe and shoulder (fit of Narkowicz 2015 to the Academy's reference curve).
+fn tone(x: vec3<f32>) -> vec3<f32> {
+    let y = x * 0.82;
+    return clamp((y * (2.51 * y + 0.03)) / (y * (2.43 * y + 0.59) + 0.14), vec3<f32>(0.0), vec3<f32>(1.0));
+}
+
+fn encoded(x: vec3<f32>) -> vec3<f32> {
+    let low = x * 12.92;
+    let high = 1.055 * pow(max(x, vec3<f32>(1e-6)), vec3<f32>(1.0 / 2.4)) - 0.055;
+    return select(high, low, x <= vec3<f32>(0.0031308));
+}
+
+@fragment
+fn fs(in: Fragment) -> @location(0) vec4<f32> {
+    let pixel = vec2<u32>(in.uv * d.size.xy);
+    var colour = textureSampleLevel(light, light_sampler, in.uv, 0.0).rgb;
+    let taps = i32(d.grain.z);
+    if taps > 1 {
+        let z = textureLoad(depth, vec2<i32>(pixel), 0);
+        let clip = vec4<f32>(in.uv.x * 2.0 - 1.0, 1.0 - in.uv.y * 2.0, z, 1.0);
+        let was = d.reproject * clip;
+        if was.w > 0.0 {
+            let opened = vec2<f32>(0.5 + 0.5 * was.x / was.w, 0.5 - 0.5 * was.y / was.w);
+            let path = clamp(opened - in.uv, vec2<f32>(-0.06), vec2<f32>(0.06));
+            var sum = colour;
+            for (var k = 1; k < taps; k++) {
+                sum += textureSampleLevel(light, light_sampler, in.uv + path * (f32(k) / f32(taps - 1)), 0.0).rgb;
+            }
+            colour = sum / f32(taps);
+        }
+    }
+    let out = in.uv - 0.5;
+    colour *= 1.0 - d.grain.w * dot(out, out);
+    // Photon noise grows with the root of the light, over a floor.
+    let k = u32(d.grain.y);
+    let a = random(pixel, k) + random(pixel, k + 1u) + random(pixel, k + 2u) - 1.5;
+    let c = random(pixel, k + 3u) - 0.5;
+    let brightness = max(dot(colour, vec3<f32>(0.2126, 0.7152, 0.0722)), 0.0);
+    let noise = d.grain.x * (sqrt(brightness * 5.0) + 0.25);
+    colour = max(colour + 0.2 * noise * (a + vec3<f32>(0.5, -0.2, -0.5) * c), vec3<f32>(0.0));
+    return vec4<f32>(encoded(tone(colour)), 1.0);
+}

@@ -1,0 +1,240 @@
+// Everything solid: one shader that switches on the material.
+
+struct Corner {
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) uv: vec2<f32>,
+    @location(3) light: vec2<f32>,
+    @location(4) material: u32,
+    @location(5) tint: vec4<f32>,
+    @location(9) aux: f32,
+    @location(6) row0: vec4<f32>,
+    @location(7) row1: vec4<f32>,
+    @location(8) row2: vec4<f32>,
+    @location(10) paint: vec4<f32>,
+    // Indirect light above (sky, sun) and below (sky, sun).
+    @location(11) around: vec4<f32>,
+}
+
+struct Fragment {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) p: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) uv: vec2<f32>,
+    @location(3) light: vec2<f32>,
+    @location(4) @interpolate(flat) material: u32,
+    @location(5) tint: vec4<f32>,
+    @location(6) aux: f32,
+}
+
+@vertex
+fn vs(v: Corner) -> Fragment {
+    let at = vec4<f32>(v.position, 1.0);
+    var out: Fragment;
+    out.p = vec3<f32>(dot(v.row0, at), dot(v.row1, at), dot(v.row2, at));
+    out.normal = normalize(vec3<f32>(dot(v.row0.xyz, v.normal), dot(v.row1.xyz, v.normal), dot(v.row2.xyz, v.normal)));
+    out.clip = g.view_proj * vec4<f32>(out.p, 1.0);
+    out.uv = v.uv;
+    out.light = v.light * mix(v.around.zw, v.around.xy, 0.5 + 0.5 * out.normal.z);
+    out.material = v.material;
+    // Paint replaces the colour of painted parts only.
+    out.tint = select(v.tint, vec4<f32>(v.paint.rgb, 1.0), v.paint.w > 0.5 && v.material == 8u);
+    out.aux = v.aux;
+    return out;
+}
+
+// Cast concrete: boards of the formwork, construction joints, tie holes, blotches, streaks of rain, green near the water.
+fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
+    let uv = in.uv;
+    let f = max(fp.x, fp.y);
+    let wall = 1.0 - smoothstep(0.4, 0.8, abs(n.z));
+    let blotch = fbm(uv * 0.45, f * 0.45);
+    let grain = fbm(uv * 9.0 + 31.0, f * 9.0);
+    let sand = fbm(uv * 71.0 + 3.0, f * 71.0);
+    var tone = 0.82 + 0.55 * (blotch - 0.5) + 0.22 * (grain - 0.5) + 0.20 * (sand - 0.5);
+    // Boards lie along the member, 0.16 m wide, each with a tone of its own.
+    let board = floor(uv.y / 0.16);
+    let board_tone = hash2(vec2<i32>(i32(board), i32(floor(uv.x / 2.4 + 0.37 * (board - 2.0 * floor(0.5 * board))))));
+    tone += 0.11 * (board_tone - 0.5) * (1.0 - smoothstep(0.05, 0.2, fp.y));
+    let seams = lines(uv.y, 0.16, 0.004, fp.y);
+    let joints = lines(uv.x + 0.6, 4.8, 0.012, fp.x) + 0.6 * lines(uv.x + 0.2, 2.4, 0.004, fp.x);
+    tone *= 1.0 - 0.38 * seams - 0.35 * joints;
+    // Holes of form ties, 25 mm wide.
+    let cell = vec2<f32>(1.2, 0.8);
+    let tie = length((fract(uv / cell + vec2<f32>(0.5, 0.25)) - 0.5) * cell);
+    tone *= 1.0 - 0.5 * cover(tie, 0.025, f) * (1.0 - smoothstep(0.02, 0.08, f)) * wall;
+    // Rain runs down walls and leaves streaks.
+    let streak = fbm(vec2<f32>(uv.x * 3.1, uv.y * 0.22 + 3.0), f * 3.1);
+    tone *= 1.0 - wall * 0.42 * smoothstep(0.52, 0.78, streak);
+    // Air holes left by the formwork, a few millimetres wide.
+    let hole = pebbles(uv * 14.0 + 5.0);
+    let bore = 0.03 + 0.09 * fract(hole.y * 7.3);
+    tone *= 1.0 - 0.5 * step(0.72, hole.y) * cover(hole.x, bore, f * 14.0) * (1.0 - smoothstep(0.004, 0.012, f));
+    var colour = vec3<f32>(0.36, 0.345, 0.315) * tone;
+    // Soot and lichen in broad patches.
+    let dark = smoothstep(0.6, 0.8, fbm(uv * 0.17 + 11.0, f * 0.17));
+    colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * dark);
+    // Bird droppings: white splashes, nothing to report.
+    let spot = floor(uv / 1.7);
+    let lucky = hash2(vec2<i32>(spot) + vec2<i32>(77, 19));
+    if lucky > 0.93 {
+        let centre = (spot + 0.3 + 0.4 * vec2<f32>(hash2(vec2<i32>(spot)), hash2(vec2<i32>(spot) + 5))) * 1.7;
+        let d = length((uv - centre) * vec2<f32>(1.0, mix(1.0, 0.45, wall)));
+        let splash = 0.035 * noise(uv * 38.0) + 0.02 * noise(uv * 130.0);
+        colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * (1.0 - smoothstep(splash - 0.5 * f, splash + 0.5 * f + 0.004, d)));
+    }
+    // Splash zone: algae and a wet foot.
+    let over = in.p.z - g.scene.y;
+    let reach = 0.8 + 0.5 * fbm(uv * 0.8 + 4.0, f * 0.8);
+    let slime = wall * (1.0 - smoothstep(0.15, reach, over));
+    colour = mix(colour, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);
+    let band = wall * smoothstep(reach, reach + 0.15, over) * (1.0 - smoothstep(reach + 0.2, reach + 1.2, over));
+    colour = mix(colour, vec3<f32>(0.5, 0.48, 0.43), 0.35 * band);
+    (*m).albedo = colour;
+    (*m).roughness = mix(0.92, 0.45, slime);
+}
+
+// The road: `aux` is half the deck's width; u runs along the bridge, v across from its middle.
+fn deck(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
+    let half = in.aux;
+    let across = abs(in.uv.y);
+    let f = max(fp.x, fp.y);
+    let road = 1.0 - smoothstep(0.365 * half * 2.0 - fp.y, 0.365 * half * 2.0 + fp.y, across);
+    let worn = exp(-pow((across - 0.19 * half * 2.0) / 0.55, 2.0));
+    let stones = fbm(in.uv * 22.0, f * 22.0);
+    let patches = fbm(in.uv * vec2<f32>(0.12, 0.7), f * 0.7);
+    var asphalt = vec3<f32>(0.062, 0.062, 0.065) * (0.75 + 0.5 * patches + 0.3 * (stones - 0.5)) * (1.0 + 0.25 * worn);
+    let dash = smoothstep(0.0, fp.x / 9.0 + 0.001, 0.333 - fract(in.uv.x / 9.0));
+    let centre = cover(across, 0.15, fp.y) * dash;
+    let edge = cover(abs(across - 0.345 * half * 2.0), 0.12, fp.y);
+    asphalt = mix(asphalt, vec3<f32>(0.62, 0.61, 0.57) * (0.6 + 0.6 * stones), clamp(centre + edge, 0.0, 1.0) * 0.85);
+    let kerb = cover(abs(across - 0.372 * half * 2.0), 0.12, fp.y);
+    let slabs = lines(in.uv.x, 1.0, 0.01, fp.x);
+    let walk = vec3<f32>(0.36, 0.35, 0.33) * (0.75 + 0.5 * patches) * (1.0 - 0.3 * slabs);
+    (*m).albedo = mix(mix(walk, asphalt, road), vec3<f32>(0.45, 0.44, 0.42), kerb);
+    (*m).roughness = mix(0.9, 0.78, road);
+}
+
+// Painted plates with rows of rivets, chalked and freckled.
+fn steel(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
+    let uv = in.uv;
+    let f = max(fp.x, fp.y);
+    let wall = 1.0 - smoothstep(0.5, 0.9, abs(n.z));
+    let chalk = fbm(uv * 0.6, f * 0.6);
+    let skin = fbm(uv * 26.0, f * 26.0);
+    var colour = in.tint.rgb * (0.72 + 0.44 * chalk + 0.16 * skin);
+    let streak = fbm(vec2<f32>(uv.x * 4.0, uv.y * 0.3 + 9.0), f * 4.0);
+    colour *= 1.0 - wall * 0.3 * smoothstep(0.55, 0.8, streak);
+    // A butt strap every 6 m with two rows of rivets on either side.
+    let seam = abs(fract(uv.x / 6.0 + 0.5) - 0.5) * 6.0;
+    colour *= 1.0 - 0.45 * cover(seam, 0.006, fp.x);
+    colour *= 1.0 - 0.12 * cover(abs(seam - 0.22), 0.008, fp.x);
+    let row = min(abs(seam - 0.07), abs(seam - 0.15));
+    let along = (fract(uv.y / 0.09) - 0.5) * 0.09;
+    let head = length(vec2<f32>(row, along));
+    let shown = 1.0 - smoothstep(0.008, 0.03, f);
+    let rivet = cover(head, 0.03, f) * shown;
+    colour = mix(colour, colour * (1.25 - 0.9 * smoothstep(0.008, 0.016, head)), rivet);
+    // Freckles where the coat has gone: small, dry, superficial.
+    let freckle = smoothstep(0.74, 0.82, fbm(uv * 2.3 + 40.0, f * 2.3)) * smoothstep(0.45, 0.7, fbm(uv * 0.3 + 2.0, f * 0.3));
+    colour = mix(colour, vec3<f32>(0.19, 0.085, 0.04), 0.55 * freckle);
+    (*m).albedo = colour;
+    (*m).roughness = mix(0.48, 0.85, max(freckle, 0.6 * chalk));
+}
+
+fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
+    // Slopes show their height, too, so that nothing is drawn out on them.
+    let at = in.p.xy + in.p.z * vec2<f32>(0.71, -0.53);
+    let over = in.aux;
+    let broad = fbm(at * 0.03, f * 0.03);
+    let near = fbm(at * 0.5 + 17.0, f * 0.5);
+    let fine = fbm(at * 4.0 + 3.0, f * 4.0);
+    let blades = fbm(at * 19.0 + 7.0, f * 19.0);
+    let meadow = mix(vec3<f32>(0.085, 0.105, 0.032), vec3<f32>(0.17, 0.15, 0.065), smoothstep(0.35, 0.7, broad * 0.6 + near * 0.4));
+    let rock = mix(vec3<f32>(0.18, 0.165, 0.145), vec3<f32>(0.33, 0.31, 0.28), near) * (0.5 + 0.6 * fine + 0.4 * blades);
+    let gravel = mix(vec3<f32>(0.21, 0.195, 0.17), vec3<f32>(0.34, 0.32, 0.28), fine);
+    let steep = smoothstep(0.22, 0.42, 1.0 - n.z + 0.18 * (near - 0.5));
+    var colour = meadow * (0.55 + 0.55 * fine + 0.35 * blades);
+    colour = mix(colour, rock, steep);
+    let shore = 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5));
+    colour = mix(colour, gravel, shore);
+    // Wet at the water's edge.
+    colour *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
+    // Forest on distant slopes, snow on the heights.
+    let forest = smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
+    let canopy = fbm(at * 0.09, f * 0.09);
+    colour = mix(colour, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + canopy), forest * smoothstep(0.38, 0.5, broad + 0.25 * (canopy - 0.5)) * (1.0 - 0.5 * steep));
+    let snow = smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
+    colour = mix(colour, vec3<f32>(0.8, 0.82, 0.85), snow);
+    (*m).albedo = colour;
+    (*m).roughness = 0.95;
+}
+
+fn simple(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
+    var colour = in.tint.rgb;
+    var roughness = 0.85;
+    switch in.material {
+        case 3u: {
+            // Wrapped wire.
+            colour = mix(vec3<f32>(0.30, 0.31, 0.32), colour, 0.5) * (0.8 + 0.4 * fbm(in.uv * 3.0, f * 3.0));
+            roughness = 0.55;
+        }
+        case 5u: {
+            let tuft = fbm(in.p.xy * 3.0 + in.p.z * 2.3, f * 3.0);
+            colour *= 0.45 + 1.1 * tuft;
+            roughness = 0.9;
+        }
+        case 6u: { colour *= 0.6 + 0.8 * fbm(in.uv * vec2<f32>(9.0, 2.0), f * 9.0); }
+        case 7u: {
+            let stone = fbm(in.p.xy * 2.0 + in.p.zz * 1.7, f * 2.0);
+            colour *= 0.6 + 0.8 * stone;
+            colour = mix(colour, vec3<f32>(0.10, 0.12, 0.04), 0.5 * smoothstep(0.5, 0.7, stone) * clamp(n.z, 0.0, 1.0));
+            colour *= mix(0.5, 1.0, smoothstep(0.0, 0.35, in.p.z - g.scene.y));
+        }
+        case 8u, 15u: { roughness = 0.3; }
+        case 9u: { roughness = 0.08; }
+        case 10u: { roughness = 0.7; }
+        case 13u: {
+            let at = max(abs(in.uv.x), abs(in.uv.y));
+            let d = length(in.uv);
+            let ring = cover(abs(d - 0.72), 0.06, f);
+            let h = max(cover(abs(abs(in.uv.x) - 0.25), 0.1, f) * step(abs(in.uv.y), 0.4), cover(abs(in.uv.y), 0.1, f) * step(abs(in.uv.x), 0.3));
+            colour = mix(vec3<f32>(0.85, 0.25, 0.03), vec3<f32>(0.85), clamp(ring + h, 0.0, 1.0));
+            colour *= 0.85 + 0.3 * fbm(in.uv * 6.0, f * 6.0) * step(at, 2.0);
+        }
+        default: {}
+    }
+    (*m).albedo = colour;
+    (*m).roughness = roughness;
+}
+
+@fragment
+fn fs(in: Fragment) -> @location(0) vec4<f32> {
+    let fp = max(fwidth(in.uv), vec2<f32>(1e-5));
+    let f = max(length(dpdx(in.p)), length(dpdy(in.p)));
+    let n = normalize(in.normal);
+    // In the lake's mirror only what stands over the water shows.
+    if g.size.z > 0.5 && in.p.z < g.scene.y {
+        discard;
+    }
+    if in.material == 12u {
+        return exposed(in.tint.rgb * in.aux);
+    }
+    var m: Matter;
+    m.normal = n;
+    m.metal = 0.0;
+    m.roughness = 0.9;
+    m.light = in.light;
+    switch in.material {
+        case 0u: { concrete(in, n, fp, &m); }
+        case 1u: { deck(in, fp, &m); }
+        case 2u: { steel(in, n, fp, &m); }
+        case 4u: { ground(in, n, f, &m); }
+        default: { simple(in, n, f, &m); }
+    }
+    let lit = exposed(shade(m, in.p));
+    if in.material == 14u {
+        return vec4<f32>(lit.rgb, in.tint.a);
+    }
+    return lit;
+}

@@ -1,0 +1,99 @@
+// The lake: waves, Fresnel reflection of sky and shore, the bed shining through where it is shallow.
+
+@group(1) @binding(0) var mirror: texture_2d<f32>;
+@group(1) @binding(1) var mirror_sampler: sampler;
+
+struct Corner {
+    @location(0) position: vec3<f32>,
+    @location(3) light: vec2<f32>,
+    @location(9) aux: f32,
+}
+
+struct Fragment {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) p: vec3<f32>,
+    @location(1) depth: f32,
+    @location(2) light: vec2<f32>,
+}
+
+@vertex
+fn vs(v: Corner) -> Fragment {
+    var out: Fragment;
+    out.p = v.position;
+    out.clip = g.view_proj * vec4<f32>(v.position, 1.0);
+    out.depth = v.aux;
+    out.light = v.light;
+    return out;
+}
+
+// Slope of one train of waves.
+fn train(at: vec2<f32>, direction: vec2<f32>, length_m: f32, steep: f32, footprint: f32) -> vec2<f32> {
+    let k = 6.2832 / length_m;
+    // Deep water: waves of a length travel at one speed.
+    let phase = k * dot(at, direction) - sqrt(9.81 * k) * g.eye.w;
+    let shown = 1.0 - smoothstep(0.2, 0.5, footprint / length_m);
+    return direction * (steep * shown * cos(phase));
+}
+
+fn slope(at: vec2<f32>, footprint: f32) -> vec2<f32> {
+    let wind = g.look.zw;
+    let side = vec2<f32>(-wind.y, wind.x);
+    let strength = 0.018 + 0.010 * g.look.y;
+    // Slow noise bends the trains, so that no pattern repeats.
+    let bent = at + 1.3 * vec2<f32>(noise(at * 0.13), noise(at * 0.13 + 50.0));
+    var s = train(bent, normalize(wind + 0.15 * side), 5.3, 0.5 * strength, footprint);
+    s += train(bent, normalize(wind - 0.45 * side), 2.9, 0.7 * strength, footprint);
+    s += train(bent, normalize(wind + 0.75 * side), 1.55, strength, footprint);
+    s += train(bent, normalize(wind - 1.1 * side), 0.83, strength, footprint);
+    s += train(bent, normalize(wind + 0.35 * side), 0.41, strength, footprint);
+    let t = g.eye.w;
+    let fine = 1.0 - smoothstep(0.05, 0.3, footprint);
+    if fine > 0.0 {
+        let q = bent * 4.3 - wind * t * 0.9;
+        s += fine * strength * 1.6 * (vec2<f32>(noise(q), noise(q + 31.7)) - 0.5);
+    }
+    return s;
+}
+
+@fragment
+fn fs(in: Fragment) -> @location(0) vec4<f32> {
+    let f = max(length(dpdx(in.p)), length(dpdy(in.p)));
+    let away = g.eye.xyz - in.p;
+    let distance = length(away);
+    let v = away / distance;
+    // Gusts roughen the lake in patches.
+    let gust = 0.6 + 0.8 * fbm(in.p.xy * 0.012 + g.look.zw * g.eye.w * 0.01, f * 0.012);
+    let s = slope(in.p.xy, f) * gust;
+    let n = normalize(vec3<f32>(-s, 1.0));
+    let facing = clamp(dot(n, v), 0.02, 1.0);
+    // Waves too small to see still blur and lift the mirror.
+    let rough = clamp(f * 0.02 + 0.02, 0.02, 0.22) * gust;
+    let fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0) * (1.0 - rough);
+    var r = reflect(-v, n);
+    r.z = abs(r.z) + 0.3 * rough;
+    var seen = sky_radiance(normalize(r)) * clamp(in.light.x * 1.15, 0.25, 1.0);
+    if g.shadow.w > 0.5 {
+        let screen = in.clip.xy / g.size.xy;
+        let bend = s * vec2<f32>(0.9, 0.9) / (1.0 + 0.02 * distance);
+        let shift = vec2<f32>(dot(bend, g.right.xy / max(length(g.right.xy), 1e-4)), -abs(dot(bend, vec2<f32>(v.x, v.y))) * 1.2);
+        let uv = clamp(vec2<f32>(screen.x, screen.y) + shift * 0.35, vec2<f32>(0.002), vec2<f32>(0.998));
+        seen = textureSampleLevel(mirror, mirror_sampler, uv, 0.0).rgb / g.look.x;
+    }
+    let sun_seen = sun_visible(in.p, vec3<f32>(0.0, 0.0, 1.0));
+    let spread = max(rough * 1.4, 0.045);
+    let glint = PI * ggx(n, v, g.sun.xyz, vec3<f32>(0.02), sqrt(spread)) * g.sun.w * max(g.sun.z, 0.0) * sun_seen;
+    // What comes back out of the water: green-blue, brighter in the sun.
+    let lux = in.light.x * g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * sun_seen * g.sun_rgb.xyz;
+    let lamp = lamp_lux(in.p, vec3<f32>(0.0, 0.0, 1.0));
+    let body = vec3<f32>(0.012, 0.030, 0.032) * (lux + lamp);
+    let path = max(in.depth, 0.0) * (1.0 + 0.6 / max(v.z, 0.12));
+    let clear = exp(-path * 0.55);
+    // A line of foam where it laps ashore.
+    let lap = 0.10 + 0.05 * sin(g.eye.w * 1.3 + 3.0 * noise(in.p.xy * 0.7));
+    let foam = (1.0 - smoothstep(0.0, lap, in.depth)) * smoothstep(0.35, 0.7, fbm(in.p.xy * 2.0, f * 2.0)) * 0.5;
+    let surface = fresnel * seen + glint * g.sun_rgb.xyz + (1.0 - fresnel) * (1.0 - clear) * body + foam * 0.7 * lux;
+    let alpha = clamp(1.0 - (1.0 - fresnel) * clear + foam, 0.0, 1.0);
+    let clear_air = exp(-distance * g.scene.z);
+    let veil = haze(vec3<f32>(0.0), v, distance);
+    return vec4<f32>(exposed(surface * clear_air + veil * alpha).rgb, alpha);
+}

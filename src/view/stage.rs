@@ -1,0 +1,186 @@
+//! From a moment of a flight to the shots of both views.
+
+use super::camera::{EYE_HEIGHT_M, Eye, INSPECTOR_FOV_RAD};
+use super::exposure::{Exposure, Lighting, meter};
+use super::feed::{Feed, shutter};
+use super::hud::{Hud, Track};
+use super::scene::{DronePose, Scene};
+use super::shot::{Beam, Finish, Shot, wind};
+use super::sky::Sky;
+use crate::base::frames::{Enu, Vec3};
+use crate::base::math;
+use crate::base::time::SimTime;
+use crate::scenario::Scenario;
+use crate::site::{CameraPose, Site};
+use crate::telemetry::Flight;
+use crate::vehicle::{Camera, Vehicle};
+
+/// The inspector's view narrows on a drone that is farther away than this, m, as binoculars do.
+const NARROW_FROM_M: f64 = 60.0;
+/// And shows no less than this, rad.
+const NARROWEST_RAD: f64 = 0.22;
+
+/// What does not change during a session.
+#[derive(Debug, Clone, Copy)]
+pub struct Stage<'a> {
+    /// The job.
+    pub scenario: &'a Scenario,
+    /// The aircraft.
+    pub vehicle: &'a Vehicle,
+    /// The site.
+    pub site: &'a Site,
+    /// Its scene.
+    pub scene: &'a Scene,
+}
+
+/// Where the aircraft is and what its camera does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// When.
+    pub at: SimTime,
+    /// The aircraft.
+    pub drone: DronePose,
+    /// Its velocity, m/s.
+    pub velocity_m_s: Vec3<Enu>,
+    /// Its camera.
+    pub camera: CameraPose,
+    /// The camera's lens as it is zoomed.
+    pub lens: Camera,
+}
+
+impl Stage<'_> {
+    /// Sun and sky at an instant.
+    #[must_use]
+    pub fn sky(&self, at: SimTime) -> Sky {
+        Sky::new(&self.site.light().daylight(at), self.scenario.light.cloud_cover)
+    }
+
+    /// What the aircraft's camera sees; the aircraft itself is not in it.
+    #[must_use]
+    pub fn camera(&self, moment: &Moment, size_px: (u32, u32)) -> Shot {
+        let eye = Eye::of(&moment.camera, &moment.lens);
+        let shot = self.through(eye, Some(&moment.camera), &moment.lens, None, (moment.at, size_px));
+        let opened = moment.camera.position_m - moment.velocity_m_s * shot.finish.exposure.time_s;
+        let before = Eye { position_m: opened, ..eye };
+        Shot { finish: Finish::camera(shot.finish.exposure, Some(before)), ..shot }
+    }
+
+    /// What the inspector at the pad sees, looking at the aircraft.
+    #[must_use]
+    pub fn inspector(&self, moment: &Moment, size_px: (u32, u32)) -> Shot {
+        let stands = self.scenario.ground_team.inspector_m;
+        let to = moment.drone.position_m - stands;
+        let level: Vec3<Enu> = Vec3::new(to.east(), to.north(), 0.0);
+        let ahead = if level.norm() > 0.5 { level.unit() } else { Vec3::new(0.0, 1.0, 0.0) };
+        // Half a step ahead, so that the own body is not in the picture.
+        let eye_m = stands + ahead * 0.45 + Vec3::new(0.0, 0.0, EYE_HEIGHT_M);
+        let distance = (moment.drone.position_m - eye_m).norm();
+        let vfov = (INSPECTOR_FOV_RAD * NARROW_FROM_M / distance.max(NARROW_FROM_M)).max(NARROWEST_RAD);
+        let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
+        self.person(Eye::at(eye_m, moment.drone.position_m, vfov, aspect), moment, size_px)
+    }
+
+    /// What a person sees from anywhere.
+    #[must_use]
+    pub fn person(&self, eye: Eye, moment: &Moment, size_px: (u32, u32)) -> Shot {
+        let lens = moment.lens;
+        let shot = self.through(eye, Some(&moment.camera), &lens, Some(&moment.drone), (moment.at, size_px));
+        let metered = self.metered(&eye, Some(&moment.camera), &shot.sky, (moment.at, size_px));
+        Shot { finish: Finish::eyes(Exposure::eyes(metered)), ..shot }
+    }
+
+    /// A picture by a camera like the aircraft's from anywhere, with or without the aircraft in it.
+    #[must_use]
+    pub fn through(
+        &self,
+        eye: Eye,
+        lamp: Option<&CameraPose>,
+        lens: &Camera,
+        drone: Option<&DronePose>,
+        (at, size_px): (SimTime, (u32, u32)),
+    ) -> Shot {
+        let sky = self.sky(at);
+        let metered = self.metered(&eye, lamp, &sky, (at, size_px));
+        Shot {
+            eye,
+            size_px,
+            beam: lamp.and_then(|pose| Beam::of(&self.vehicle.lamp, pose)),
+            finish: Finish::camera(Exposure::camera(metered, lens), None),
+            time_s: at.s(),
+            wind_m_s: wind(self.scenario),
+            moving: self.scene.moving(self.scenario, self.site, drone, at),
+            sky,
+        }
+    }
+
+    fn metered(&self, eye: &Eye, lamp: Option<&CameraPose>, sky: &Sky, (at, size_px): (SimTime, (u32, u32))) -> f64 {
+        let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
+        let lamp = lamp.filter(|pose| pose.lamp_on).map(|pose| (&self.vehicle.lamp, pose));
+        meter(self.site, eye, aspect, &Lighting { sky, lamp, at })
+    }
+}
+
+/// What a flight's telemetry tells the display at a moment. `feed` tells the rest; `held`: its cues come from a record that tells changes
+/// only. `map`: the reference paths may be shown.
+#[must_use]
+pub fn hud(stage: &Stage, moment: &Moment, flight: &Flight, (feed, held): (&Feed, bool), map: bool) -> Hud {
+    let (scenario, at) = (stage.scenario, moment.at);
+    let pad_m = scenario.ground_team.pad_m;
+    let from_pad = moment.drone.position_m - pad_m;
+    let begun = flight.lift_off(pad_m.up(), LIFT_OFF_M).filter(|begun| *begun <= at);
+    let newest = flight.truths.iter().rev().find(|truth| truth.time <= at).map(|truth| truth.time);
+    let taken = flight.snapshots.all().iter().filter(|shot| shot.0 <= at);
+    let wide = math::tan(0.5 * stage.vehicle.camera.hfov_rad);
+    Hud {
+        speed_m_s: moment.velocity_m_s.norm(),
+        limit_m_s: scenario.scoring.speed_limit_m_s,
+        battery_pct: flight.battery.at(at),
+        green_pct: scenario.feedback.battery_green_pct,
+        yellow_pct: scenario.feedback.battery_yellow_pct,
+        cues: feed.cues(at, held),
+        hit: feed.hit().map(str::to_owned),
+        height_m: from_pad.up(),
+        home_m: from_pad.horizontal_norm(),
+        mode: feed.mode().to_owned(),
+        gnss: feed.gnss(),
+        silent_s: newest.map_or(0.0, |newest| (at - newest).s()),
+        gimbal_rad: math::asin(moment.camera.forward.up().clamp(-1.0, 1.0)),
+        zoom: wide / math::tan(0.5 * moment.lens.hfov_rad),
+        lamp: moment.camera.lamp_on,
+        left_s: scenario.scoring.time_max_s - begun.map_or(0.0, |begun| (at - begun).s()),
+        pictures: taken.clone().count(),
+        shutter: shutter(taken.max_by_key(|shot| shot.0).map(|shot| shot.0), at),
+        time_s: at.s(),
+        position_m: moment.drone.position_m,
+        heading_rad: moment.drone.ned_from_frd.yaw_rad(),
+        pad_m,
+        tracks: if map { tracks(scenario) } else { Vec::new() },
+    }
+}
+
+/// Flight time counts from this height over the pad, m (assessment.md, frames).
+const LIFT_OFF_M: f64 = 0.3;
+
+fn tracks(scenario: &Scenario) -> Vec<Track> {
+    let track = |task: &crate::scenario::Task| Track { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
+    scenario.tasks.iter().filter(|task| !task.path_m.is_empty()).map(track).collect()
+}
+
+/// A camera that looks from one point at another, level.
+#[must_use]
+pub fn aimed(position_m: Vec3<Enu>, target_m: Vec3<Enu>, lamp_on: bool) -> CameraPose {
+    let eye = Eye::at(position_m, target_m, 1.0, 1.0);
+    CameraPose { position_m, forward: eye.forward, right: eye.right, lamp_on }
+}
+
+/// The aircraft on its pad with its motors off.
+#[must_use]
+pub fn parked(scenario: &Scenario, vehicle: &Vehicle) -> DronePose {
+    let feet = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(0.0, f64::max);
+    let team = &scenario.ground_team;
+    DronePose {
+        position_m: team.pad_m + Vec3::new(0.0, 0.0, feet),
+        ned_from_frd: crate::base::frames::Rotation::from_euler(0.0, 0.0, math::wrap_pi(team.pad_heading_deg.to_radians())),
+        spinning: false,
+    }
+}
