@@ -21,11 +21,13 @@ use crate::base::geodesy::LocalPlane;
 use crate::monitor::assessment::{Assessment, check_identity, scored_flight};
 use crate::monitor::measures::crash::{self, Crash};
 use crate::monitor::measures::on_path::{OnPath, Paths};
-use crate::monitor::{AssessError, Job, assess};
+use crate::monitor::{AssessError, Graded, Job, assess};
 use crate::scenario::Scenario;
 use crate::site::Site;
 use crate::telemetry::timeline::LinkCounts;
 use crate::telemetry::{Flight, Frame, Timeline};
+use crate::training::plan::{self, RULES, Step, read_rules};
+use crate::training::record::{Hashes, Source, record};
 use crate::vehicle::Vehicle;
 
 /// What the folder says besides the flight itself.
@@ -89,6 +91,8 @@ pub struct Review {
     pub defects: Vec<defects::Fate>,
     /// Surface seen, by element.
     pub coverage: coverage::Coverage,
+    /// What to fly next, by this session alone and the shipped rules.
+    pub next: Vec<Step>,
     /// What the link did.
     pub link: LinkCounts,
 }
@@ -113,12 +117,19 @@ impl Review {
         let scene = Scene { flight: &flight, frames: &frames, scenario, vehicle, site: &site };
         let track = track::steps(&paths, &on_path, &scene);
         let pictures = pictures::judged(&scene, &assessment, &track);
+        let coverage = coverage::covered(&scene, &pictures);
+        let (crashes, tasks) = (crash::crashes(&frames, &on_path), track::tasks(&scene, &on_path, &track));
+        let (feedback, defects) = (cues::said(log, &scene, &track), defects::fates(&scene, &assessment));
+        let graded = Graded { assessment, frames, seed };
+        let next = next(&about, scenario, vehicle, &graded, &site);
+        let Graded { assessment, frames, .. } = graded;
         Ok(Self {
-            crashes: crash::crashes(&frames, &on_path),
-            tasks: track::tasks(&scene, &on_path, &track),
-            feedback: cues::said(log, &scene, &track),
-            defects: defects::fates(&scene, &assessment),
-            coverage: coverage::covered(&scene, &pictures),
+            crashes,
+            tasks,
+            feedback,
+            defects,
+            coverage,
+            next,
             link: timeline.counts(),
             about,
             scenario: scenario.clone(),
@@ -139,6 +150,30 @@ impl Review {
         let first = self.frames.first().map_or(0.0, |frame| frame.time.s());
         self.frames.get(frame).map_or(0.0, |frame| frame.time.s() - first)
     }
+}
+
+/// What the shipped rules say of one session; nothing when they cannot be read, which a test excludes.
+fn next(about: &About, scenario: &Scenario, vehicle: &Vehicle, graded: &Graded, site: &Site) -> Vec<Step> {
+    let hashes = Hashes {
+        scenario: about.scenario_sha256.clone(),
+        vehicle: about.vehicle_sha256.clone(),
+        telemetry: about.telemetry_sha256.clone(),
+        answers: String::new(),
+    };
+    let record = record(&Source {
+        id: &about.folder,
+        trainee: &about.trainee,
+        started_unix_us: about.started_unix_us,
+        spandrel_version: env!("CARGO_PKG_VERSION"),
+        scenario,
+        vehicle: &vehicle.id,
+        hashes: &hashes,
+        graded,
+        placed: site.defects(),
+        answers: None,
+    });
+    let rules = read_rules("rules.toml", RULES).ok();
+    rules.and_then(|rules| plan::plan(&[record], &rules, about.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)
 }
 
 /// What the parts of a review look at.

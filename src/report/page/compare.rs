@@ -64,9 +64,9 @@ fn rows(first: &Review, second: &Review) -> Vec<Row> {
 }
 
 fn table(first: &Review, second: &Review) -> Table {
-    let number = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, 1));
     let mut rows = Vec::new();
-    let mut put = |name: &str, values: [Option<f64>; 2]| {
+    let mut put = |name: &str, digits: usize, values: [Option<f64>; 2]| {
+        let number = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, digits));
         let change = match values {
             [Some(a), Some(b)] => Some(b - a),
             _ => None,
@@ -74,18 +74,18 @@ fn table(first: &Review, second: &Review) -> Table {
         rows.push(vec![name.into(), number(values[0]), number(values[1]), number(change)]);
     };
     let both = [first, second];
-    let named = both.map(|review| summary::named(&review.assessment.scores));
-    let [ours, theirs] = named;
+    let [ours, theirs] = both.map(|review| summary::named(&review.assessment.scores));
     for ((name, a), (_, b)) in ours.into_iter().zip(theirs) {
-        put(name, [a, b].map(|score| score.map(|score| score.pct)));
+        put(name, 1, [a, b].map(|score| score.map(|score| score.pct)));
     }
-    put("Overall", both.map(|review| Some(review.assessment.scores.overall)));
-    put("Flight time, s", both.map(|review| Some(review.assessment.end.seconds)));
-    put("Contacts", both.map(|review| Some(review.crashes.len() as f64)));
-    put("Pictures", both.map(|review| Some(review.pictures.len() as f64)));
-    put("Defects found", both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
-    put("Cues", both.map(|review| Some(review.feedback.episodes.len() as f64)));
-    put("Time too close or off the path, s", both.map(|review| Some(warned_s(review))));
+    put("Overall", 1, both.map(|review| Some(review.assessment.scores.overall)));
+    put("Flight time, s", 0, both.map(|review| Some(review.assessment.end.seconds)));
+    put("Contacts", 0, both.map(|review| Some(review.crashes.len() as f64)));
+    put("Pictures", 0, both.map(|review| Some(review.pictures.len() as f64)));
+    put("Defects found", 0, both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
+    put("Cues", 0, both.map(|review| Some(review.feedback.episodes.len() as f64)));
+    put("Time too close or off the path, s", 1, both.map(|review| Some(warned_s(review))));
+    put("Surface in pictures, lit and sharp, m²", 0, both.map(|review| Some(review.coverage.total().sharp_m2)));
     Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["what", "first", "second", "change"], rows }
 }
 

@@ -6,6 +6,7 @@ mod feedback;
 mod flight;
 mod found;
 mod gallery;
+mod next;
 mod record;
 pub mod series;
 mod summary;
@@ -26,6 +27,7 @@ pub fn session(review: &Review) -> String {
     let sections = [
         ("scores", "Scores", summary::scores(review)),
         ("tasks", "Tasks", tasks::section(review)),
+        ("next", "Next", next::section(review)),
         ("flight", "Flight", flight::section(review)),
         ("pictures", "Pictures", gallery::section(review, &sketcher)),
         ("defects", "Defects", found::section(review, &sketcher)),

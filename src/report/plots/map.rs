@@ -26,6 +26,9 @@ const JUMP_M: f64 = 2.5;
 /// Distance between the samples of lake and ground, m.
 const GROUND_STEP_M: f64 = 5.0;
 
+/// With more pictures than this, their marks are small and without numbers.
+const MANY: usize = 40;
+
 /// Limits of the clearance colours, m: below the first is closest.
 pub const CLEARANCES_M: [f64; 3] = [1.0, 2.5, 5.0];
 
@@ -242,8 +245,10 @@ fn marks(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
             @let frame = &review.frames[(picture.frame as usize - 1).min(review.frames.len() - 1)];
             @if shown(frame) {
                 g class={ "picture " (picture.verdict.class()) } transform=(place(frame.position_m)) {
-                    circle r="8.5" {}
-                    text.mark y="3.8" text-anchor="middle" { (picture.number) }
+                    @if review.pictures.len() > MANY { circle r="4.5" {} } @else {
+                        circle r="8.5" {}
+                        text.mark y="3.8" text-anchor="middle" { (picture.number) }
+                    }
                     title { "picture " (picture.number) ": " (picture.verdict.name()) }
                 }
             }
