@@ -62,10 +62,10 @@ impl Sketcher {
     pub fn png(&self, pose: &CameraPose, camera: &Camera, exposure: Exposure) -> Result<Vec<u8>, png::EncodingError> {
         let height = (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX);
         let mut sheet = Sheet::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
-        let lens = Lens { pose, down: pose.forward.cross(pose.right) };
+        let slope = |px: u32| 0.5 * f64::from(px) / camera.focal_px();
+        let lens = Lens { pose, down: pose.forward.cross(pose.right), slopes: [slope(camera.width_px), slope(camera.height_px)] };
         for body in &self.bodies {
-            let depth = (body.centre_m - pose.position_m).dot(pose.forward);
-            if depth + body.radius_m < NEAR_M || depth - body.radius_m > REACH_M {
+            if !lens.may_show(body) {
                 continue;
             }
             for facet in &body.facets {
@@ -132,6 +132,8 @@ fn slab(square: [Vec3<Enu>; 4], base: [f64; 3], sun: Vec3<Enu>) -> Body {
 struct Lens<'a> {
     pose: &'a CameraPose,
     down: Vec3<Enu>,
+    /// Half width and half height of the image at a depth of 1.
+    slopes: [f64; 2],
 }
 
 impl Lens<'_> {
@@ -139,6 +141,14 @@ impl Lens<'_> {
     fn see(&self, point_m: Vec3<Enu>) -> [f64; 3] {
         let to = point_m - self.pose.position_m;
         [to.dot(self.pose.right), to.dot(self.down), to.dot(self.pose.forward)]
+    }
+
+    /// False only when all of a body is behind the lens, too far or beside the image.
+    fn may_show(&self, body: &Body) -> bool {
+        let [x, y, depth] = self.see(body.centre_m);
+        let r = body.radius_m;
+        let beside = |aside: f64, slope: f64| aside.abs() - slope * depth > r * (1.0 + slope * slope).sqrt();
+        depth + r >= NEAR_M && depth - r <= REACH_M && !beside(x, self.slopes[0]) && !beside(y, self.slopes[1])
     }
 }
 
@@ -163,29 +173,30 @@ impl Sheet {
         }
     }
 
-    /// Fills a triangle whose corners lie before the lens.
+    /// Fills a triangle whose corners lie before the lens and run counter-clockwise as seen; the backs of faces are not drawn.
     fn fill(&mut self, corners: [[f64; 3]; 3], colour: [f64; 3]) {
         let (w, h) = (WIDTH_PX as f64, self.height as f64);
         let p = corners.map(|[x, y, z]| (0.5 * w + self.focal_px * x / z, 0.5 * h + self.focal_px * y / z, 1.0 / z));
         let area = (p[1].0 - p[0].0) * (p[2].1 - p[0].1) - (p[1].1 - p[0].1) * (p[2].0 - p[0].0);
-        if area.abs() < 1e-9 || !area.is_finite() {
+        // Counter-clockwise, with rows that run downwards, is negative.
+        if area > -1e-9 || !area.is_finite() {
             return;
         }
-        let bounds = |f: fn(&(f64, f64, f64)) -> f64, most: f64| {
-            let (low, high) = p.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-            (low.floor().clamp(0.0, most) as usize, high.ceil().clamp(0.0, most) as usize)
-        };
-        let ((x0, x1), (y0, y1)) = (bounds(|q| q.0, w), bounds(|q| q.1, h));
-        for y in y0..y1 {
-            for x in x0..x1 {
-                let (cx, cy) = (x as f64 + 0.5, y as f64 + 0.5);
-                let a = ((p[1].0 - cx) * (p[2].1 - cy) - (p[1].1 - cy) * (p[2].0 - cx)) / area;
-                let b = ((p[2].0 - cx) * (p[0].1 - cy) - (p[2].1 - cy) * (p[0].0 - cx)) / area;
-                let c = 1.0 - a - b;
-                if a < 0.0 || b < 0.0 || c < 0.0 {
-                    continue;
-                }
-                let near = a * p[0].2 + b * p[1].2 + c * p[2].2;
+        let (low, high) = p.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), q| (l.min(q.1), h.max(q.1)));
+        for y in low.floor().clamp(0.0, h) as usize..high.ceil().clamp(0.0, h) as usize {
+            let cy = y as f64 + 0.5;
+            // Each corner's share in the middle of the row's first pixel, and its change from pixel to pixel.
+            let share = |k: usize| {
+                let (b, c) = (p[(k + 1) % 3], p[(k + 2) % 3]);
+                let at = ((b.0 - 0.5) * (c.1 - cy) - (b.1 - cy) * (c.0 - 0.5)) / area;
+                (at, (b.1 - c.1) / area)
+            };
+            let shares = [share(0), share(1), share(2)];
+            let Some((from, to)) = span(&shares) else { continue };
+            let sum = |f: fn(&(f64, f64)) -> f64| shares.iter().zip(&p).map(|(share, corner)| f(share) * corner.2).sum::<f64>();
+            let (near, step) = (sum(|s| s.0), sum(|s| s.1));
+            for x in from..to {
+                let near = near + step * x as f64;
                 let at = y * WIDTH_PX + x;
                 if near > self.near[at] {
                     self.near[at] = near;
@@ -211,7 +222,7 @@ impl Sheet {
                     colour = [0, 1, 2].map(|k| math::lerp(colour[k], SKY[k], haze));
                 }
                 let lit = dim * if exposure.by_lamp { self.beam(x, y) } else { 1.0 };
-                rgb.extend(colour.map(|c| (255.0 * (c * lit).clamp(0.0, 1.0)).round() as u8));
+                rgb.extend(colour.map(|c| (255.0 * (c * lit).clamp(0.0, 1.0) + 0.5) as u8));
             }
         }
         rgb
@@ -237,6 +248,21 @@ impl Sheet {
     }
 }
 
+/// The pixels of a row in which no share is negative.
+fn span(shares: &[(f64, f64); 3]) -> Option<(usize, usize)> {
+    let (mut from, mut to) = (0.0, WIDTH_PX as f64);
+    for (at, step) in shares {
+        if *step > 0.0 {
+            from = f64::max(from, (-at / step).ceil());
+        } else if *step < 0.0 {
+            to = f64::min(to, (-at / step).floor() + 1.0);
+        } else if *at < 0.0 {
+            return None;
+        }
+    }
+    (from < to).then_some((from as usize, to as usize))
+}
+
 /// A triangle cut off at the near plane.
 fn clip(corners: &[[f64; 3]; 3]) -> Vec<[f64; 3]> {
     let mut kept = Vec::with_capacity(4);
@@ -259,6 +285,8 @@ fn encode(rgb: &[u8], width: usize, height: usize) -> Result<Vec<u8>, png::Encod
     let mut encoder = png::Encoder::new(&mut file, side(width), side(height));
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
+    // Flat shades pack best, and fastest, as they are.
+    encoder.set_filter(png::Filter::NoFilter);
     encoder.write_header()?.write_image_data(rgb)?;
     Ok(file)
 }
@@ -280,7 +308,7 @@ mod tests {
             right: Vec3::new(1.0, 0.0, 0.0),
             lamp_on: false,
         };
-        let lens = Lens { pose: &pose, down: pose.forward.cross(pose.right) };
+        let lens = Lens { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
         assert_eq!(lens.see(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, ahead");
         let (near, far) = (triangle(2.0, [1.0, 0.0, 0.0]), triangle(4.0, [0.0, 1.0, 0.0]));
         for order in [[&near, &far], [&far, &near]] {
@@ -291,6 +319,21 @@ mod tests {
             assert!((1.0 / sheet.near[middle] - 2.0).abs() < 1e-12);
             assert_eq!(sheet.colour[0], SKY);
         }
+    }
+
+    #[test]
+    fn exact_a_face_covers_its_pixels_and_its_back_none() {
+        // Corners at pixels (10, 10), (10, 30), (30, 10), counter-clockwise as seen; focal length 100 px, a metre away.
+        let corner = |x: f64, y: f64| [(x - 200.0) / 100.0, (y - 150.0) / 100.0, 1.0];
+        let face = [corner(10.0, 10.0), corner(10.0, 30.0), corner(30.0, 10.0)];
+        let filled = |corners: [[f64; 3]; 3]| {
+            let mut sheet = Sheet::new(300, 100.0);
+            sheet.fill(corners, [0.0; 3]);
+            sheet.colour.iter().filter(|colour| **colour == [0.0; 3]).count()
+        };
+        // Pixel middles with x + y < 40 from a corner at 10: 19 + 18 + ... + 1, and the 20 on the edge.
+        assert!((190..=210).contains(&filled(face)), "{}", filled(face));
+        assert_eq!(filled([face[0], face[2], face[1]]), 0);
     }
 
     #[test]

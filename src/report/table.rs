@@ -97,7 +97,7 @@ impl Table {
     #[must_use]
     pub fn shown(&self) -> Markup {
         html! {
-            div.scroll tabindex="0" role="region" aria-label=(self.caption) {
+            div.scroll tabindex="0" role="region" aria-label={ "Table: " (self.caption) } {
                 table {
                     caption { (self.caption) }
                     thead { tr { @for column in &self.columns { th scope="col" { (column) } } } }

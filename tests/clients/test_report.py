@@ -6,6 +6,7 @@ import re
 import shutil
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
 
 import spandrel
@@ -175,6 +176,15 @@ def test_numbers_behind_a_figure_download(browser, session, tmp_path):
     lines = (tmp_path / "series.csv").read_text(encoding="utf-8").splitlines()
     assert lines[0].startswith("t_s,east_m,") and len(lines) > 1000
     assert wrong == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing(browser, session, scheme):
+    """Contrast, names, landmarks, keyboard: what axe can see, with all tables unfolded."""
+    page, _ = opened(browser, session / "report.html", scheme=scheme)
+    page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
+    found = Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
 
 
 def test_every_figure_has_its_numbers(browser, session):

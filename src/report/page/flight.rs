@@ -2,8 +2,8 @@
 
 use super::{figure, legend};
 use crate::report::cues::KINDS;
-use crate::report::plots::map;
 use crate::report::plots::strips::{Strip, strips};
+use crate::report::plots::{colours, map};
 use crate::report::table::{Cell, Table};
 use crate::report::{Review, words};
 use maud::{Markup, html};
@@ -63,13 +63,13 @@ fn controls(review: &Review) -> Markup {
             }
             fieldset.switch {
                 legend { "Colour the flight by" }
-                @for (k, (name, class)) in map::COLOURINGS.iter().enumerate() {
+                @for (k, (name, class)) in colours::COLOURINGS.iter().enumerate() {
                     label { input type="radio" name="colouring" value=(class) id=(class) checked[k == 0]; (name) }
                 }
             }
-            @for (k, (_, class)) in map::COLOURINGS.iter().enumerate() {
+            @for (k, (_, class)) in colours::COLOURINGS.iter().enumerate() {
                 div class={ "key " (class) } {
-                    (legend(&map::classes(k).iter().copied().zip(map::legend(k, review.scenario.scoring.speed_limit_m_s)).collect::<Vec<_>>()))
+                    (legend(&colours::classes(k).iter().copied().zip(colours::legend(k, review.scenario.scoring.speed_limit_m_s)).collect::<Vec<_>>()))
                 }
             }
         }
@@ -97,7 +97,8 @@ fn drawings(review: &Review) -> Markup {
             (figure("From the south", &scroll("Elevation", &map::from_south(review))))
         }
         @for bridge in &review.scenario.bridges {
-            (figure(&format!("Bridge '{}' from the side, with the flight near it", bridge.name), &scroll("Elevation", &map::elevation(review, bridge))))
+            @let title = format!("Bridge '{}' from the side, with the flight near it", bridge.name);
+            (figure(&title, &scroll(&title, &map::elevation(review, bridge))))
         }
         figure.model id="model" {
             figcaption { "In three dimensions " button type="button" id="model-open" hidden { "Turn it" } }

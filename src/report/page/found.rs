@@ -38,13 +38,13 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
 }
 
 fn drawings(review: &Review, bridge: &Bridge) -> Markup {
-    let scroll = |body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label={ "Defects on bridge " (bridge.name) } { (body) } };
+    let scroll = |title: &str, body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label={ "Defects: " (title) } { (body) } };
     let side = format!("Bridge '{}' from the side", bridge.name);
     let under = format!("Bridge '{}' from above", bridge.name);
     let above = View { right: View::side(bridge).right, up: View::side(bridge).towards() * -1.0 };
     html! {
-        (figure(&side, &scroll(&map::findings(review, bridge, View::side(bridge), &side))))
-        (figure(&under, &scroll(&map::findings(review, bridge, above, &under))))
+        (figure(&side, &scroll(&side, &map::findings(review, bridge, View::side(bridge), &side))))
+        (figure(&under, &scroll(&under, &map::findings(review, bridge, above, &under))))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::base::frames::{Enu, Vec3};
 use crate::report::Review;
 use crate::report::assets::base64;
 use crate::report::outline::{self, Mesh};
-use crate::report::plots::map::CLEARANCES_M;
+use crate::report::plots::colours::CLEARANCES_M;
 use crate::telemetry::Frame;
 use serde_json::{Value, json};
 

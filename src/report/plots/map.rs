@@ -1,6 +1,8 @@
 //! The flight drawn on the site in a parallel view: silhouettes of the members, reference paths, the track in one of three colourings,
 //! marks for pictures, crashes and defects, and the drone, which the page's slider moves.
 
+use super::backdrop::{ground, lake};
+use super::colours::{COLOURINGS, track};
 use super::{line, sheet, simplified, unit};
 use crate::base::frames::{Enu, Vec3};
 use crate::report::Review;
@@ -18,22 +20,11 @@ const HEIGHTS: (f64, f64) = (110.0, 760.0);
 /// What is smaller on the sheet is left out.
 const LEAST: f64 = 1.6;
 /// A track is drawn to this precision on the sheet.
-const TRACK_WITHIN: f64 = 0.35;
+pub(super) const TRACK_WITHIN: f64 = 0.35;
 /// Farther to the side of a bridge than this the flight is not drawn in its elevation, m.
 const BESIDE_M: f64 = 45.0;
-/// A step this long between two frames is no flight: the drone was put back, m.
-const JUMP_M: f64 = 2.5;
-/// Distance between the samples of lake and ground, m.
-const GROUND_STEP_M: f64 = 5.0;
-
 /// With more pictures than this, their marks are small and without numbers.
 const MANY: usize = 40;
-
-/// Limits of the clearance colours, m: below the first is closest.
-pub const CLEARANCES_M: [f64; 3] = [1.0, 2.5, 5.0];
-
-/// How the track may be coloured: name of the switch, class of the layer.
-pub const COLOURINGS: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by-speed"), ("clearance", "by-clearance")];
 
 /// A view fitted to a sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,9 +32,9 @@ pub struct Map {
     /// The view.
     pub view: View,
     /// Left and upper end of what is shown, m right and up.
-    corner_m: (f64, f64),
+    pub(super) corner_m: (f64, f64),
     /// Units of the sheet per metre.
-    scale: f64,
+    pub(super) scale: f64,
     /// Size of the sheet.
     pub size: (f64, f64),
 }
@@ -72,7 +63,7 @@ impl Map {
         self.on_sheet(self.view.at(point_m))
     }
 
-    fn on_sheet(&self, (right_m, up_m): (f64, f64)) -> (f64, f64) {
+    pub(super) fn on_sheet(&self, (right_m, up_m): (f64, f64)) -> (f64, f64) {
         ((right_m - self.corner_m.0) * self.scale, (self.corner_m.1 - up_m) * self.scale)
     }
 
@@ -256,163 +247,6 @@ fn marks(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     }
 }
 
-/// The track in pieces of one colour: class and path data, in the order of the classes.
-fn track(review: &Review, map: &Map, layer: usize, shown: &dyn Fn(&Frame) -> bool) -> Vec<(&'static str, String)> {
-    let mut pieces: Vec<(&'static str, String)> = classes(layer).iter().map(|class| (*class, String::new())).collect();
-    let mut run: Vec<(f64, f64)> = Vec::new();
-    let mut colour = 0;
-    let mut close = |run: &mut Vec<(f64, f64)>, colour: usize| {
-        if run.len() > 1 {
-            pieces[colour].1.push_str(&line(&simplified(run, TRACK_WITHIN), false));
-        }
-        run.clear();
-    };
-    for (i, frame) in review.frames.iter().enumerate() {
-        let broken = i > 0 && (frame.position_m - review.frames[i - 1].position_m).norm() > JUMP_M;
-        if broken || !shown(frame) {
-            close(&mut run, colour);
-            if !shown(frame) {
-                continue;
-            }
-        }
-        let now = class_of(review, i, layer);
-        let here = map.at(frame.position_m);
-        if now != colour {
-            // The step between two colours belongs to the one that ends.
-            if !run.is_empty() {
-                run.push(here);
-            }
-            close(&mut run, colour);
-            colour = now;
-        }
-        run.push(here);
-    }
-    close(&mut run, colour);
-    pieces.retain(|(_, data)| !data.is_empty());
-    pieces
-}
-
-/// Classes of a colouring, as in its legend.
-#[must_use]
-pub fn classes(layer: usize) -> &'static [&'static str] {
-    match layer {
-        0 => &["p-between", "p-on", "p-off"],
-        1 => &["q-1", "q-2", "q-3", "q-4", "q-over"],
-        _ => &["c-unknown", "c-4", "c-3", "c-2", "c-1"],
-    }
-}
-
-/// Words of a colouring's legend, in the order of its classes.
-#[must_use]
-pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
-    let speed = |share: f64| words::number(share * limit_m_s, 1);
-    match layer {
-        0 => vec!["between tasks".into(), "on the path".into(), "off the path during a task".into()],
-        1 => vec![
-            format!("up to {} m/s", speed(0.25)),
-            format!("to {}", speed(0.5)),
-            format!("to {}", speed(0.75)),
-            format!("to {}", speed(1.0)),
-            format!("over the limit of {} m/s", words::number(limit_m_s, 2)),
-        ],
-        _ => {
-            let [a, b, c] = CLEARANCES_M.map(|limit| words::number(limit, 1));
-            vec!["nothing near".into(), format!("over {c} m"), format!("to {c} m"), format!("to {b} m"), format!("under {a} m")]
-        }
-    }
-}
-
-/// Index into [`classes`] for a frame.
-fn class_of(review: &Review, i: usize, layer: usize) -> usize {
-    let frame = &review.frames[i];
-    match layer {
-        0 => match (review.track[i].on, review.track[i].inside) {
-            (true, _) => 1,
-            (false, true) => 2,
-            (false, false) => 0,
-        },
-        1 => speed_class(frame.speed_m_s(), review.scenario.scoring.speed_limit_m_s),
-        _ => frame.clearance_m.map_or(0, clearance_class),
-    }
-}
-
-/// Quarters of the limit, and what is over it (strictly, as the score has it).
-fn speed_class(speed_m_s: f64, limit_m_s: f64) -> usize {
-    if speed_m_s > limit_m_s { 4 } else { ((speed_m_s / limit_m_s * 4.0).ceil() as usize).clamp(1, 4) - 1 }
-}
-
-fn clearance_class(clearance_m: f64) -> usize {
-    4 - CLEARANCES_M.iter().filter(|limit| clearance_m >= **limit).count()
-}
-
-/// Water as seen from above, in strips between its shores.
-fn lake(review: &Review, map: &Map) -> Markup {
-    let terrain = &review.scenario.terrain;
-    let half = 0.5 * terrain.size_m;
-    let count = (terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 400.0) as usize;
-    let coordinate = |k: usize| -half + (k as f64 + 0.5) * 2.0 * half / count as f64;
-    let mut strips = Vec::new();
-    for row in 0..count {
-        let n = coordinate(row);
-        let depth = |column: usize| terrain.water_level_m - review.site.ground_up_m(coordinate(column), n);
-        let mut wet: Option<f64> = None;
-        for column in 0..count {
-            let (now, e) = (depth(column), coordinate(column));
-            let shore = if column == 0 { e } else { crossing((coordinate(column - 1), depth(column - 1)), (e, now)) };
-            match wet {
-                None if now > 0.0 => wet = Some(shore),
-                Some(from) if now <= 0.0 => {
-                    strips.push((from, shore, n));
-                    wet = None;
-                }
-                None | Some(_) => {}
-            }
-        }
-        strips.extend(wet.map(|from| (from, half, n)));
-    }
-    let side = GROUND_STEP_M * map.scale;
-    html! {
-        g.lake {
-            @for (from, to, n) in strips {
-                @let (x0, y) = map.at(Vec3::new(from, n, 0.0));
-                @let (x1, _) = map.at(Vec3::new(to, n, 0.0));
-                @if y > -side && y < map.size.1 + side && x1 > 0.0 && x0 < map.size.0 {
-                    rect x=(unit(x0)) y=(unit(y - 0.5 * side)) width=(unit(x1 - x0)) height=(unit(side + 0.5)) {}
-                }
-            }
-        }
-    }
-}
-
-/// Where a value that changes its sign between two places is zero.
-fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
-    if (a.1 > 0.0) == (b.1 > 0.0) { b.0 } else { a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1) }
-}
-
-/// The ground under a bridge's axis, and the water.
-fn ground(review: &Review, map: &Map, bridge: &Bridge) -> Markup {
-    let axis = map.view.right;
-    let middle = map.view.at(bridge.centre_m).0;
-    let from = map.corner_m.0;
-    let to = from + map.size.0 / map.scale;
-    let count = ((to - from) / GROUND_STEP_M).ceil().clamp(1.0, 400.0) as usize;
-    let half = 0.5 * review.scenario.terrain.size_m;
-    let profile = (0..=count).map(|k| {
-        let along = from + (to - from) * k as f64 / count as f64;
-        let at = bridge.centre_m + axis * (along - middle);
-        let up = review.site.ground_up_m(at.east().clamp(-half, half), at.north().clamp(-half, half));
-        map.on_sheet((along, up))
-    });
-    let mut corners = vec![(0.0, map.size.1)];
-    corners.extend(profile.map(|(x, y)| (x, y.min(map.size.1))));
-    corners.push((map.size.0, map.size.1));
-    let (_, water) = map.on_sheet((0.0, review.scenario.terrain.water_level_m));
-    html! {
-        rect.water x="0" y=(unit(water)) width=(unit(map.size.0)) height=(unit((map.size.1 - water).max(0.0))) {}
-        path.ground d=(line(&simplified(&corners, 0.3), true)) {}
-    }
-}
-
 fn north(map: &Map) -> Markup {
     html! {
         g.north transform={ "translate(" (unit(map.size.0 - 24.0)) " 34)" } {
@@ -453,15 +287,5 @@ mod tests {
         }
         let (a, b) = (map.at(corners[0]), map.at(corners[1]));
         assert!(((b.0 - a.0) / 100.0 - (a.1 - b.1) / 50.0).abs() < 1e-9, "one scale for both axes; north is up");
-    }
-
-    #[test]
-    fn exact_speeds_and_clearances_fall_into_their_colours() {
-        assert_eq!([0.0, 1.0, 1.1, 3.0, 4.0, 4.1].map(|v| speed_class(v, 4.0)), [0, 0, 1, 2, 3, 4]);
-        assert_eq!([0.2, 1.0, 2.5, 5.0, 9.0].map(clearance_class), [4, 3, 2, 1, 1]);
-        for layer in 0..3 {
-            assert_eq!(classes(layer).len(), legend(layer, 4.0).len());
-        }
-        assert_eq!(crossing((0.0, 1.0), (10.0, -4.0)), 2.0);
     }
 }

@@ -1,7 +1,9 @@
 //! Figures as SVG, one file each. Colours are classes of the style sheet, so that light, dark and print have theirs; sizes are in units of
 //! the figure's own sheet. What a figure shows its table tells again.
 
+mod backdrop;
 pub mod bars;
+pub mod colours;
 pub mod map;
 pub mod radar;
 pub mod strips;
