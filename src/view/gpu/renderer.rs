@@ -190,7 +190,7 @@ impl Renderer {
         let kept = whole && self.site_map_sun.is_some_and(|was| was.dot(shot.sky.sun) > SUN_MOVED);
         for (k, map) in sun.iter().chain(lamp).enumerate() {
             let of_sun = k < sun.len();
-            if (of_sun && kept) || (of_sun && shot.sky.direct_lux <= 0.0) {
+            if of_sun && (kept || shot.sky.direct_lux <= 0.0) {
                 continue;
             }
             let Some((view, data, group)) = self.maps.get(k) else { continue };
