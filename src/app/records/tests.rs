@@ -218,8 +218,13 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // Interrupted, PostgreSQL ends its children before itself.
-        let _ = Command::new("kill").args(["-INT", &self.process.id().to_string()]).status();
+        // PostgreSQL ends its children before itself when its own program asks; killed, it would leave them.
+        let data = self.folder.path().join("run/data").display().to_string();
+        let stopped =
+            unprivileged(&programs().join("pg_ctl")).args(["stop", "-D", &data, "-m", "fast", "-s"]).current_dir("/").status();
+        if !stopped.is_ok_and(|status| status.success()) {
+            let _ = self.process.kill();
+        }
         let _ = self.process.wait();
     }
 }
