@@ -1,14 +1,16 @@
 //! Re-assessment of a 25-minute flight: about 50 Hz of truth and sticks among half a million other frames, four tasks, ten pictures.
 //! Printed as a multiple of real time, as a ratio to reading every byte once (which cancels the machine), and against the ceiling.
 
+#[path = "support/best.rs"]
+mod best;
 #[path = "../tests/support/job.rs"]
 mod job;
 
+use best::best;
 use job::{Tape, fence_of_ten, line, scenario, task, vehicle};
 use spandrel::mav::dialect::{ATTITUDE_DATA, LOCAL_POSITION_NED_DATA, MavMessage, VFR_HUD_DATA};
 use spandrel::monitor::{Monitor, MonitorConfig, assess_log};
 use spandrel::scenario::Scenario;
-use std::hint::black_box;
 use std::time::Duration;
 
 /// The ceiling.
@@ -17,17 +19,6 @@ const CEILING: Duration = Duration::from_millis(500);
 const CUE_CEILING: Duration = Duration::from_millis(100);
 const FLIGHT_S: f64 = 1500.0;
 const ROUNDS: usize = 7;
-
-/// Best of several runs.
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
-fn best<T>(mut work: impl FnMut() -> T) -> Duration {
-    let once = |_| {
-        let start = std::time::Instant::now();
-        black_box(work());
-        start.elapsed()
-    };
-    (0..ROUNDS).map(once).min().unwrap_or_default()
-}
 
 /// The tape with the streams of a busy link between its frames: 340 frames a second in all, and `clearance` at 30 Hz.
 fn long_flight() -> Vec<Vec<u8>> {
@@ -105,8 +96,8 @@ fn main() {
     let log = job::log_of(&datagrams, 0);
     let grade = || assess_log(&log, &scenario, &vehicle(), fence_of_ten).map(|graded| graded.frames.len());
     let frames = grade();
-    let assess = best(grade);
-    let read = best(|| log.iter().fold(0u64, |sum, byte| sum.wrapping_mul(31).wrapping_add(u64::from(*byte))));
+    let assess = best(ROUNDS, grade);
+    let read = best(ROUNDS, || log.iter().fold(0u64, |sum, byte| sum.wrapping_mul(31).wrapping_add(u64::from(*byte))));
     let megabytes = log.len() as f64 / 1e6;
     println!("log: {} MAVLink frames, {megabytes:.1} MB; session: {frames:?} frames", datagrams.len());
     println!(

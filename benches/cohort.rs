@@ -1,8 +1,11 @@
 //! A cohort of 10,000 sessions, made from the example study under new names: reading the records and working everything out.
 
+#[path = "support/best.rs"]
+mod best;
+
+use best::best;
 use spandrel::training::cohort::{Selection, cohort};
 use spandrel::training::record::Record;
-use std::hint::black_box;
 use std::time::Duration;
 
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
@@ -10,16 +13,6 @@ const SESSIONS: usize = 10_000;
 /// The ceiling.
 const CEILING: Duration = Duration::from_secs(2);
 const ROUNDS: usize = 5;
-
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
-fn best<T>(mut work: impl FnMut() -> T) -> Duration {
-    let once = |_| {
-        let start = std::time::Instant::now();
-        black_box(work());
-        start.elapsed()
-    };
-    (0..ROUNDS).map(once).min().unwrap_or_default()
-}
 
 fn main() {
     let originals: Vec<Record> = RECORDS.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
@@ -30,7 +23,7 @@ fn main() {
         serde_json::to_string(&record).unwrap_or_default()
     };
     let lines: Vec<String> = (0..SESSIONS).map(renamed).collect();
-    let took = best(|| {
+    let took = best(ROUNDS, || {
         let records: Vec<Record> = lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
         cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 3 })
     });

@@ -4,8 +4,11 @@
 #[path = "../tests/flight/bench.rs"]
 #[allow(dead_code)]
 mod bench;
+#[path = "support/best.rs"]
+mod best;
 
 use bench::{Bench, vehicle};
+use best::best;
 use spandrel::base::time::SimTime;
 use spandrel::sitl::sensors::{BatteryReading, Readings, Truth};
 use std::hint::black_box;
@@ -14,16 +17,6 @@ use std::time::Duration;
 const SECONDS: f64 = 60.0;
 const TICK: SimTime = SimTime::from_us(2500);
 const ROUNDS: usize = 5;
-
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
-fn best(mut work: impl FnMut()) -> Duration {
-    let once = |_| {
-        let start = std::time::Instant::now();
-        work();
-        start.elapsed()
-    };
-    (0..ROUNDS).map(once).min().unwrap_or_default()
-}
 
 fn say(what: &str, taken: Duration) {
     let per_second_us = taken.as_secs_f64() * 1e6 / SECONDS;
@@ -49,14 +42,14 @@ fn main() {
     let start = Bench::airborne(&vehicle("phantom2"), 1, 6.0);
     say(
         "sensors",
-        best(|| {
+        best(ROUNDS, || {
             black_box(tape(&start));
         }),
     );
     let readings = tape(&start);
     say(
         "estimator",
-        best(|| {
+        best(ROUNDS, || {
             let mut estimator = start.autopilot.estimator().clone();
             for (now, one) in &readings {
                 estimator.step(one, *now);
@@ -66,7 +59,7 @@ fn main() {
     );
     say(
         "autopilot with estimator",
-        best(|| {
+        best(ROUNDS, || {
             let mut autopilot = start.autopilot.clone();
             for (now, one) in &readings {
                 black_box(autopilot.step(one, *now));
@@ -74,5 +67,5 @@ fn main() {
         }),
     );
     let mut whole = Bench::airborne(&vehicle("phantom2"), 1, 6.0);
-    say("all together", best(|| whole.run(SECONDS, |_| ())));
+    say("all together", best(ROUNDS, || whole.run(SECONDS, |_| ())));
 }

@@ -1,28 +1,21 @@
 //! What the site's still geometry costs per question, by place: in the open, near the structure, in the interlayer, over the ground.
 
+#[path = "support/best.rs"]
+mod best;
+
+use best::best;
 use spandrel::base::frames::{Enu, Vec3};
 use spandrel::base::random::RandomStream;
 use spandrel::scenario::{Scenario, TaskKind};
 use spandrel::site::Probe;
 use spandrel::site::geometry::Geometry;
 use std::hint::black_box;
-use std::time::Duration;
 
 const POINTS: usize = 4000;
 const ROUNDS: usize = 9;
 
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
-fn best(mut work: impl FnMut()) -> Duration {
-    let once = |_| {
-        let start = std::time::Instant::now();
-        work();
-        start.elapsed()
-    };
-    (0..ROUNDS).map(once).min().unwrap_or_default()
-}
-
 fn say<T>(what: &str, points: &[Vec3<Enu>], ask: impl Fn(Vec3<Enu>) -> T) {
-    let taken = best(|| {
+    let taken = best(ROUNDS, || {
         points.iter().for_each(|p| {
             black_box(ask(*p));
         })
@@ -40,7 +33,7 @@ fn around(path: &[Vec3<Enu>], spread_m: f64, seed: u64) -> Vec<Vec3<Enu>> {
 fn main() {
     let text = include_str!("../scenarios/two-bridges.toml");
     let scenario: Scenario = spandrel::scenario::read("two-bridges.toml", text, &|_| Err("no file".into())).expect("reads");
-    let built = best(|| {
+    let built = best(ROUNDS, || {
         black_box(Geometry::new(&scenario));
     });
     let geometry = Geometry::new(&scenario);
@@ -62,7 +55,7 @@ fn main() {
         say(&format!("ray down 30 m, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, -1.0), 30.0));
         say(&format!("ray aslant 200 m, {place}"), points, |p| geometry.ray(p, diagonal, 200.0));
         let mut found = Vec::new();
-        let taken = best(|| {
+        let taken = best(ROUNDS, || {
             for p in points {
                 found.clear();
                 let probe = Probe::Capsule { a_m: *p, b_m: *p + Vec3::new(0.15, 0.1, 0.02), radius_m: 0.03 };

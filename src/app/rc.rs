@@ -4,6 +4,7 @@ use super::args;
 use super::clock::Stopwatch;
 use super::controller::{self, Profiles, Source, Terminal, read_profile};
 use super::errors::{AppError, EXIT_CODES};
+use super::files;
 use super::net::{Arrival, Hub, SocketId};
 use super::stop::Stop;
 use crate::base::time::SimTime;
@@ -149,11 +150,7 @@ impl Log {
 fn pilot(args: &Args, profiles: &Profiles) -> Result<Pilot, AppError> {
     if args.keyboard {
         let keys = match &args.keys {
-            Some(path) => {
-                let file = path.display().to_string();
-                let text = std::fs::read_to_string(path).map_err(|error| AppError::wrong(format!("{file}: {error}")))?;
-                Keys::read(&file, &text)?
-            }
+            Some(path) => Keys::read(&path.display().to_string(), &files::read(path)?)?,
             None => Keys::default(),
         };
         let words = keys.explain();
@@ -162,11 +159,7 @@ fn pilot(args: &Args, profiles: &Profiles) -> Result<Pilot, AppError> {
         return Ok(Pilot::Keyboard { terminal, board: Keyboard::new(keys) });
     }
     let source = match &args.replay {
-        Some(path) => {
-            let file = path.display().to_string();
-            let text = std::fs::read_to_string(path).map_err(|error| AppError::wrong(format!("{file}: {error}")))?;
-            Source::Record(Record::read(&file, &text).map_err(AppError::wrong)?)
-        }
+        Some(path) => Source::Record(Record::read(&path.display().to_string(), &files::read(path)?).map_err(AppError::wrong)?),
         None => Source::device(args.device.as_deref())?,
     };
     let device = source.of().clone();

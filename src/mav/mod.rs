@@ -4,6 +4,7 @@ pub mod codec;
 pub mod ftp;
 pub mod router;
 pub mod signing;
+pub mod station;
 pub mod units;
 
 pub use mavlink::dialects::common as dialect;

@@ -258,14 +258,23 @@ pub fn assess_log(
 ) -> Result<Graded, AssessError> {
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log);
-    let flight = scored_flight(&timeline, scenario, vehicle);
+    let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
+    let survey = build(scenario, seed);
+    let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: survey.as_ref() })?;
+    Ok(Graded { assessment, frames, seed })
+}
+
+/// The flight that counts, and its seed.
+///
+/// # Errors
+/// When the telemetry is of another scenario or seed, or holds no session.
+pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Result<(Flight, u64), AssessError> {
+    let flight = scored_flight(timeline, scenario, vehicle);
     if flight.truths.is_empty() {
         return Err(AssessError::NoTruth);
     }
     let seed = check_identity(&flight, scenario, None)?;
-    let survey = build(scenario, seed);
-    let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: survey.as_ref() })?;
-    Ok(Graded { assessment, frames, seed })
+    Ok((flight, seed))
 }
 
 /// The flight that counts: the first one that lifted off, else the last.

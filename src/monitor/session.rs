@@ -26,7 +26,7 @@ const FASTEST_M_S: f64 = 50.0;
 
 /// Why a session ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(into = "&'static str")]
 pub enum EndReason {
     /// Landed near the ground team.
     Landed,
@@ -44,6 +44,12 @@ pub enum EndReason {
     Abort,
     /// The simulator was started anew in mid-flight.
     Restart,
+}
+
+impl From<EndReason> for &'static str {
+    fn from(reason: EndReason) -> Self {
+        reason.word()
+    }
 }
 
 impl EndReason {

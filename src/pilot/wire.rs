@@ -5,9 +5,10 @@ use crate::base::geodesy::{Geo, LocalPlane};
 use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Encoder};
 use crate::mav::dialect::{
-    COMMAND_LONG_DATA, HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState,
-    MavMessage, MavModeFlag, MavStandardMode, MavSysStatusSensor, MavType, TIMESYNC_DATA,
+    HIL_STATE_QUATERNION_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState, MavMessage, MavModeFlag,
+    MavSysStatusSensor, TIMESYNC_DATA,
 };
+use crate::mav::station;
 use std::collections::VecDeque;
 
 use super::hand::Axes;
@@ -17,10 +18,6 @@ use super::perception::Motion;
 const SYSTEM: u8 = 255;
 const COMPONENT: u8 = 190;
 const AUTOPILOT: u8 = 1;
-/// PX4's main mode number of position control (what a PX4-compatible vehicle calls POSCTL).
-const PX4_POSITION: f32 = 3.0;
-/// ArduCopter's number of POSHOLD.
-const COPTER_POSHOLD: f32 = 16.0;
 /// What the pilot lives by (truth, system status, landed state, battery, gimbal) and how often, Hz: a PX4's rates to a ground station.
 const STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0), (285, 10.0)];
 
@@ -138,17 +135,10 @@ impl Wire {
         }
     }
 
-    /// Asks for the mode in which the sticks command velocity, each autopilot by its own number, any other by the standard's.
+    /// Asks for the mode in which the sticks command velocity.
     pub fn position_mode(&mut self) {
-        let (command, [a, b]) = match self.heard.autopilot {
-            Some(MavAutopilot::MAV_AUTOPILOT_PX4) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, PX4_POSITION]),
-            Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, COPTER_POSHOLD]),
-            _ => {
-                let number = MavStandardMode::MAV_STANDARD_MODE_POSITION_HOLD as u32 as f32;
-                (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, [number, 0.0])
-            }
-        };
-        self.command(command, [a, b, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let (command, params) = station::position_mode(self.heard.autopilot);
+        self.command(command, params);
     }
 
     /// Queues a message.
@@ -164,12 +154,7 @@ impl Wire {
 
     /// The ground station's own heartbeat.
     pub fn heartbeat(&mut self) {
-        self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
-            mavtype: MavType::MAV_TYPE_GCS,
-            autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
-            mavlink_version: 3,
-            ..HEARTBEAT_DATA::default()
-        }));
+        self.send(&station::heartbeat());
     }
 
     /// Answers a lockstep request.
@@ -191,19 +176,7 @@ impl Wire {
     /// A command to one of the vehicle's components.
     pub fn command_to(&mut self, component: u8, command: MavCmd, params: [f32; 7]) {
         let system = self.heard.system.unwrap_or(1);
-        self.send(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
-            command,
-            param1: params[0],
-            param2: params[1],
-            param3: params[2],
-            param4: params[3],
-            param5: params[4],
-            param6: params[5],
-            param7: params[6],
-            target_system: system,
-            target_component: component,
-            confirmation: 0,
-        }));
+        self.send(&MavMessage::COMMAND_LONG(station::command(system, component, command, params)));
     }
 
     /// Sticks: forward, right, up, yaw in [-1, 1]. Throttle's middle is 500 (PX4's convention).

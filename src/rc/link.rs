@@ -6,10 +6,8 @@
 use super::{Action, Sticks};
 use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Encoder};
-use crate::mav::dialect::{
-    COMMAND_LONG_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult,
-    MavStandardMode, MavType,
-};
+use crate::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult};
+use crate::mav::station;
 use std::collections::VecDeque;
 
 /// A second ground station beside QGroundControl's 255.
@@ -30,9 +28,6 @@ const TIMES: u8 = 5;
 const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
 /// One press of a gimbal button, degrees.
 const GIMBAL_STEP_DEG: f32 = 10.0;
-/// PX4's main mode of position control and ArduCopter's POSHOLD.
-const PX4_POSITION: f32 = 3.0;
-const COPTER_POSHOLD: f32 = 16.0;
 
 /// What the vehicle said last.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -160,19 +155,7 @@ impl Link {
             return;
         };
         let (component, command, params) = self.wish(action);
-        let command = COMMAND_LONG_DATA {
-            command,
-            param1: params[0],
-            param2: params[1],
-            param3: params[2],
-            param4: params[3],
-            param5: params[4],
-            param6: params[5],
-            param7: params[6],
-            target_system: system,
-            target_component: component,
-            confirmation: 0,
-        };
+        let command = station::command(system, component, command, params);
         // A newer wish of the same kind takes the place of an older one.
         self.pending.retain(|p| p.command.command != command.command);
         self.pending.push(Pending { what: action.name(), command, sent: 0, next: now });
@@ -183,14 +166,8 @@ impl Link {
         let Some(system) = self.heard.system.filter(|_| self.unasked) else { return };
         self.unasked = false;
         for (id, rate_hz) in STREAMS {
-            let command = COMMAND_LONG_DATA {
-                command: MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL,
-                param1: id as f32,
-                param2: 1e6 / rate_hz,
-                target_system: system,
-                target_component: AUTOPILOT,
-                ..COMMAND_LONG_DATA::default()
-            };
+            let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
+            let command = station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
             self.pending.push(Pending { what: "telling of lamp and gimbal", command, sent: 0, next: now });
         }
     }
@@ -208,20 +185,13 @@ impl Link {
             Action::Land => (AUTOPILOT, M::MAV_CMD_NAV_LAND, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
             Action::Return => (AUTOPILOT, M::MAV_CMD_NAV_RETURN_TO_LAUNCH, [0.0; 7]),
             Action::Hold => (AUTOPILOT, M::MAV_CMD_NAV_LOITER_UNLIM, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
-            Action::Position => self.position(),
+            Action::Position => {
+                let (command, params) = station::position_mode(self.heard.autopilot);
+                (AUTOPILOT, command, params)
+            }
             Action::GimbalUp => self.aim(GIMBAL_STEP_DEG),
             Action::GimbalDown => self.aim(-GIMBAL_STEP_DEG),
         }
-    }
-
-    /// The mode in which sticks command velocity, each autopilot by its own number, any other by the standard's.
-    fn position(&self) -> (u8, MavCmd, [f32; 7]) {
-        let (command, [a, b]) = match self.heard.autopilot {
-            Some(MavAutopilot::MAV_AUTOPILOT_PX4) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, PX4_POSITION]),
-            Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, COPTER_POSHOLD]),
-            _ => (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, [MavStandardMode::MAV_STANDARD_MODE_POSITION_HOLD as u32 as f32, 0.0]),
-        };
-        (AUTOPILOT, command, [a, b, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
 
     fn aim(&mut self, step: f32) -> (u8, MavCmd, [f32; 7]) {
@@ -236,12 +206,7 @@ impl Link {
         self.ask_for_streams(now);
         if now >= self.next_beat {
             self.next_beat = now + SimTime::from_s(HEARTBEAT_EVERY_S);
-            self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
-                mavtype: MavType::MAV_TYPE_GCS,
-                autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
-                mavlink_version: 3,
-                ..HEARTBEAT_DATA::default()
-            }));
+            self.send(&station::heartbeat());
         }
         let pilot = self.lost.is_none_or(|since| (now - since).s() < NEUTRAL_S);
         if pilot && now >= self.next_sticks {
@@ -315,6 +280,7 @@ fn result_name(result: MavResult) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mav::dialect::HEARTBEAT_DATA;
 
     fn at(s: f64) -> SimTime {
         SimTime::from_s(s)

@@ -18,7 +18,7 @@ pub mod track;
 pub mod words;
 
 use crate::base::geodesy::LocalPlane;
-use crate::monitor::assessment::{Assessment, check_identity, scored_flight};
+use crate::monitor::assessment::{Assessment, identified_flight};
 use crate::monitor::measures::crash::{self, Crash};
 use crate::monitor::measures::on_path::{OnPath, Paths};
 use crate::monitor::{AssessError, Graded, Job, assess};
@@ -105,11 +105,7 @@ impl Review {
     pub fn of(log: &[u8], scenario: &Scenario, vehicle: &Vehicle, about: About) -> Result<Self, AssessError> {
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log);
-        let flight = scored_flight(&timeline, scenario, vehicle);
-        if flight.truths.is_empty() {
-            return Err(AssessError::NoTruth);
-        }
-        let seed = check_identity(&flight, scenario, None)?;
+        let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
         let site = Site::build(scenario, seed);
         let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: &site })?;
         let paths = Paths::new(scenario);

@@ -13,6 +13,19 @@ LIMIT_S = 120
 AGAIN_S = 2.0
 
 
+class Again:
+    """Says a thing at once, and again and again until nobody asks any more."""
+
+    def __init__(self, say):
+        self.say, self.at = say, 0.0
+
+    def if_due(self):
+        """Says it when it is time."""
+        if time.monotonic() > self.at:
+            self.at = time.monotonic() + AGAIN_S
+            self.say()
+
+
 def connect(port, system=255, kind="udpin", dialect="all"):
     """pymavlink on a link, after the first heartbeat. The dialect is the whole process's: the last one asked for counts, so each test names its own."""
     link = mavutil.mavlink_connection(f"{kind}:127.0.0.1:{port}", source_system=system, source_component=190, dialect=dialect)

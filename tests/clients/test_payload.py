@@ -57,16 +57,13 @@ class Station:
         params = list(params) + [0] * (7 - len(params))
         self.pump()
         self.heard.clear()
-        again_at = 0.0
+        again = asking.Again(lambda: self.link.mav.command_long_send(1, component, number, 0, *params))
 
         def answer():
-            nonlocal again_at
             for message in self.heard:
                 if message.get_type() == "COMMAND_ACK" and message.command == number and message.target_system == 254:
                     return message
-            if time.monotonic() > again_at:
-                again_at = time.monotonic() + asking.AGAIN_S
-                self.link.mav.command_long_send(1, component, number, 0, *params)
+            again.if_due()
             return None
 
         return self.wait(f"acknowledgement of {number}", answer).result

@@ -63,16 +63,13 @@ class Client:
         """Sends a command and returns the result of its acknowledgement."""
         params = list(params) + [0] * (7 - len(params))
         self.state.pop("COMMAND_ACK", None)
-        again_at = 0.0
+        again = asking.Again(lambda: self.link.mav.command_long_send(self.link.target_system, component, number, 0, *params))
 
         def answered():
-            nonlocal again_at
             ack = self.state.get("COMMAND_ACK")
             if ack and ack.command == number:
                 return ack
-            if time.monotonic() > again_at:
-                again_at = time.monotonic() + asking.AGAIN_S
-                self.link.mav.command_long_send(self.link.target_system, component, number, 0, *params)
+            again.if_due()
             return None
 
         return self.wait(f"acknowledgement of {number}", answered).result

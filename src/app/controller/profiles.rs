@@ -1,6 +1,8 @@
 //! Calibration profiles on disk: one file per kind of device.
 
 use crate::app::errors::AppError;
+use crate::app::files;
+use crate::app::session_folder::replace;
 use crate::rc::{Device, Profile};
 use std::path::PathBuf;
 
@@ -42,11 +44,8 @@ impl Profiles {
     /// When it cannot be written.
     pub fn keep(&self, profile: &Profile) -> Result<PathBuf, AppError> {
         let path = self.path(&profile.device);
-        let failed = |error: std::io::Error| AppError::failed(format!("{}: {error}", path.display()));
-        std::fs::create_dir_all(&self.0).map_err(failed)?;
-        let fresh = path.with_extension("new");
-        std::fs::write(&fresh, profile.write()).map_err(failed)?;
-        std::fs::rename(&fresh, &path).map_err(failed)?;
+        std::fs::create_dir_all(&self.0).map_err(|error| AppError::failed(format!("{}: {error}", self.0.display())))?;
+        replace(&path, profile.write().as_bytes())?;
         Ok(path)
     }
 }
@@ -56,9 +55,7 @@ impl Profiles {
 /// # Errors
 /// When the file cannot be read or is wrong: everything that is wrong with it.
 pub fn read(path: &std::path::Path) -> Result<Profile, AppError> {
-    let file = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| AppError::wrong(format!("{file}: {error}")))?;
-    Ok(Profile::read(&file, &text)?)
+    Ok(Profile::read(&path.display().to_string(), &files::read(path)?)?)
 }
 
 #[cfg(test)]

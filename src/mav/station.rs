@@ -1,0 +1,65 @@
+//! What every client says as a ground station: its heartbeat, commands, the mode in which sticks command velocity.
+
+use super::dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavStandardMode, MavType};
+
+/// PX4's main mode number of position control (what a PX4-compatible vehicle calls POSCTL).
+const PX4_POSITION: f32 = 3.0;
+/// ArduCopter's number of POSHOLD.
+const COPTER_POSHOLD: f32 = 16.0;
+
+/// A ground station's heartbeat.
+#[must_use]
+pub fn heartbeat() -> MavMessage {
+    MavMessage::HEARTBEAT(HEARTBEAT_DATA {
+        mavtype: MavType::MAV_TYPE_GCS,
+        autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
+        mavlink_version: 3,
+        ..HEARTBEAT_DATA::default()
+    })
+}
+
+/// A command to one of a vehicle's components, said for the first time.
+#[must_use]
+pub fn command(system: u8, component: u8, command: MavCmd, params: [f32; 7]) -> COMMAND_LONG_DATA {
+    COMMAND_LONG_DATA {
+        command,
+        param1: params[0],
+        param2: params[1],
+        param3: params[2],
+        param4: params[3],
+        param5: params[4],
+        param6: params[5],
+        param7: params[6],
+        target_system: system,
+        target_component: component,
+        confirmation: 0,
+    }
+}
+
+/// The command for the mode in which the sticks command velocity, each autopilot by its own number, any other by the standard's.
+#[must_use]
+pub fn position_mode(autopilot: Option<MavAutopilot>) -> (MavCmd, [f32; 7]) {
+    let (command, [a, b]) = match autopilot {
+        Some(MavAutopilot::MAV_AUTOPILOT_PX4) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, PX4_POSITION]),
+        Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, COPTER_POSHOLD]),
+        _ => (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, [MavStandardMode::MAV_STANDARD_MODE_POSITION_HOLD as u32 as f32, 0.0]),
+    };
+    (command, [a, b, 0.0, 0.0, 0.0, 0.0, 0.0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_each_autopilot_is_asked_by_its_own_number() {
+        let asked = |autopilot| {
+            let (command, params) = position_mode(autopilot);
+            (command, params[0], params[1])
+        };
+        assert_eq!(asked(Some(MavAutopilot::MAV_AUTOPILOT_PX4)), (MavCmd::MAV_CMD_DO_SET_MODE, 1.0, 3.0));
+        assert_eq!(asked(Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA)), (MavCmd::MAV_CMD_DO_SET_MODE, 1.0, 16.0));
+        // MAV_STANDARD_MODE_POSITION_HOLD.
+        assert_eq!(asked(None), (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, 1.0, 0.0));
+    }
+}
