@@ -11,6 +11,8 @@ from pymavlink import mavutil
 LIMIT_S = 120
 # Wall seconds after which a question is put again; answers come within milliseconds.
 AGAIN_S = 2.0
+# How often at most.
+TIMES = int(LIMIT_S / AGAIN_S)
 
 
 class Again:

@@ -300,7 +300,7 @@ impl CameraState {
         self.card.keep(shot, self.settings.picture_mib());
         self.series.taken(now, here);
         if self.full(now) {
-            self.series.stop();
+            self.series.clear();
         }
         message
     }
@@ -340,6 +340,26 @@ mod tests {
         assert_eq!(camera.start_by_distance(5.0, false, here, now), Err(Refusal::Full));
         assert_eq!(camera.format(true), Ok(()));
         assert_eq!((camera.summary(now).pictures, camera.summary(now).used_mib), (0, 0.0));
+    }
+
+    #[test]
+    fn regress_single_pictures_that_are_asked_for_within_one_tick_are_all_taken_beside_a_series() {
+        let (mut camera, now, here) = (CameraState::default(), SimTime::ZERO, Vec3::zero());
+        for (interval_s, count) in [(0.0, 1.0), (0.0, 1.0), (1.0, 2.0), (0.0, 1.0)] {
+            assert!(camera.start(interval_s, count, now).is_ok());
+        }
+        let mut taken = 0;
+        while camera.due(now, here) {
+            let _ = camera.take(Shot::numbered(taken), now, here);
+            taken += 1;
+        }
+        assert_eq!(taken, 4, "three single ones and the first of the series");
+        assert_eq!(camera.summary(now).interval_s, Some(1.0), "the series goes on");
+        assert!(camera.start(0.0, 1.0, now).is_ok());
+        camera.stop();
+        assert!(camera.due(now, here), "a picture that was promised before the stop");
+        let _ = camera.take(Shot::numbered(taken), now, here);
+        assert!(!camera.due(now + SimTime::from_s(2.0), here));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! When pictures are due: one, a series by time, a series by way, and one beside a running series.
+//! When pictures are due: single ones, a series by time, a series by way.
 
 use crate::base::frames::{Enu, Vec3};
 use crate::base::time::SimTime;
@@ -20,8 +20,8 @@ pub struct Series {
     left: Option<u32>,
     /// A picture every so many metres, and where the last one was.
     by_distance: Option<(f64, Vec3<Enu>)>,
-    /// A single picture beside a running series.
-    once: bool,
+    /// Single pictures that are still to be taken: commands may come faster than pictures are taken, and none must swallow another.
+    singles: u32,
 }
 
 impl Series {
@@ -42,12 +42,11 @@ impl Series {
         if !(0.0..=MOST_PICTURES).contains(&count) || !(0.0..=LONGEST_INTERVAL_S).contains(&interval_s) {
             return false;
         }
-        let single = count as u32 == 1;
-        if single && self.interval_s.is_some() && self.next.is_some() {
-            self.once = true;
+        if count as u32 == 1 {
+            self.singles = self.singles.saturating_add(1);
             return true;
         }
-        self.interval_s = (!single).then_some(interval_s.max(LEAST_INTERVAL_S));
+        self.interval_s = Some(interval_s.max(LEAST_INTERVAL_S));
         self.left = (count as u32 > 0).then_some(count as u32);
         self.next = Some(now);
         true
@@ -65,8 +64,13 @@ impl Series {
         true
     }
 
-    /// Ends every series.
+    /// Ends every series. A single picture that was promised is still taken.
     pub fn stop(&mut self) {
+        *self = Self { singles: self.singles, ..Self::default() };
+    }
+
+    /// Nothing is to be taken any more.
+    pub fn clear(&mut self) {
         *self = Self::default();
     }
 
@@ -74,12 +78,13 @@ impl Series {
     #[must_use]
     pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
         let far = self.by_distance.is_some_and(|(way_m, last)| (here - last).norm() >= way_m);
-        self.once || far || self.next.is_some_and(|next| next <= now)
+        self.singles > 0 || far || self.next.is_some_and(|next| next <= now)
     }
 
     /// The picture that was due is taken.
     pub fn taken(&mut self, now: SimTime, here: Vec3<Enu>) {
-        if std::mem::take(&mut self.once) {
+        if self.singles > 0 {
+            self.singles -= 1;
             return;
         }
         if let Some((_, last)) = &mut self.by_distance {
