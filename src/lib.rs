@@ -19,3 +19,4 @@ pub mod telemetry;
 pub mod training;
 pub mod vehicle;
 pub mod view;
+pub mod web;

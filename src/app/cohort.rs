@@ -4,6 +4,7 @@ use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::records::{Place, from_lines};
 use crate::monitor::export::json_text;
+use crate::report::page::cohort as page;
 use crate::training::cohort::{Cohort, Selection, cohort, tables};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -21,6 +22,7 @@ const CONTRADICTIONS: usize = 12;
 Examples:
   spandrel cohort                                       the short of it
   spandrel cohort --json cohort.json --csv tables       everything
+  spandrel cohort --report cohort.html                  all figures as one page that opens offline
   spandrel cohort --scenario two-bridges --scenario two-bridges-small --repetitions 2
   spandrel cohort --records all.jsonl --json -
 
@@ -40,6 +42,9 @@ pub struct Args {
     /// Everything as JSON here; '-' for standard output
     #[arg(long, value_name = "FILE")]
     json: Option<String>,
+    /// All figures as one page that opens offline; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    report: Option<String>,
     /// Every table as a CSV file in this folder
     #[arg(long, value_name = "DIR")]
     csv: Option<PathBuf>,
@@ -65,6 +70,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         for (name, table) in tables(&cohort) {
             files::write(&folder.join(name).display().to_string(), table.as_bytes())?;
         }
+    }
+    if let Some(target) = &args.report {
+        files::write(target, page::cohort(&cohort).as_bytes())?;
     }
     match &args.json {
         Some(target) => files::write(target, json_text(&cohort).as_bytes()),

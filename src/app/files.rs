@@ -42,13 +42,11 @@ pub struct Source {
 }
 
 /// Names of the shipped scenarios.
-#[cfg(test)]
 pub fn scenario_names() -> Vec<&'static str> {
     shipped::SCENARIOS.iter().map(|(name, _)| *name).collect()
 }
 
 /// Names of the shipped vehicles.
-#[cfg(test)]
 pub fn vehicle_names() -> Vec<&'static str> {
     shipped::VEHICLES.iter().map(|(name, _)| *name).collect()
 }

@@ -38,6 +38,7 @@ mod stop;
 mod store;
 mod table;
 mod train;
+mod web;
 
 pub use errors::AppError;
 
@@ -74,6 +75,7 @@ enum Command {
     Plan(plan::Args),
     Cohort(cohort::Args),
     Report(report::Args),
+    Serve(web::Args),
     Render(render::Args),
     Check(check::Args),
 }
@@ -97,6 +99,7 @@ pub fn main() -> ExitCode {
         Command::Plan(args) => plan::run(args),
         Command::Cohort(args) => cohort::run(args),
         Command::Report(args) => report::run(args),
+        Command::Serve(args) => web::run(args),
         Command::Render(args) => render::run(args),
         Command::Check(args) => check::run(args),
     };

@@ -88,11 +88,16 @@ pub fn stored(session: &Path, scenario: &Scenario) -> Result<Option<Answers>, Ap
     Ok(Some(read_answers(&path.display().to_string(), &files::read(&path)?, &task_ids(scenario))?))
 }
 
-fn task_ids(scenario: &Scenario) -> Vec<u32> {
+/// Numbers of the tasks, as the questions use them.
+pub fn task_ids(scenario: &Scenario) -> Vec<u32> {
     scenario.tasks.iter().map(|task| task.id).collect()
 }
 
-fn wording(file: Option<&Path>) -> Result<Wording, AppError> {
+/// The shipped words, or those of a file.
+///
+/// # Errors
+/// When the file cannot be read or is wrong.
+pub fn wording(file: Option<&Path>) -> Result<Wording, AppError> {
     match file {
         Some(path) => Ok(read_wording(&path.display().to_string(), &files::read(path)?)?),
         None => Ok(read_wording("en.toml", ENGLISH)?),

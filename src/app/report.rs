@@ -46,10 +46,9 @@ pub struct Args {
 /// When files are wrong, there is nothing to report, or the page cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = Progress::start("writing the report");
-    let first = review(&args.session)?;
     let text = match &args.other {
-        Some(other) => page::comparison(&first, &review(other)?),
-        None => page::session(&first),
+        Some(other) => compared(&args.session, other)?,
+        None => page::session(&review(&args.session)?),
     };
     progress.end();
     match &args.out {
@@ -69,6 +68,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// As [`run`].
 pub fn write(session: &Path) -> Result<(), AppError> {
     replace(&session.join(REPORT), page::session(&review(session)?).as_bytes())
+}
+
+/// The page that compares two sessions.
+///
+/// # Errors
+/// As [`run`].
+pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
+    Ok(page::comparison(&review(first)?, &review(second)?))
 }
 
 /// A file's address for a browser.

@@ -6,8 +6,12 @@ use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::pace::Speed;
 use super::ports::PortArgs;
+use super::records::Place;
 use super::stop::Stop;
 use super::table;
+use super::web::{ListenArgs, Server, Setup};
+use std::io::IsTerminal;
+use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -41,6 +45,9 @@ pub struct Args {
     /// Whose interface the vehicle speaks; it flies the same in all of them
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
+    /// Web pages of this machine's sessions and of the live flight: a port of this machine, 0 for any free one, or none
+    #[arg(long, value_name = "PORT|none", default_value = "0")]
+    web: args::Port,
     #[command(flatten)]
     ports: PortArgs,
 }
@@ -67,18 +74,51 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     ];
     let mut sim = Child::start("sim", &sim_args.concat())?;
     let ports = sim.announced()?;
-    print!("{}", how_to_connect(&scenario.title, &args.ports, &ports, &session));
+    let web = pages(args, &ports);
+    print!("{}", how_to_connect(&scenario.title, &args.ports, &ports, &session, web.as_ref()));
     let lost = wait(&mut monitor, &mut sim, &stop);
     monitor.finish();
     sim.finish();
     let told = tell(&session);
     if told.is_ok() {
         println!("questions     spandrel questionnaire {}", session.display());
+        linger(web.as_ref(), &session, &stop);
     }
     match lost {
         Some(error) => Err(error),
         None => told,
     }
+}
+
+/// Serves the pages of the sessions and of this flight. Without them one flies all the same.
+fn pages(args: &Args, ports: &serde_json::Value) -> Option<Server> {
+    let args::Port::Number(port) = args.web else { return None };
+    let payload = ports["payload_port"].as_u64().and_then(|port| u16::try_from(port).ok());
+    let here = if args.ports.listen.is_unspecified() { Ipv4Addr::LOCALHOST.into() } else { args.ports.listen };
+    let vehicle = payload.map(|port| SocketAddr::new(here, port));
+    let place = Place { sessions: vec![args.sessions.clone()], database: None };
+    match Server::start(&ListenArgs::local(port), Setup { place, scenarios: None, vehicle }) {
+        Ok(server) => Some(server),
+        Err(error) => {
+            tracing::warn!("no web pages: {error}");
+            None
+        }
+    }
+}
+
+/// Keeps the pages for whoever sits at the terminal: the questionnaire comes after the flight.
+fn linger(web: Option<&Server>, session: &Path, stop: &Stop) {
+    let (Some(web), true, false) = (web, std::io::stdin().is_terminal(), stop.asked()) else { return };
+    let id = session.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    println!("in a browser  {}/sessions/{id}/questions   (the pages stay until you press Enter)", web.address());
+    let pressed = stop.clone();
+    std::thread::spawn(move || {
+        let mut line = String::new();
+        // The end of the input ends it, too.
+        let _ = std::io::stdin().read_line(&mut line);
+        pressed.ask();
+    });
+    web.until(stop);
 }
 
 /// Arguments that all children share.
@@ -134,7 +174,7 @@ fn wait(monitor: &mut Child, sim: &mut Child, stop: &Stop) -> Option<AppError> {
     }
 }
 
-fn how_to_connect(title: &str, args: &PortArgs, ports: &serde_json::Value, session: &Path) -> String {
+fn how_to_connect(title: &str, args: &PortArgs, ports: &serde_json::Value, session: &Path, web: Option<&Server>) -> String {
     let port = |key: &str| ports[key].as_u64().map_or("not opened".to_owned(), |port| port.to_string());
     let targets: Vec<String> = args.ground_stations().iter().map(ToString::to_string).collect();
     let (auto, targets) = if targets.is_empty() { ("no", "nobody".to_owned()) } else { ("yes", targets.join(", ")) };
@@ -146,6 +186,7 @@ fn how_to_connect(title: &str, args: &PortArgs, ports: &serde_json::Value, sessi
   MAVSDK           {}
   pymavlink        udpout:127.0.0.1:{}
   session folder   {}
+  web pages        {}
 There is no camera view yet: fly by the ground station's map and instruments, or by a script.
 Take off, do the tasks, land on the pad; the scores follow. Ctrl-C ends the session early.
 ",
@@ -155,5 +196,6 @@ Take off, do the tasks, land on the pad; the scores follow. Ctrl-C ends the sess
         args.sdk().map_or("nobody is called".to_owned(), |sdk| format!("udpin://0.0.0.0:{}", sdk.port())),
         port("gcs_port"),
         session.display(),
+        web.map_or("none".to_owned(), |web| web.address().to_owned()),
     )
 }

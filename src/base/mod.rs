@@ -1,6 +1,7 @@
-//! What every room stands on and what knows nobody: integer time, typed frames, geodesy, named random streams, and the one
+//! What every room stands on and what knows nobody: integer time, dates, typed frames, geodesy, named random streams, and the one
 //! door to transcendental functions.
 
+pub mod calendar;
 pub mod foxglove;
 pub mod frames;
 pub mod geodesy;

@@ -2,6 +2,7 @@
 
 pub mod codec;
 pub mod ftp;
+pub mod note;
 pub mod router;
 pub mod signing;
 pub mod station;

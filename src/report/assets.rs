@@ -41,6 +41,12 @@ pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
     )
 }
 
+/// Policy of the pages that this version writes.
+#[must_use]
+pub fn page_policy() -> String {
+    policy(&[UPLOT, SCRIPT], &[STYLE, UPLOT_STYLE])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -113,7 +113,7 @@ impl Table {
                     }
                 }
             }
-            p.download { a download={ (self.name) ".csv" } href=(self.link()) { "Download as CSV" } }
+            p.download { (download(&format!("{}.csv", self.name), &self.csv(), "Download as CSV")) }
         }
     }
 
@@ -128,19 +128,21 @@ impl Table {
         }
         csv
     }
+}
 
-    fn link(&self) -> String {
-        let mut link = String::from("data:text/csv;charset=utf-8,");
-        for byte in self.csv().bytes() {
-            // RFC 3986, unreserved characters.
-            if byte.is_ascii_alphanumeric() || b"-._~".contains(&byte) {
-                link.push(char::from(byte));
-            } else {
-                link.push_str(&format!("%{byte:02X}"));
-            }
+/// A link that holds the file that it downloads.
+#[must_use]
+pub fn download(name: &str, csv: &str, words: &str) -> Markup {
+    let mut link = String::from("data:text/csv;charset=utf-8,");
+    for byte in csv.bytes() {
+        // RFC 3986, unreserved characters.
+        if byte.is_ascii_alphanumeric() || b"-._~".contains(&byte) {
+            link.push(char::from(byte));
+        } else {
+            link.push_str(&format!("%{byte:02X}"));
         }
-        link
     }
+    html! { a download=(name) href=(link) { (words) } }
 }
 
 #[cfg(test)]

@@ -59,6 +59,7 @@ class Flight:
         self.log = open(pathlib.Path(folder) / "log.txt", "w", encoding="utf-8")
         self.client_port = free_udp_port()
         payload, monitor = free_udp_port(), free_udp_port()
+        self.payload_port = payload
         common = ["--scenario", scenario, "--seed", str(seed)]
         self.sim = self._start(
             "sim", *common, "--flavour", flavour, "--speed", str(speed), "--gcs", f"127.0.0.1:{self.client_port}", "--sdk", "none",

@@ -3,7 +3,7 @@
 //! and a kill at any moment leaves all of a session or nothing.
 
 use crate::app::errors::AppError;
-use crate::training::record::Record;
+use crate::training::record::{Listed, Record};
 use crate::training::trainee::{Role, Trainee};
 use sqlx::any::{AnyArguments, AnyPoolOptions, AnyRow};
 use sqlx::query::Query;
@@ -13,7 +13,7 @@ use std::future::Future;
 use std::path::Path;
 
 /// Migrations in their order; a database of version n has seen the first n. What is released here never changes, a new one is added.
-const MIGRATIONS: &[&str] = &[include_str!("migrations/0001_first.sql")];
+const MIGRATIONS: &[&str] = &[include_str!("migrations/0001_first.sql"), include_str!("migrations/0002_passwords.sql")];
 /// Names the lock that PostgreSQL holds while tables are made: any number that nobody else uses.
 const MIGRATION_LOCK: &str = "SELECT pg_advisory_xact_lock(7301420226)";
 /// SQLite waits so long for other writers, ms.
@@ -41,25 +41,6 @@ const TRAINEES: &str = "SELECT pseudonym, role, age_band, drone_experience, gami
 const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason FROM sessions";
 const NEWEST: &str = "ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2";
 
-/// One line of a list of sessions.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Listed {
-    /// Session.
-    pub id: String,
-    /// Pseudonym.
-    pub trainee: String,
-    /// µs since the Unix epoch.
-    pub started_unix_us: u64,
-    /// Job.
-    pub scenario: String,
-    /// Sum of the scores.
-    pub overall: f64,
-    /// What it is out of.
-    pub overall_max: f64,
-    /// Why it ended.
-    pub end_reason: String,
-}
-
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Sqlite,
@@ -70,7 +51,7 @@ enum Kind {
 #[derive(Debug)]
 pub struct Database {
     runtime: tokio::runtime::Runtime,
-    pool: AnyPool,
+    pub(super) pool: AnyPool,
     kind: Kind,
     name: String,
 }
@@ -223,6 +204,7 @@ impl Database {
             sqlx::query(answers).bind(trainee.to_owned()).execute(&mut *change).await?;
             let by = |query: &'static str| sqlx::query(query).bind(trainee.to_owned());
             let sessions = by("DELETE FROM sessions WHERE trainee = $1").execute(&mut *change).await?.rows_affected();
+            by("DELETE FROM passwords WHERE pseudonym = $1").execute(&mut *change).await?;
             let known = by("DELETE FROM trainees WHERE pseudonym = $1").execute(&mut *change).await?.rows_affected() > 0;
             change.commit().await?;
             self.forget().await.map(|()| (known, sessions))
@@ -247,9 +229,7 @@ impl Database {
     pub fn set_trainee(&self, trainee: &Trainee) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
-            let query = sqlx::query(SET_TRAINEE).bind(trainee.pseudonym.clone()).bind(trainee.role.word().to_owned());
-            let details = [&trainee.age_band, &trainee.drone_experience, &trainee.gaming_experience];
-            details.into_iter().fold(query, |query, detail| query.bind(detail.clone())).execute(&mut *change).await?;
+            set(&mut change, trainee).await?;
             change.commit().await
         })
     }
@@ -274,11 +254,11 @@ impl Database {
         &self.name
     }
 
-    fn run<T>(&self, work: impl Future<Output = Result<T, sqlx::Error>>) -> Result<T, AppError> {
+    pub(super) fn run<T>(&self, work: impl Future<Output = Result<T, sqlx::Error>>) -> Result<T, AppError> {
         self.runtime.block_on(work).map_err(|error| AppError::failed(format!("{}: {error}", self.name)))
     }
 
-    async fn begin(&self) -> Result<Transaction<'static, Any>, sqlx::Error> {
+    pub(super) async fn begin(&self) -> Result<Transaction<'static, Any>, sqlx::Error> {
         let begin = match self.kind {
             Kind::Sqlite => "BEGIN IMMEDIATE",
             Kind::Postgres => "BEGIN",
@@ -336,6 +316,13 @@ async fn prepare(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
     // then the other one asks for it as well, and until then only patience is needed.
     let _ = connection.execute("PRAGMA journal_mode = WAL").await;
     Ok(())
+}
+
+/// Adds a trainee or sets his details, within a change.
+pub(super) async fn set(change: &mut Transaction<'static, Any>, trainee: &Trainee) -> Result<(), sqlx::Error> {
+    let query = sqlx::query(SET_TRAINEE).bind(trainee.pseudonym.clone()).bind(trainee.role.word().to_owned());
+    let details = [&trainee.age_band, &trainee.drone_experience, &trainee.gaming_experience];
+    details.into_iter().fold(query, |query, detail| query.bind(detail.clone())).execute(&mut **change).await.map(|_| ())
 }
 
 async fn put_all(change: &mut Transaction<'static, Any>, records: &[Record]) -> Result<usize, sqlx::Error> {
@@ -404,7 +391,7 @@ fn listed(row: &AnyRow) -> Result<Listed, sqlx::Error> {
     })
 }
 
-fn trainee(row: &AnyRow) -> Result<Trainee, sqlx::Error> {
+pub(super) fn trainee(row: &AnyRow) -> Result<Trainee, sqlx::Error> {
     let role: String = row.try_get(1)?;
     Ok(Trainee {
         pseudonym: row.try_get(0)?,

@@ -1,6 +1,7 @@
 //! `spandrel records`: the database of sessions, trainees and answers. The session folders are the source; the database can be made
 //! again from them at any time (all but what trainees told of themselves).
 
+mod accounts;
 mod database;
 mod import;
 mod people;
@@ -8,6 +9,8 @@ mod people;
 mod tests;
 
 pub use database::Database;
+pub use import::{id as session_id, read as read_session, session_folders};
+pub use people::{folders_where, forget, kept, remove};
 
 use super::args::TraineeId;
 use super::clock;

@@ -33,7 +33,7 @@ pub struct PersonArgs {
 
 /// Everything that is kept of one trainee.
 #[derive(Debug, Serialize)]
-struct Kept {
+pub struct Kept {
     trainee: Trainee,
     sessions: Vec<Record>,
     folders: Vec<String>,
@@ -69,20 +69,29 @@ pub fn set(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
     files::write("-", json_text(&person).as_bytes())
 }
 
-/// Writes everything that is kept of a trainee: details, sessions and answers from the database, names of the folders.
+/// Everything that is kept of a trainee: details, sessions and answers from the database, names of the folders; `None` when it is nothing.
+///
+/// # Errors
+/// When the database or a folder cannot be read.
+pub fn kept(database: &Database, place: &Place, trainee: &str) -> Result<Option<Kept>, AppError> {
+    let sessions = database.records(Some(trainee))?;
+    let folders = folders_of(place, trainee)?;
+    let known = find(database, trainee)?;
+    if known.is_none() && sessions.is_empty() && folders.is_empty() {
+        return Ok(None);
+    }
+    let folders = folders.iter().map(|path| path.display().to_string()).collect();
+    Ok(Some(Kept { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders }))
+}
+
+/// Writes everything that is kept of a trainee.
 ///
 /// # Errors
 /// When nothing is kept, or the database or the target refuses.
 pub fn export(place: &Place, trainee: &str, out: &str) -> Result<(), AppError> {
     let database = place.open()?;
-    let sessions = database.records(Some(trainee))?;
-    let folders = folders_of(place, trainee)?;
-    let known = find(&database, trainee)?;
-    if known.is_none() && sessions.is_empty() && folders.is_empty() {
-        return Err(AppError::wrong(format!("{}: nothing is kept of '{trainee}'", database.name())));
-    }
-    let folders = folders.iter().map(|path| path.display().to_string()).collect();
-    let kept = Kept { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders };
+    let kept = kept(&database, place, trainee)?;
+    let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: nothing is kept of '{trainee}'", database.name())))?;
     files::write(out, json_text(&kept).as_bytes())
 }
 
@@ -103,14 +112,24 @@ pub fn erase(place: &Place, trainee: &str, yes: bool) -> Result<(), AppError> {
         );
         return Ok(());
     }
-    // Folders first: a kill between leaves records without a folder, which the same command removes; not folders that bring them back.
-    remove(&folders)?;
-    let (known, sessions) = database.erase(trainee)?;
-    if !known && folders.is_empty() {
+    let (known, sessions) = forget(&database, place, trainee)?;
+    if !known {
         return Err(AppError::wrong(format!("{}: nothing was kept of '{trainee}'", database.name())));
     }
     println!("'{trainee}' is erased: {sessions} sessions in {}, {} folders", database.name(), folders.len());
     Ok(())
+}
+
+/// Erases a trainee. Returns whether anything was kept, and how many sessions the database had.
+///
+/// # Errors
+/// When a folder or the database refuses.
+pub fn forget(database: &Database, place: &Place, trainee: &str) -> Result<(bool, u64), AppError> {
+    let folders = folders_of(place, trainee)?;
+    // Folders first: a kill between leaves records without a folder, which the same command removes; not folders that bring them back.
+    remove(&folders)?;
+    let (known, sessions) = database.erase(trainee)?;
+    Ok((known || !folders.is_empty(), sessions))
 }
 
 fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError> {

@@ -1,10 +1,11 @@
 //! Taking in: one frame at a time, from the stamp in the log to the end of the session.
 
-use super::{HEARTBEAT_EVERY, Live, Monitor, RETRY, SETTLE, TOUCH_REACH_M};
+use super::{COMPONENT, HEARTBEAT_EVERY, Live, Monitor, RETRY, SETTLE, TOUCH_REACH_M};
 use crate::base::frames::{Enu, Vec3};
 use crate::base::time::SimTime;
 use crate::mav::codec::Received;
 use crate::mav::dialect::MavSeverity;
+use crate::mav::note;
 use crate::monitor::assessment::{self, AssessError, Graded, Job};
 use crate::monitor::feedback::{Feedback, texts::Texts};
 use crate::monitor::measures::crash::may_touch_pad;
@@ -32,6 +33,15 @@ impl Monitor {
                 self.restarted(sample);
             }
             Pushed::Kept(sample) => self.note(sample, before),
+        }
+    }
+
+    /// An instructor's note at this moment.
+    pub(super) fn take_note(&mut self, received: &Received) {
+        if let Some(((system, COMPONENT), text)) = note::decode(received)
+            && system == self.encoder.system_id()
+        {
+            self.event("note", json!({ "text": text }));
         }
     }
 

@@ -185,6 +185,7 @@ impl Monitor {
                 let stamp = self.stamp_us(&received);
                 self.records.push_back(Record::Telemetry(tlog::record(stamp, &received.bytes)));
                 self.take(&received);
+                self.take_note(&received);
             }
             self.answer(&received);
         }

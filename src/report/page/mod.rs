@@ -1,5 +1,6 @@
 //! The page, section by section. What a user wrote goes through maud's escaping; what the page's script reads goes through [`series`].
 
+pub mod cohort;
 mod compare;
 mod conditions;
 mod feedback;
@@ -54,13 +55,12 @@ pub fn session(review: &Review) -> String {
 
 /// A whole document: policy, styles, the body, data and scripts. Styles and scripts are ours and the libraries', never a user's words.
 fn document(title: &str, data: Option<&str>, body: &Markup) -> String {
-    let policy = assets::policy(&[assets::UPLOT, assets::SCRIPT], &[assets::STYLE, assets::UPLOT_STYLE]);
     html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(policy);
+                meta http-equiv="Content-Security-Policy" content=(assets::page_policy());
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content=(concat!("spandrel ", env!("CARGO_PKG_VERSION")));

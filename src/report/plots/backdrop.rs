@@ -3,23 +3,23 @@
 use super::map::Map;
 use super::{line, simplified, unit};
 use crate::base::frames::Vec3;
-use crate::report::Review;
-use crate::scenario::Bridge;
+use crate::scenario::{Bridge, Scenario};
+use crate::site::Site;
 use maud::{Markup, html};
 
 /// Distance between the samples of lake and ground, m.
 const GROUND_STEP_M: f64 = 5.0;
 
 /// Water as seen from above, in strips between its shores.
-pub(super) fn lake(review: &Review, map: &Map) -> Markup {
-    let terrain = &review.scenario.terrain;
+pub(super) fn lake(scenario: &Scenario, site: &Site, map: &Map) -> Markup {
+    let terrain = &scenario.terrain;
     let half = 0.5 * terrain.size_m;
     let count = (terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 400.0) as usize;
     let coordinate = |k: usize| -half + (k as f64 + 0.5) * 2.0 * half / count as f64;
     let mut strips = Vec::new();
     for row in 0..count {
         let n = coordinate(row);
-        let depth = |column: usize| terrain.water_level_m - review.site.ground_up_m(coordinate(column), n);
+        let depth = |column: usize| terrain.water_level_m - site.ground_up_m(coordinate(column), n);
         let mut wet: Option<f64> = None;
         for column in 0..count {
             let (now, e) = (depth(column), coordinate(column));
@@ -55,23 +55,23 @@ fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
 }
 
 /// The ground under a bridge's axis, and the water.
-pub(super) fn ground(review: &Review, map: &Map, bridge: &Bridge) -> Markup {
+pub(super) fn ground(scenario: &Scenario, site: &Site, map: &Map, bridge: &Bridge) -> Markup {
     let axis = map.view.right;
     let middle = map.view.at(bridge.centre_m).0;
     let from = map.corner_m.0;
     let to = from + map.size.0 / map.scale;
     let count = ((to - from) / GROUND_STEP_M).ceil().clamp(1.0, 400.0) as usize;
-    let half = 0.5 * review.scenario.terrain.size_m;
+    let half = 0.5 * scenario.terrain.size_m;
     let profile = (0..=count).map(|k| {
         let along = from + (to - from) * k as f64 / count as f64;
         let at = bridge.centre_m + axis * (along - middle);
-        let up = review.site.ground_up_m(at.east().clamp(-half, half), at.north().clamp(-half, half));
+        let up = site.ground_up_m(at.east().clamp(-half, half), at.north().clamp(-half, half));
         map.on_sheet((along, up))
     });
     let mut corners = vec![(0.0, map.size.1)];
     corners.extend(profile.map(|(x, y)| (x, y.min(map.size.1))));
     corners.push((map.size.0, map.size.1));
-    let (_, water) = map.on_sheet((0.0, review.scenario.terrain.water_level_m));
+    let (_, water) = map.on_sheet((0.0, scenario.terrain.water_level_m));
     html! {
         rect.water x="0" y=(unit(water)) width=(unit(map.size.0)) height=(unit((map.size.1 - water).max(0.0))) {}
         path.ground d=(line(&simplified(&corners, 0.3), true)) {}

@@ -8,7 +8,8 @@ use crate::base::frames::{Enu, Vec3};
 use crate::report::Review;
 use crate::report::outline::{View, outlines};
 use crate::report::words;
-use crate::scenario::Bridge;
+use crate::scenario::{Bridge, Scenario, Task};
+use crate::site::Site;
 use crate::telemetry::Frame;
 use maud::{Markup, html};
 
@@ -82,8 +83,8 @@ pub fn plan(review: &Review) -> Markup {
     let map = Map::around(View::plan(), &everything(review));
     let all = |_: &Frame| true;
     let body = html! {
-        (lake(review, &map))
-        (structure(review, &map, None))
+        (lake(&review.scenario, &review.site, &map))
+        (structure(&review.site, &map, None))
         (job(review, &map, None, &all))
         (north(&map))
     };
@@ -100,7 +101,7 @@ pub fn oblique(review: &Review) -> Markup {
         "Flight from above and aside, looking north",
         "map",
         &html! {
-            (structure(review, &map, None))
+            (structure(&review.site, &map, None))
             (job(review, &map, None, &all))
         },
     )
@@ -132,8 +133,8 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
         &title,
         "map",
         &html! {
-            (ground(review, &map, bridge))
-            (structure(review, &map, Some(&prefix)))
+            (ground(&review.scenario, &review.site, &map, bridge))
+            (structure(&review.site, &map, Some(&prefix)))
             (job(review, &map, Some(&bridge.name), &near))
         },
     )
@@ -144,7 +145,12 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
 pub fn from_south(review: &Review) -> Markup {
     let map = Map::around(View::from_south(), &everything(review));
     let all = |_: &Frame| true;
-    sheet(map.size, "Flight from the south", "map", &html! { (structure(review, &map, None)) (job(review, &map, None, &all)) })
+    sheet(
+        map.size,
+        "Flight from the south",
+        "map",
+        &html! { (structure(&review.site, &map, None)) (job(review, &map, None, &all)) },
+    )
 }
 
 /// One bridge with its defects only: what was found and what was missed.
@@ -161,7 +167,7 @@ pub fn findings(review: &Review, bridge: &Bridge, view: View, title: &str) -> Ma
         title,
         "map",
         &html! {
-            (structure(review, &map, Some(&prefix)))
+            (structure(&review.site, &map, Some(&prefix)))
             @for fate in mine {
                 @let (x, y) = map.at(fate.defect.position_m);
                 g transform={ "translate(" (unit(x)) " " (unit(y)) ")" } {
@@ -175,17 +181,23 @@ pub fn findings(review: &Review, bridge: &Bridge, view: View, title: &str) -> Ma
 }
 
 fn everything(review: &Review) -> Vec<Vec3<Enu>> {
+    let mut all = extent(&review.scenario, &review.site);
     let water_m = review.scenario.terrain.water_level_m;
-    let members = review.site.members().iter().flat_map(|member| member.solid.vertices_m.iter().copied());
-    let paths = review.scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied());
-    let flight = review.frames.iter().map(|frame| frame.position_m);
-    let all = members.chain(paths).chain(flight).chain([review.scenario.ground_team.pad_m]);
-    all.filter(|point| point.up() > water_m - 6.0).collect()
+    all.extend(review.frames.iter().map(|frame| frame.position_m).filter(|point| point.up() > water_m - 6.0));
+    all
 }
 
-fn structure(review: &Review, map: &Map, prefix: Option<&str>) -> Markup {
+/// Everything that a job consists of, above its foundations.
+pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
+    let water_m = scenario.terrain.water_level_m;
+    let members = site.members().iter().flat_map(|member| member.solid.vertices_m.iter().copied());
+    let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied());
+    members.chain(paths).chain([scenario.ground_team.pad_m]).filter(|point| point.up() > water_m - 6.0).collect()
+}
+
+pub(super) fn structure(site: &Site, map: &Map, prefix: Option<&str>) -> Markup {
     let of = |name: &str| prefix.is_none_or(|prefix| name.starts_with(prefix));
-    let members = review.site.members().iter().filter(|member| of(&member.name));
+    let members = site.members().iter().filter(|member| of(&member.name));
     let shapes = outlines(members, &map.view, LEAST / map.scale);
     html! {
         g.structure {
@@ -198,16 +210,8 @@ fn structure(review: &Review, map: &Map, prefix: Option<&str>) -> Markup {
 
 /// Reference paths (of one bridge or of all), track, marks, the drone and a scale.
 fn job(review: &Review, map: &Map, bridge: Option<&str>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
-    let of = |task: &&crate::scenario::Task| {
-        let own = task.bridge.and_then(|k| review.scenario.bridges.get(k)).map(|own| own.name.as_str());
-        bridge.is_none() || own.is_none() || own == bridge
-    };
-    let reference = |task: &crate::scenario::Task| {
-        let points: Vec<(f64, f64)> = task.path_m.iter().map(|point| map.at(*point)).collect();
-        line(&simplified(&points, TRACK_WITHIN), task.closed)
-    };
     html! {
-        g.reference { @for task in review.scenario.tasks.iter().filter(of) { path d=(reference(task)) { title { "reference path of task " (task.id) } } } }
+        (references(&review.scenario, map, bridge))
         @for (layer, (_, class)) in COLOURINGS.iter().enumerate() {
             g class={ "flown " (class) } {
                 @for (colour, data) in track(review, map, layer, shown) { path class=(colour) d=(data) {} }
@@ -219,13 +223,28 @@ fn job(review: &Review, map: &Map, bridge: Option<&str>, shown: &dyn Fn(&Frame) 
     }
 }
 
+/// Reference paths of one bridge, or of all.
+pub(super) fn references(scenario: &Scenario, map: &Map, bridge: Option<&str>) -> Markup {
+    let of = |task: &&Task| {
+        let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());
+        bridge.is_none() || own.is_none() || own == bridge
+    };
+    let reference = |task: &Task| {
+        let points: Vec<(f64, f64)> = task.path_m.iter().map(|point| map.at(*point)).collect();
+        line(&simplified(&points, TRACK_WITHIN), task.closed)
+    };
+    html! {
+        g.reference { @for task in scenario.tasks.iter().filter(of) { path d=(reference(task)) { title { "reference path of task " (task.id) } } } }
+    }
+}
+
 fn marks(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     let place = |point: Vec3<Enu>| {
         let (x, y) = map.at(point);
         format!("translate({} {})", unit(x), unit(y))
     };
     html! {
-        g.pad transform=(place(review.scenario.ground_team.pad_m)) { path d="M-6 -6H6V6H-6Z" {} title { "pad" } }
+        (pad(&review.scenario, map))
         @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
             g.crash transform=(place(review.frames[crash.frame].position_m)) {
                 path d="M-5 -5L5 5M5 -5L-5 5" {}
@@ -247,7 +266,13 @@ fn marks(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     }
 }
 
-fn north(map: &Map) -> Markup {
+/// Where flights begin and end.
+pub(super) fn pad(scenario: &Scenario, map: &Map) -> Markup {
+    let (x, y) = map.at(scenario.ground_team.pad_m);
+    html! { g.pad transform={ "translate(" (unit(x)) " " (unit(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { "pad" } } }
+}
+
+pub(super) fn north(map: &Map) -> Markup {
     html! {
         g.north transform={ "translate(" (unit(map.size.0 - 24.0)) " 34)" } {
             path d="M0 -18L7 6L0 1L-7 6Z" {}
@@ -256,7 +281,7 @@ fn north(map: &Map) -> Markup {
     }
 }
 
-fn scale(map: &Map) -> Markup {
+pub(super) fn scale(map: &Map) -> Markup {
     let length_m = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0].into_iter().rfind(|m| m * map.scale <= 160.0).unwrap_or(1.0);
     let y = map.size.1 - 14.0;
     html! {

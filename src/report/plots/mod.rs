@@ -3,7 +3,12 @@
 
 mod backdrop;
 pub mod bars;
+pub mod boxes;
 pub mod colours;
+pub mod histogram;
+pub mod job;
+pub mod likert;
+pub mod lines;
 pub mod map;
 pub mod radar;
 pub mod strips;

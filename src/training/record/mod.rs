@@ -161,6 +161,25 @@ pub struct DefectRecord {
     pub lacked: Vec<String>,
 }
 
+/// One line of a list of sessions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Listed {
+    /// Session.
+    pub id: String,
+    /// Pseudonym.
+    pub trainee: String,
+    /// µs since the Unix epoch.
+    pub started_unix_us: u64,
+    /// Job.
+    pub scenario: String,
+    /// Sum of the scores.
+    pub overall: f64,
+    /// What it is out of.
+    pub overall_max: f64,
+    /// Why it ended.
+    pub end_reason: String,
+}
+
 /// What a record is made from.
 #[derive(Debug, Clone, Copy)]
 pub struct Source<'a> {

@@ -1,0 +1,131 @@
+//! The pages of a database with 10,000 sessions, made from the example study under new names, as `spandrel serve` answers them over its
+//! socket: list, last page of the list, one session, one trainee, and the cohort.
+
+use spandrel::training::record::Record;
+use sqlx::{Connection, Row, SqliteConnection};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
+const SESSIONS: usize = 10_000;
+const ROUNDS: usize = 31;
+/// The issue's ceilings: a page at the median, and a cohort report.
+const PAGE: Duration = Duration::from_millis(100);
+const COHORT: Duration = Duration::from_secs(2);
+
+struct Server {
+    process: Child,
+    address: String,
+}
+
+impl Server {
+    fn start(sessions: &Path) -> Self {
+        let mut process = Command::new(env!("CARGO_BIN_EXE_spandrel"))
+            .args(["serve", "--listen", "127.0.0.1:0", "--vehicle", "none", "--announce", "--leash", "--sessions"])
+            .arg(sessions)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let mut line = String::new();
+        BufReader::new(process.stdout.take().expect("a pipe")).read_line(&mut line).expect("it announces itself");
+        let announced: serde_json::Value = serde_json::from_str(&line).expect("as JSON");
+        let address = announced["address"].as_str().unwrap_or_default().trim_start_matches("http://").to_owned();
+        Self { process, address }
+    }
+
+    fn get(&self, path: &str) -> usize {
+        let mut socket = TcpStream::connect(&self.address).expect("it listens");
+        write!(socket, "GET {path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", self.address).expect("it hears");
+        let mut answer = Vec::new();
+        socket.read_to_end(&mut answer).expect("it answers");
+        assert!(answer.starts_with(b"HTTP/1.1 200"), "{path}: {}", String::from_utf8_lossy(&answer[..answer.len().min(300)]));
+        answer.len()
+    }
+
+    #[expect(clippy::disallowed_methods, reason = "a bench measures time")]
+    fn median(&self, path: &str, rounds: usize) -> (Duration, usize) {
+        let mut size = 0;
+        let mut times: Vec<Duration> = (0..rounds)
+            .map(|_| {
+                let start = Instant::now();
+                size = self.get(path);
+                start.elapsed()
+            })
+            .collect();
+        times.sort();
+        (times[times.len() / 2], size)
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        drop(self.process.stdin.take());
+        let _ = self.process.wait();
+    }
+}
+
+/// Copies of the study's records; the tables are there already.
+async fn fill(file: &Path) -> Result<String, sqlx::Error> {
+    let originals: Vec<Record> = RECORDS.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    let mut database = SqliteConnection::connect(&format!("sqlite://{}", file.display())).await?;
+    let columns = "id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, telemetry_sha256, spandrel_version, \
+        scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, overall_max, fingerprint, record";
+    let places = vec!["?"; 20].join(", ");
+    let insert = format!("INSERT INTO sessions ({columns}) VALUES ({places})");
+    let mut change = database.begin().await?;
+    let mut last = String::new();
+    for k in 0..SESSIONS {
+        let mut r = originals[k % originals.len()].clone();
+        r.trainee = format!("{}-{}", r.trainee, k / originals.len());
+        r.id = format!("{}-{k}", r.id);
+        let add = "INSERT OR IGNORE INTO trainees (pseudonym, role) VALUES (?, 'trainee')";
+        sqlx::query(add).bind(&r.trainee).execute(&mut *change).await?;
+        let text = serde_json::to_string(&r).unwrap_or_default();
+        let query = sqlx::query(&insert).bind(&r.id).bind(&r.trainee).bind(r.started_unix_us.cast_signed()).bind(&r.scenario);
+        let query = query.bind(&r.scenario_sha256).bind(&r.vehicle).bind(&r.vehicle_sha256).bind(&r.telemetry_sha256);
+        let query = query.bind(&r.spandrel_version).bind(r.scorer_version).bind(&r.end_reason).bind(r.seconds);
+        let s = r.scores;
+        let query =
+            query.bind(s.conformity).bind(s.efficiency).bind(s.safety).bind(s.accuracy).bind(s.overall).bind(s.overall_max);
+        query.bind(&r.fingerprint).bind(text).execute(&mut *change).await?;
+        last = r.id;
+    }
+    change.commit().await?;
+    let counted: i64 = sqlx::query("SELECT COUNT(*) FROM sessions").fetch_one(&mut database).await?.try_get(0)?;
+    assert_eq!(usize::try_from(counted), Ok(SESSIONS));
+    Ok(last)
+}
+
+fn main() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let server = Server::start(folder.path());
+    let empty = server.median("/sessions", ROUNDS).0;
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
+    let last = runtime.block_on(fill(&folder.path().join("records.sqlite"))).expect("the records go in");
+    let trainee =
+        RECORDS.lines().next().and_then(|line| serde_json::from_str::<Record>(line).ok()).map(|r| r.trainee).unwrap_or_default();
+    let pages = [
+        ("list of sessions", "/sessions".to_owned(), ROUNDS, PAGE),
+        ("its last page", "/sessions?page=1000000".to_owned(), ROUNDS, PAGE),
+        ("one session", format!("/sessions/{last}"), ROUNDS, PAGE),
+        ("one trainee", format!("/trainees/{trainee}-0"), ROUNDS, PAGE),
+        ("cohort of all", "/cohort".to_owned(), 5, COHORT),
+    ];
+    let mut broken = false;
+    for (name, path, rounds, ceiling) in pages {
+        let (took, size) = server.median(&path, rounds);
+        let times = took.as_secs_f64() / empty.as_secs_f64();
+        println!(
+            "{name}: median {:.1} ms, {times:.1} times an empty list, {} kB (ceiling {} ms)",
+            took.as_secs_f64() * 1e3,
+            size / 1000,
+            ceiling.as_millis()
+        );
+        broken |= took > ceiling;
+    }
+    assert!(!broken, "a ceiling is broken");
+}

@@ -1,0 +1,296 @@
+//! Who is who: cookies, logins, and where a request comes from. The rules are `crate::web`'s; here are clock and randomness.
+
+use super::answer::Refusal;
+use super::passwords;
+use super::state::lock;
+use crate::app::clock;
+use crate::app::errors::AppError;
+use crate::app::records::Database;
+use crate::training::trainee::Role;
+use crate::web::access::Visitor;
+use crate::web::throttle::Throttle;
+use crate::web::visits::{Secret, Visits, same};
+use axum::http::{HeaderMap, header};
+use std::net::IpAddr;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Passwords that are hashed at once: each costs 19 MiB and some 50 ms, so that a flood of logins takes neither memory nor processor.
+const AT_ONCE: usize = 2;
+
+/// The guard.
+#[derive(Debug)]
+pub struct Guard {
+    visits: Mutex<Visits>,
+    throttle: Mutex<Throttle>,
+    hashing: [Mutex<()>; AT_ONCE],
+    next: std::sync::atomic::AtomicUsize,
+    somebody_has_a_password: AtomicBool,
+    secure: bool,
+    behind_proxy: bool,
+}
+
+/// A visitor with his cookie, and the cookie to set when it is new.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Recognised {
+    /// Who.
+    pub visitor: Visitor,
+    /// His cookie.
+    pub cookie: String,
+    /// To be set.
+    pub fresh: bool,
+}
+
+impl Guard {
+    /// A guard; `secure` says that all requests come over TLS.
+    pub fn new(somebody_has_a_password: bool, secure: bool, behind_proxy: bool) -> Self {
+        Self {
+            visits: Mutex::default(),
+            throttle: Mutex::default(),
+            hashing: [Mutex::new(()), Mutex::new(())],
+            next: std::sync::atomic::AtomicUsize::new(0),
+            somebody_has_a_password: AtomicBool::new(somebody_has_a_password),
+            secure,
+            behind_proxy,
+        }
+    }
+
+    /// Requests come over TLS.
+    pub fn is_secure(&self) -> bool {
+        self.secure
+    }
+
+    /// From now on everybody has to log in.
+    pub fn close(&self) {
+        self.somebody_has_a_password.store(true, Ordering::SeqCst);
+    }
+
+    /// Nobody has a password: whoever reaches the server does everything.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn is_open(&self, database: &Database) -> Result<bool, AppError> {
+        if self.somebody_has_a_password.load(Ordering::SeqCst) {
+            return Ok(false);
+        }
+        // The command line may have set the first one meanwhile. Once closed the server stays so until it is started again.
+        if !database.with_password()?.is_empty() {
+            self.close();
+            return Ok(false);
+        }
+        Ok(true)
+    }
+
+    /// Who sends this cookie. Without a living one a stranger's visit begins.
+    ///
+    /// # Errors
+    /// When the database refuses or the system has no randomness.
+    pub fn recognise(&self, database: &Database, cookie: Option<String>) -> Result<Recognised, Refusal> {
+        let open = self.is_open(database)?;
+        let now_us = clock::unix_us();
+        let found = cookie.and_then(|cookie| lock(&self.visits).find(&cookie, now_us).map(|visit| (cookie, visit, false)));
+        let (cookie, visit, fresh) = match found {
+            Some(found) => found,
+            None => {
+                let (cookie, visit) = lock(&self.visits).begin(None, secrets()?, now_us);
+                (cookie, visit, true)
+            }
+        };
+        // The role is asked for again with every request: who was degraded or erased is so at once.
+        let account = visit.name.as_deref().map(|name| database.account(name)).transpose()?.flatten();
+        let known = account.filter(|account| account.hash.is_some()).map(|account| account.person);
+        let role = if open { Role::Administrator } else { known.as_ref().map_or(Role::Trainee, |person| person.role) };
+        let visitor = Visitor { name: known.map(|person| person.pseudonym), role, open, token: visit.token };
+        Ok(Recognised { visitor, cookie, fresh })
+    }
+
+    /// Logs in: checks name and password, ends the visit before, begins a new one. Returns the new cookie.
+    ///
+    /// # Errors
+    /// When it has to wait, or name and password do not fit; which of the two is not told.
+    pub fn log_in(
+        &self,
+        database: &Database,
+        asked: (&str, &str),
+        before: Option<&str>,
+        from: IpAddr,
+    ) -> Result<String, Refusal> {
+        let (name, password) = asked;
+        self.check(database, name, password, from)?;
+        let mut visits = lock(&self.visits);
+        before.iter().for_each(|cookie| visits.end(cookie));
+        let (cookie, _) = visits.begin(Some(name), secrets()?, clock::unix_us());
+        Ok(cookie)
+    }
+
+    /// Checks a password, within the limits on failures.
+    ///
+    /// # Errors
+    /// As [`Self::log_in`].
+    pub fn check(&self, database: &Database, name: &str, password: &str, from: IpAddr) -> Result<(), Refusal> {
+        let now_us = clock::unix_us();
+        if let Some(wait_us) = lock(&self.throttle).wait_us(from, name, now_us) {
+            return Err(Refusal::Later(wait_us.div_ceil(1_000_000)));
+        }
+        // Counted before the slow part, so that a flood at once is a flood, too.
+        lock(&self.throttle).failed(from, name, now_us);
+        let hash = database.account(name)?.and_then(|account| account.hash);
+        let turn = self.next.fetch_add(1, Ordering::Relaxed) % AT_ONCE;
+        let fits = {
+            let _one_at_a_time = lock(&self.hashing[turn]);
+            passwords::fits(password, hash.as_deref())
+        };
+        if !fits {
+            tracing::info!("a login from {from} failed");
+            return Err(Refusal::Forbidden("Name and password do not fit.".into()));
+        }
+        lock(&self.throttle).went_well(from, name);
+        Ok(())
+    }
+
+    /// Ends a visit.
+    pub fn log_out(&self, cookie: Option<&str>) {
+        cookie.iter().for_each(|cookie| lock(&self.visits).end(cookie));
+    }
+
+    /// Ends all visits of a person but that of one cookie.
+    pub fn put_out(&self, name: &str, but: Option<&str>) {
+        lock(&self.visits).end_all_of(name, but);
+    }
+
+    /// The token of a form is the visitor's.
+    ///
+    /// # Errors
+    /// When it is not: another site's form, or one from before a login.
+    pub fn check_token(visitor: &Visitor, given: Option<&str>) -> Result<(), Refusal> {
+        if given.is_some_and(|given| same(given, &visitor.token)) {
+            return Ok(());
+        }
+        Err(Refusal::Forbidden("This form is not of this visit. Please open its page again and send it once more.".into()))
+    }
+
+    /// A request that changes something comes from a page of ours, as far as the browser tells; and one to a server without passwords is
+    /// addressed to this machine by a name that no other site can take over (DNS rebinding).
+    ///
+    /// # Errors
+    /// When it does not.
+    pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), Refusal> {
+        let text = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
+        let host = text("host").unwrap_or_default();
+        if open && !is_this_machine(host) {
+            return Err(Refusal::Forbidden("Without a password the server answers to localhost and 127.0.0.1 alone.".into()));
+        }
+        if !changes {
+            return Ok(());
+        }
+        let site = text("sec-fetch-site").is_none_or(|site| site == "same-origin" || site == "none");
+        let origin = text("origin").is_none_or(|origin| origin.split_once("://").is_some_and(|(_, from)| from == host));
+        if site && origin {
+            return Ok(());
+        }
+        Err(Refusal::Forbidden("This request comes from another site.".into()))
+    }
+
+    /// Who sends: the socket's address, or what the proxy says.
+    pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> IpAddr {
+        let forwarded = || {
+            // The last address is the one that our own proxy saw; those before it are the sender's to choose.
+            let all = headers.get_all("x-forwarded-for").iter().next_back()?.to_str().ok()?;
+            all.rsplit(',').next()?.trim().parse().ok()
+        };
+        if self.behind_proxy { forwarded().unwrap_or(socket) } else { socket }
+    }
+
+    /// Name of our cookie.
+    fn cookie_name(&self) -> &'static str {
+        if self.secure { "__Host-spandrel" } else { "spandrel" }
+    }
+
+    /// Our cookie's value in a request.
+    pub fn cookie_of(&self, headers: &HeaderMap) -> Option<String> {
+        let all = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
+        let pairs = all.flat_map(cookie::Cookie::split_parse).flatten();
+        pairs.into_iter().find(|cookie| cookie.name() == self.cookie_name()).map(|cookie| cookie.value().to_owned())
+    }
+
+    /// Our cookie, to be set.
+    pub fn cookie(&self, value: &str) -> String {
+        let built = cookie::Cookie::build((self.cookie_name(), value)).path("/").http_only(true).secure(self.secure);
+        built.same_site(cookie::SameSite::Strict).build().to_string()
+    }
+}
+
+fn secrets() -> Result<[Secret; 2], Refusal> {
+    let mut secrets = [[0; 32]; 2];
+    for secret in &mut secrets {
+        getrandom::fill(secret).map_err(|error| Refusal::Failed(format!("the system has no randomness: {error}")))?;
+    }
+    Ok(secrets)
+}
+
+/// A Host header that names this machine: no DNS can answer for it.
+fn is_this_machine(host: &str) -> bool {
+    let name = match host.strip_prefix('[') {
+        Some(rest) => rest.split(']').next().unwrap_or_default(),
+        None => host.split(':').next().unwrap_or_default(),
+    };
+    name.eq_ignore_ascii_case("localhost") || name.parse::<IpAddr>().is_ok_and(|address| address.is_loopback())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn headers(pairs: &[(&'static str, &str)]) -> HeaderMap {
+        pairs.iter().map(|(name, value)| (header::HeaderName::from_static(name), value.parse().unwrap())).collect()
+    }
+
+    #[test]
+    fn exact_other_sites_and_other_names_are_turned_away() {
+        let guard = Guard::new(false, false, false);
+        let ok = |pairs: &[(&'static str, &str)], changes, open| guard.check_origin(&headers(pairs), changes, open).is_ok();
+        assert!(ok(&[("host", "127.0.0.1:8080")], true, true));
+        assert!(ok(
+            &[("host", "localhost:8080"), ("origin", "http://localhost:8080"), ("sec-fetch-site", "same-origin")],
+            true,
+            true
+        ));
+        assert!(ok(&[("host", "[::1]:8080")], false, true));
+        for bad in [
+            &[("host", "evil.example:8080")][..],
+            &[("host", "localhost.evil.example")],
+            &[],
+            &[("host", "localhost:8080"), ("origin", "http://evil.example")],
+            &[("host", "localhost:8080"), ("origin", "null")],
+            &[("host", "localhost:8080"), ("sec-fetch-site", "cross-site")],
+            &[("host", "localhost:8080"), ("sec-fetch-site", "same-site")],
+        ] {
+            assert!(!ok(bad, true, true), "{bad:?}");
+        }
+        assert!(ok(&[("host", "trainer.example"), ("origin", "https://trainer.example")], true, false));
+        assert!(
+            ok(&[("host", "trainer.example"), ("sec-fetch-site", "cross-site")], false, false),
+            "a link from elsewhere may be followed"
+        );
+    }
+
+    #[test]
+    fn exact_only_behind_a_proxy_its_word_is_taken() {
+        let socket: IpAddr = [127, 0, 0, 1].into();
+        let forwarded = headers(&[("x-forwarded-for", "1.1.1.1, 10.0.0.7")]);
+        assert_eq!(Guard::new(true, false, false).address(socket, &forwarded), socket);
+        assert_eq!(Guard::new(true, true, true).address(socket, &forwarded), IpAddr::from([10, 0, 0, 7]));
+        assert_eq!(Guard::new(true, true, true).address(socket, &headers(&[])), socket);
+    }
+
+    #[test]
+    fn exact_cookies_are_out_of_scripts_reach_and_strict() {
+        let plain = Guard::new(true, false, false).cookie("v");
+        assert_eq!(plain, "spandrel=v; HttpOnly; SameSite=Strict; Path=/");
+        let guard = Guard::new(true, true, false);
+        let cookie = guard.cookie("v");
+        assert!(cookie.starts_with("__Host-spandrel=v;") && cookie.contains("Secure"), "{cookie}");
+        assert_eq!(guard.cookie_of(&headers(&[("cookie", "a=b; __Host-spandrel=xyz; spandrel=no")])), Some("xyz".into()));
+        assert_eq!(guard.cookie_of(&headers(&[])), None);
+    }
+}

@@ -1,0 +1,119 @@
+//! Trainees and groups of them.
+
+use super::answer::{Answer, Answered, Refusal};
+use super::asked::Asked;
+use super::state::State;
+use crate::app::args::TraineeId;
+use crate::app::records::{forget, kept};
+use crate::app::{clock, plan};
+use crate::monitor::export::json_text;
+use crate::report::{assets, page::cohort as report};
+use crate::training::cohort::{Cohort, Selection, cohort};
+use crate::training::plan::plan as planned;
+use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
+use crate::web::{group, people as pages};
+use std::collections::BTreeSet;
+
+/// Sessions on a trainee's page.
+const SESSIONS: u32 = 200;
+/// Repetitions compared unless asked otherwise.
+const REPETITIONS: usize = 3;
+
+/// Everybody.
+pub fn list(state: &State, asked: &Asked) -> Answered {
+    Ok(Answer::page(pages::list(&asked.visitor, &state.database.trainees()?)))
+}
+
+/// The person of the path, if the visitor may see him.
+fn person(state: &State, asked: &Asked) -> Result<Trainee, Refusal> {
+    let name = asked.part("name");
+    asked.must_see(name)?;
+    state.database.account(name)?.map(|account| account.person).ok_or(Refusal::NotFound)
+}
+
+/// One trainee.
+pub fn one(state: &State, asked: &Asked) -> Answered {
+    let person = person(state, asked)?;
+    let records = state.database.records(Some(&person.pseudonym))?;
+    let listed = state.database.list(Some(&person.pseudonym), SESSIONS, 0)?;
+    let plan = planned(&records, &plan::rules(None)?, clock::unix_us());
+    let about = pages::About { person: &person, records: &records, listed: &listed, plan: plan.as_ref() };
+    Ok(Answer::page(pages::one(&asked.visitor, &about)))
+}
+
+/// Everything that is kept of one.
+pub fn export(state: &State, asked: &Asked) -> Answered {
+    let person = person(state, asked)?;
+    let kept = kept(&state.database, &state.place, &person.pseudonym)?.ok_or(Refusal::NotFound)?;
+    let name = format!("{}.json", person.pseudonym.parse::<TraineeId>().as_ref().map_or("trainee", TraineeId::as_str));
+    Ok(Answer::download(&name, "application/json", json_text(&kept).into_bytes()))
+}
+
+/// What one tells of oneself.
+pub fn details(state: &State, asked: &Asked) -> Answered {
+    let mut person = person(state, asked)?;
+    for (field, allowed, place) in [
+        ("age_band", AGE_BANDS, &mut person.age_band),
+        ("drone_experience", EXPERIENCE, &mut person.drone_experience),
+        ("gaming_experience", EXPERIENCE, &mut person.gaming_experience),
+    ] {
+        let given = asked.field(field).unwrap_or_default();
+        if !given.is_empty() && !allowed.contains(&given) {
+            let short: String = given.chars().take(60).collect();
+            return Err(Refusal::Wrong(format!("{field} = {short}: unknown (allowed: {})", allowed.join(", "))));
+        }
+        *place = (!given.is_empty()).then(|| given.to_owned());
+    }
+    state.database.set_trainee(&person)?;
+    Ok(Answer::to(&format!("/trainees/{}", asked.part("name"))))
+}
+
+/// Erases one with everything; the name must be written once more.
+pub fn erase(state: &State, asked: &Asked) -> Answered {
+    let person = person(state, asked)?;
+    let name = &person.pseudonym;
+    if asked.needed("again")? != name {
+        return Err(Refusal::Wrong(format!("the pseudonym that was written is not {name}: nothing is erased")));
+    }
+    forget(&state.database, &state.place, name)?;
+    state.guard.put_out(name, None);
+    tracing::info!("a trainee was erased");
+    Ok(Answer::to("/trainees"))
+}
+
+fn chosen(asked: &Asked) -> Result<Selection, Refusal> {
+    let repetitions = match asked.word("repetitions") {
+        None => REPETITIONS,
+        Some(text) => text
+            .parse()
+            .ok()
+            .filter(|count| (1..=100).contains(count))
+            .ok_or_else(|| Refusal::Wrong("repetitions: no such number (allowed: 1 to 100)".into()))?,
+    };
+    let scenarios = asked.query.iter().filter(|(key, _)| key == "scenario").map(|(_, name)| name.clone()).collect();
+    Ok(Selection { scenarios, repetitions })
+}
+
+/// The group's figures, and the scenarios that were flown at all.
+fn figures(state: &State, selection: &Selection) -> Result<(Option<Cohort>, Vec<String>), Refusal> {
+    let records = state.database.records(None)?;
+    let flown: BTreeSet<String> = records.iter().map(|record| record.scenario.clone()).collect();
+    let cohort = cohort(&records, selection);
+    Ok(((cohort.sessions > 0).then_some(cohort), flown.into_iter().collect()))
+}
+
+/// The group's page.
+pub fn cohort_page(state: &State, asked: &Asked) -> Answered {
+    let selection = chosen(asked)?;
+    let (cohort, flown) = figures(state, &selection)?;
+    let scenarios = cohort.as_ref().map_or(selection.scenarios, |cohort| cohort.scenarios.clone());
+    let chosen = group::Chosen { flown: &flown, scenarios: &scenarios, repetitions: selection.repetitions };
+    Ok(Answer::page(group::group(&asked.visitor, &chosen, cohort.as_ref())))
+}
+
+/// The same as one page that opens offline.
+pub fn cohort_report(state: &State, asked: &Asked) -> Answered {
+    let (cohort, _) = figures(state, &chosen(asked)?)?;
+    let cohort = cohort.ok_or_else(|| Refusal::Wrong("there is no session of these scenarios".into()))?;
+    Ok(Answer::boxed(report::cohort(&cohort).into_bytes(), &assets::page_policy()))
+}

@@ -1,0 +1,59 @@
+//! The questionnaire: every answer is written to `answers.json` as soon as it comes.
+
+use super::answer::{Answer, Answered, Refusal};
+use super::asked::Asked;
+use super::sessions;
+use super::state::{State, lock};
+use crate::app::questionnaire::{stored, task_ids, wording};
+use crate::app::session_folder::{self, Stored};
+use crate::monitor::export::json_text;
+use crate::scenario::Scenario;
+use crate::training::questionnaire::{ANSWERS, Answers, Item};
+use crate::web::form;
+use serde_json::json;
+
+/// The form.
+pub fn page(state: &State, asked: &Asked) -> Answered {
+    shown(state, asked, false)
+}
+
+fn shown(state: &State, asked: &Asked, saved: bool) -> Answered {
+    let id = asked.part("id");
+    let folder = sessions::folder(state, asked, id)?;
+    let scenario = Stored::scenario_of(&folder)?.scenario;
+    let answers = stored(&folder, &scenario)?.unwrap_or_default();
+    let wording = wording(None)?;
+    let tasks = names(&scenario);
+    let about = form::Asked { id, tasks: &tasks, wording: &wording, answers: &answers, saved };
+    Ok(Answer::page(form::page(&asked.visitor, &about)))
+}
+
+fn names(scenario: &Scenario) -> Vec<(u32, String)> {
+    scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect()
+}
+
+/// Saves what a form brings.
+pub fn save(state: &State, asked: &Asked) -> Answered {
+    let id = asked.part("id");
+    let folder = sessions::folder(state, asked, id)?;
+    let scenario = Stored::scenario_of(&folder)?.scenario;
+    let tasks = task_ids(&scenario);
+    let answers = {
+        let _others_wait = lock(&state.answers);
+        let mut answers = stored(&folder, &scenario)?.unwrap_or_default();
+        form::take(&mut answers, &asked.form, &tasks).map_err(|wrong| Refusal::Wrong(wrong.to_string()))?;
+        answers.language = wording(None)?.language;
+        session_folder::replace(&folder.join(ANSWERS), json_text(&answers).as_bytes())?;
+        answers
+    };
+    state.taking_in.again(folder);
+    if asked.by_script {
+        let all = Item::all(&tasks).len();
+        return Ok(Answer::json(&json!({ "answered": answered(&answers, &tasks, all), "all": all })));
+    }
+    shown(state, asked, true)
+}
+
+fn answered(answers: &Answers, tasks: &[u32], all: usize) -> usize {
+    all - answers.open(tasks).len()
+}

@@ -1,0 +1,147 @@
+//! Logins, accounts, retention.
+
+use super::answer::{Answer, Answered, Refusal};
+use super::asked::Asked;
+use super::passwords;
+use super::state::State;
+use crate::app::args::TraineeId;
+use crate::app::clock;
+use crate::app::records::{folders_where, remove};
+use crate::training::trainee::{Role, Trainee};
+use crate::web::{login, settings as pages};
+
+/// µs in a day.
+const DAY_US: u64 = 86_400_000_000;
+
+/// The login.
+pub fn login_page(_: &State, asked: &Asked) -> Answered {
+    if asked.visitor.is_known() {
+        return Ok(Answer::to("/sessions"));
+    }
+    Ok(Answer::page(login::login(&asked.visitor, "", None)))
+}
+
+/// Logs in.
+pub fn log_in(state: &State, asked: &Asked) -> Answered {
+    let name = asked.field("name").unwrap_or_default().trim();
+    let password = asked.field("password").unwrap_or_default();
+    match state.guard.log_in(&state.database, (name, password), asked.cookie.as_deref(), asked.from) {
+        Ok(cookie) => {
+            let mut answer = Answer::to("/sessions");
+            answer.cookie = Some(state.guard.cookie(&cookie));
+            Ok(answer)
+        }
+        Err(refusal @ (Refusal::Forbidden(_) | Refusal::Later(_))) => {
+            let (status, _, words) = refusal.told();
+            let wait = if let Refusal::Later(seconds) = refusal { Some(seconds) } else { None };
+            Ok(Answer::page(login::login(&asked.visitor, name, Some(&words))).with_status(status).retry_after(wait))
+        }
+        Err(other) => Err(other),
+    }
+}
+
+/// Logs out.
+pub fn log_out(state: &State, asked: &Asked) -> Answered {
+    state.guard.log_out(asked.cookie.as_deref());
+    Ok(Answer::to("/login"))
+}
+
+/// One's own account.
+pub fn account_page(_: &State, asked: &Asked) -> Answered {
+    if asked.visitor.name.is_none() {
+        return Ok(Answer::to("/settings"));
+    }
+    Ok(Answer::page(login::account(&asked.visitor, None)))
+}
+
+/// Changes one's own password; all other visits of that person end.
+pub fn change_password(state: &State, asked: &Asked) -> Answered {
+    let name = asked.visitor.name.as_deref().ok_or(Refusal::NotFound)?;
+    let told = match change(state, asked, name) {
+        Ok(()) => ("good", "The password is changed. Wherever else you were logged in, you are so no more.".to_owned()),
+        Err(refusal @ (Refusal::Forbidden(_) | Refusal::Wrong(_) | Refusal::Later(_))) => ("bad", refusal.told().2),
+        Err(other) => return Err(other),
+    };
+    Ok(Answer::page(login::account(&asked.visitor, Some((told.0, &told.1)))))
+}
+
+fn change(state: &State, asked: &Asked, name: &str) -> Result<(), Refusal> {
+    state.guard.check(&state.database, name, asked.needed("present")?, asked.from)?;
+    let new = asked.needed("new")?;
+    login::check(new, name).map_err(Refusal::Wrong)?;
+    let person = state.database.account(name)?.ok_or(Refusal::NotFound)?.person;
+    state.database.set_account(&person, &passwords::hash(new)?)?;
+    state.guard.put_out(name, asked.cookie.as_deref());
+    Ok(())
+}
+
+/// The administrator's page.
+pub fn page(state: &State, asked: &Asked) -> Answered {
+    shown(state, asked, None)
+}
+
+fn shown(state: &State, asked: &Asked, told: Option<(&str, &str)>) -> Answered {
+    let (people, with_password) = (state.database.trainees()?, state.database.with_password()?);
+    let folders: Vec<String> = state.place.sessions.iter().map(|folder| folder.display().to_string()).collect();
+    let database = state.database.name();
+    let settings = pages::Settings { people: &people, with_password: &with_password, database, folders: &folders, told };
+    Ok(Answer::page(pages::settings(&asked.visitor, &settings)))
+}
+
+/// Sets a person's password and role.
+pub fn set_login(state: &State, asked: &Asked) -> Answered {
+    let name: TraineeId = asked.needed("name")?.parse().map_err(|wrong| Refusal::Wrong(format!("name: {wrong}")))?;
+    let name = name.as_str();
+    let role = asked.needed("role")?;
+    let role = Role::from_word(role)
+        .ok_or_else(|| Refusal::Wrong("role: unknown (allowed: trainee, instructor, administrator)".into()))?;
+    let password = asked.needed("password")?;
+    login::check(password, name).map_err(Refusal::Wrong)?;
+    if asked.visitor.open && role != Role::Administrator {
+        let words =
+            "the first password must be an administrator's: with it everybody has to log in, and nobody else could set more";
+        return Err(Refusal::Wrong(words.into()));
+    }
+    let mut person = state.database.account(name)?.map_or_else(|| Trainee::new(name), |account| account.person);
+    if asked.visitor.name.as_deref() == Some(name) && role != Role::Administrator {
+        return Err(Refusal::Wrong("you would shut yourself out: let another administrator change your role".into()));
+    }
+    person.role = role;
+    state.database.set_account(&person, &passwords::hash(password)?)?;
+    state.guard.put_out(name, asked.cookie.as_deref());
+    if asked.visitor.open {
+        state.guard.close();
+        return Ok(Answer::to("/login"));
+    }
+    shown(state, asked, Some(("good", &format!("{name} may log in as {}.", role.word()))))
+}
+
+/// Takes a login away.
+pub fn drop_login(state: &State, asked: &Asked) -> Answered {
+    let name = asked.needed("name")?;
+    if asked.visitor.name.as_deref() == Some(name) {
+        return Err(Refusal::Wrong("you would shut yourself out".into()));
+    }
+    let had = state.database.drop_password(name)?;
+    state.guard.put_out(name, None);
+    if had { Ok(Answer::to("/settings")) } else { Err(Refusal::Wrong("this person has no password".into())) }
+}
+
+/// Erases what is older than so many days.
+pub fn retention(state: &State, asked: &Asked) -> Answered {
+    let days: u64 = asked
+        .needed("days")?
+        .parse()
+        .ok()
+        .filter(|days| (1..=36_525).contains(days))
+        .ok_or_else(|| Refusal::Wrong("days: no such number (allowed: 1 to 36525)".into()))?;
+    if asked.needed("sure")? != "yes" {
+        return Err(Refusal::Wrong("sure: not said (allowed: yes)".into()));
+    }
+    let limit_us = clock::unix_us().saturating_sub(days * DAY_US);
+    let folders = folders_where(&state.place.sessions, |_, started_unix_us| started_unix_us < limit_us)?;
+    remove(&folders)?;
+    let ids: Vec<String> = state.database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
+    let deleted = state.database.delete_sessions(&ids)?;
+    shown(state, asked, Some(("good", &format!("{deleted} sessions and {} folders are erased.", folders.len()))))
+}

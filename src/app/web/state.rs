@@ -1,0 +1,96 @@
+//! What all requests share.
+
+use super::guard::Guard;
+use super::live::Live;
+use super::taking_in::TakingIn;
+use crate::app::errors::AppError;
+use crate::app::records::{Database, Place};
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What a server is made from.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// Records and sessions.
+    pub place: Place,
+    /// Folder of uploaded scenarios; `None` for the usual one.
+    pub scenarios: Option<PathBuf>,
+    /// Vehicle that is watched.
+    pub vehicle: Option<SocketAddr>,
+}
+
+/// What all requests share.
+#[derive(Debug)]
+pub struct State {
+    /// Records.
+    pub database: Database,
+    /// Where they and the sessions are.
+    pub place: Place,
+    /// Folder of uploaded scenarios.
+    pub scenarios: PathBuf,
+    /// Who is who.
+    pub guard: Guard,
+    /// The flight that is watched.
+    pub live: Live,
+    /// Takes new sessions in.
+    pub taking_in: TakingIn,
+    /// Held while a file of answers is read, changed and written.
+    pub answers: Mutex<()>,
+    /// Held while a recording is scored: one at a time costs enough.
+    pub scoring: Mutex<()>,
+}
+
+impl State {
+    /// Opens everything.
+    ///
+    /// # Errors
+    /// When the database or the link to the vehicle cannot be opened.
+    pub fn open(setup: Setup, secure: bool, behind_proxy: bool) -> Result<Self, AppError> {
+        let Setup { place, scenarios, vehicle } = setup;
+        let first = place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
+        std::fs::create_dir_all(&first)
+            .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", first.display())))?;
+        super::uploads::clear(&first)?;
+        let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
+        let database = place.open()?;
+        let guard = Guard::new(!database.with_password()?.is_empty(), secure, behind_proxy);
+        let live = Live::start(vehicle, &place.sessions, &scenarios)?;
+        let taking_in = TakingIn::start(&place)?;
+        Ok(Self { database, place, scenarios, guard, live, taking_in, answers: Mutex::new(()), scoring: Mutex::new(()) })
+    }
+
+    /// The folder of a session; `None` when it is not on this machine, or the id is no plain name.
+    pub fn folder(&self, id: &str) -> Option<PathBuf> {
+        if !is_plain(id) {
+            return None;
+        }
+        self.place.sessions.iter().map(|folder| folder.join(id)).find(|path| crate::app::session_folder::is_session(path))
+    }
+}
+
+/// A name that stays in its folder, whatever the system takes for a separator.
+pub fn is_plain(name: &str) -> bool {
+    let fits = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    !name.is_empty() && name.len() <= 200 && !name.starts_with('.') && name.chars().all(fits)
+}
+
+/// A lock whose holder broke off is as good as new: what it guards is whole between two statements.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_names_that_leave_their_folder_are_none() {
+        for good in ["20260801T101010Z-anna-two-bridges-1a2b3c", "session-anna-001", "x.y"] {
+            assert!(is_plain(good), "{good}");
+        }
+        for bad in ["", ".", "..", "../x", "a/b", "a\\b", "/etc", "a\0b", ".hidden", "é", &"x".repeat(201)] {
+            assert!(!is_plain(bad), "{bad}");
+        }
+    }
+}

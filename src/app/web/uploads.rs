@@ -1,0 +1,117 @@
+//! A recorded flight becomes a session: scored first, kept only when it can be.
+
+use super::answer::{Answer, Answered, Refusal};
+use super::asked::Asked;
+use super::scenarios;
+use super::state::{State, lock};
+use crate::app::args::TraineeId;
+use crate::app::errors::AppError;
+use crate::app::session_folder::SessionFolder;
+use crate::app::{assess, clock, files, report};
+use crate::monitor::export::json_text;
+use crate::monitor::watch::build_site;
+use crate::monitor::{Monitor, MonitorConfig, Record};
+use crate::telemetry::tlog;
+use crate::web::job as pages;
+use axum::http::StatusCode;
+use std::path::{Path, PathBuf};
+
+/// Where a session lies while it is taken in; its name is no session's.
+const ASIDE: &str = ".taking-in";
+
+/// The form.
+pub fn page(state: &State, asked: &Asked) -> Answered {
+    shown(state, asked, None)
+}
+
+fn shown(state: &State, asked: &Asked, wrong: Option<&str>) -> Answered {
+    let named: Vec<_> = scenarios::all(&state.scenarios).into_iter().map(|job| job.named).collect();
+    let vehicles: Vec<String> = files::vehicle_names().into_iter().map(str::to_owned).collect();
+    Ok(Answer::page(pages::recorded(&asked.visitor, &named, &vehicles, wrong)))
+}
+
+/// Takes a recording in.
+pub fn recording(state: &State, asked: &Asked) -> Answered {
+    let taken = {
+        let _one_at_a_time = lock(&state.scoring);
+        take(state, asked)
+    };
+    match taken {
+        Ok(folder) => {
+            let id = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let record = crate::app::records::read_session(&folder, &std::collections::BTreeMap::new())?;
+            state.database.put(&Vec::from_iter(record))?;
+            Ok(Answer::to(&format!("/sessions/{id}")))
+        }
+        Err(Refusal::Wrong(words)) => Ok(shown(state, asked, Some(&words))?.with_status(StatusCode::UNPROCESSABLE_ENTITY)),
+        Err(other) => Err(other),
+    }
+}
+
+fn take(state: &State, asked: &Asked) -> Result<PathBuf, Refusal> {
+    let trainee: TraineeId = asked.needed("trainee")?.parse().map_err(|wrong| Refusal::Wrong(format!("trainee: {wrong}")))?;
+    let scenario = files::scenario(&scenarios::argument(&state.scenarios, asked.needed("scenario")?)?)?;
+    let vehicle = asked.needed("vehicle")?;
+    if !files::vehicle_names().contains(&vehicle) {
+        return Err(Refusal::Wrong("vehicle: there is none of this name".into()));
+    }
+    let vehicle = files::vehicle(vehicle)?;
+    let log = &asked.upload.as_ref().ok_or_else(|| Refusal::Wrong("file: missing".into()))?.bytes;
+    // What cannot be scored is the file's fault, whatever the scorer calls it.
+    let unfit = |error: AppError| Refusal::Wrong(format!("this recording cannot be taken in: {error}"));
+    let graded = assess::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
+    let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
+    let first = state.place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
+    let aside = first.join(ASIDE);
+    let mut folder = SessionFolder::create(&aside, trainee.as_str(), started_unix_us, &scenario, &vehicle)?;
+    let config = MonitorConfig {
+        scenario: scenario.scenario.clone(),
+        vehicle: vehicle.vehicle.clone(),
+        trainee: trainee.as_str().to_owned(),
+        started_unix_us,
+        system_id: 1,
+        seed: None,
+        build: build_site,
+    };
+    // The sidecar hears the recording as it would have heard the flight, so that the folder says the same of it.
+    let mut monitor = Monitor::new(config);
+    for record in tlog::Reader::new(log) {
+        monitor.handle_datagram(record.frame);
+        while let Some(event) = monitor.poll_record() {
+            if matches!(event, Record::Event(_)) {
+                folder.record(event);
+            }
+        }
+        while monitor.poll_transmit().is_some() {}
+    }
+    // The telemetry is kept as it came, to its last whole record.
+    folder.record(Record::Telemetry(log[..tlog::whole_len(log)].to_vec()));
+    folder.flush()?;
+    if let Some(survey) = monitor.survey() {
+        folder.resolve(graded.seed, survey.defects())?;
+    }
+    folder.describe(|scenario, vehicle, utc, starts| monitor.session_info(scenario, vehicle, utc, starts))?;
+    if let Err(error) = report::write(folder.path()) {
+        tracing::warn!("no report was written: {error}");
+    }
+    folder.assessment(&json_text(&graded.assessment))?;
+    // Whole, it takes its place among the others; a kill before leaves nothing there.
+    let place = first.join(folder.path().file_name().unwrap_or_default());
+    let moved = std::fs::rename(folder.path(), &place);
+    moved.map_err(|error| Refusal::Failed(format!("{}: cannot be moved: {error}", place.display())))?;
+    Ok(place)
+}
+
+/// Removes what a killed server was taking in.
+///
+/// # Errors
+/// When the disk refuses.
+pub fn clear(sessions: &Path) -> Result<(), AppError> {
+    let aside = sessions.join(ASIDE);
+    match std::fs::remove_dir_all(&aside) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(AppError::failed(format!("{}: cannot be removed: {error}", aside.display())))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,28 @@
+//! Wall time as people read it. The clock itself is read by the shells alone.
+
+/// UTC for people and file names: (RFC 3339 with seconds, compact `YYYYMMDDThhmmssZ`).
+#[must_use]
+pub fn utc(unix_us: u64) -> (String, String) {
+    let time = i64::try_from(unix_us).ok().and_then(|us| jiff::Timestamp::from_microsecond(us).ok()).unwrap_or_default();
+    (time.strftime("%Y-%m-%dT%H:%M:%SZ").to_string(), time.strftime("%Y%m%dT%H%M%SZ").to_string())
+}
+
+/// The same as a line of a page: `2023-11-14 22:13 UTC`.
+#[must_use]
+pub fn minute(unix_us: u64) -> String {
+    let (readable, _) = utc(unix_us);
+    readable.get(..16).unwrap_or_default().replace('T', " ") + " UTC"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_utc_of_a_known_instant() {
+        let (readable, compact) = utc(1_700_000_000_000_000);
+        assert_eq!(readable, "2023-11-14T22:13:20Z");
+        assert_eq!(compact, "20231114T221320Z");
+        assert_eq!(minute(1_700_000_000_000_000), "2023-11-14 22:13 UTC");
+    }
+}

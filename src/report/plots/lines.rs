@@ -1,0 +1,78 @@
+//! Scores over repetitions: one line per score, a point per session.
+
+use super::{line, sheet, ticks, unit};
+use crate::report::words;
+use maud::{Markup, html};
+
+const SIZE: (f64, f64) = (640.0, 260.0);
+const LEFT: f64 = 40.0;
+const RIGHT: f64 = 610.0;
+const TOP: f64 = 12.0;
+const BOTTOM: f64 = 226.0;
+
+/// One line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// Name.
+    pub name: &'static str,
+    /// Style number, 1 to 4.
+    pub style: u8,
+    /// A value for each session; `None` does not apply.
+    pub values: Vec<Option<f64>>,
+}
+
+/// Where session `k` of `count` (from 0) with a value out of `most` lies.
+#[must_use]
+pub fn place(k: usize, count: usize, value: f64, most: f64) -> (f64, f64) {
+    let share = if count > 1 { k as f64 / (count - 1) as f64 } else { 0.5 };
+    (LEFT + 14.0 + (RIGHT - LEFT - 28.0) * share, BOTTOM - (BOTTOM - TOP) * (value / most).clamp(0.0, 1.0))
+}
+
+/// Lines from 0 to `most`, sessions numbered below.
+#[must_use]
+pub fn lines(lines: &[Line], most: f64, title: &str) -> Markup {
+    let count = lines.iter().map(|line| line.values.len()).max().unwrap_or(0);
+    // Of many sessions only some are numbered.
+    let step = count.div_ceil(12).max(1);
+    sheet(
+        SIZE,
+        title,
+        "lines",
+        &html! {
+            @for tick in ticks(most, 5) {
+                @let (_, y) = place(0, 1, tick, most);
+                path.grid d=(line(&[(LEFT, y), (RIGHT, y)], false)) {}
+                text.tick x=(unit(LEFT - 6.0)) y=(unit(y + 4.0)) text-anchor="end" { (words::number(tick, 0)) }
+            }
+            @for k in (0..count).step_by(step) {
+                @let (x, _) = place(k, count, 0.0, most);
+                text.tick x=(unit(x)) y=(unit(BOTTOM + 18.0)) text-anchor="middle" { (k + 1) }
+            }
+            @for one in lines {
+                @let points = points(one, count, most);
+                path class={ "line line-" (one.style) } d=(line(&points, false)) {}
+                @for (x, y) in &points { circle class={ "dot-" (one.style) } cx=(unit(*x)) cy=(unit(*y)) r="4" {} }
+            }
+        },
+    )
+}
+
+fn points(one: &Line, count: usize, most: f64) -> Vec<(f64, f64)> {
+    one.values.iter().enumerate().filter_map(|(k, value)| value.map(|value| place(k, count, value, most))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_first_is_left_the_best_is_up_and_what_does_not_apply_is_left_out() {
+        assert_eq!(place(0, 3, 0.0, 100.0), (54.0, BOTTOM));
+        assert_eq!(place(2, 3, 100.0, 100.0), (596.0, TOP));
+        assert_eq!(place(0, 1, 50.0, 100.0), (325.0, 119.0));
+        let one = Line { name: "a", style: 1, values: vec![Some(0.0), None, Some(100.0)] };
+        let figure = lines(&[one], 100.0, "<t>").into_string();
+        assert!(figure.contains("d=\"M54 226L596 12\"") && figure.contains("&lt;t&gt;"), "{figure}");
+        assert_eq!(figure.matches("<circle").count(), 2);
+    }
+}

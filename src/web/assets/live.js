@@ -1,0 +1,103 @@
+// Follows a flight: server-sent events move the drone on every drawing and fill the read-outs. Words of others become text, never markup.
+"use strict";
+const root = document.querySelector("[data-live]");
+const state = root.querySelector("[data-state]");
+const job = root.dataset.job;
+const trail = [];
+const TRAIL_MOST = 3000;
+let newest = 0;
+
+const cell = (key) => root.querySelector(`[data-now="${key}"]`);
+const put = (key, value) => {
+  const at = cell(key);
+  if (at && at.textContent !== value) at.textContent = value;
+};
+const number = (value, digits, unit) => (value === null ? "–" : `${value.toFixed(digits)} ${unit}`);
+
+function onSheet(matrix, [e, n, u]) {
+  const m = matrix.split(" ").map(Number);
+  return [m[0] * e + m[1] * n + m[2] * u + m[3], m[4] * e + m[5] * n + m[6] * u + m[7]];
+}
+
+function move(place) {
+  const last = trail.at(-1);
+  const far = !last || Math.hypot(...place.map((x, k) => x - last[k])) > 0.5;
+  if (far) trail.push(place);
+  if (trail.length > TRAIL_MOST) trail.splice(0, trail.length - TRAIL_MOST);
+  for (const drone of root.querySelectorAll(".drone")) {
+    const [x, y] = onSheet(drone.dataset.matrix, place);
+    drone.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+  }
+  if (!far) return;
+  for (const line of root.querySelectorAll(".trail")) {
+    const points = trail.map((point) => onSheet(line.dataset.matrix, point).map((x) => x.toFixed(1)).join(" "));
+    line.setAttribute("d", `M${points.join("L")}`);
+  }
+}
+
+function tell(words) {
+  const list = root.querySelector("[data-said]");
+  if (!list) return;
+  for (const one of words) {
+    if (one.id <= newest) continue;
+    newest = one.id;
+    const item = document.createElement("li");
+    item.className = one.kind;
+    const minutes = Math.floor(one.t_s / 60);
+    const seconds = String(Math.floor(one.t_s % 60)).padStart(2, "0");
+    item.textContent = `${minutes}:${seconds} ${one.words}`;
+    list.prepend(item);
+  }
+  while (list.children.length > 60) list.lastChild.remove();
+}
+
+function cues(names) {
+  const list = root.querySelector("[data-cues]");
+  if (!list || list.dataset.now === names.join()) return;
+  list.dataset.now = names.join();
+  list.replaceChildren(...names.map((name) => {
+    const item = document.createElement("li");
+    item.textContent = name;
+    return item;
+  }));
+}
+
+function show(now) {
+  if (now.job && now.job !== job) {
+    location.reload();
+    return;
+  }
+  state.textContent = now.heard ? (now.armed ? "live, motors armed" : "live, motors off") : "the vehicle is silent";
+  state.classList.toggle("on", now.heard);
+  if (!job) return;
+  if (now.place) {
+    root.classList.add("live");
+    move(now.place);
+  }
+  put("task", now.task ?? "off path");
+  put("time", now.t_s === null ? "–" : `${Math.floor(now.t_s / 60)}:${String(Math.floor(now.t_s % 60)).padStart(2, "0")}`);
+  put("speed", number(now.speed_m_s, 1, "m/s"));
+  put("height", number(now.height_m, 1, "m"));
+  put("clearance", number(now.clearance_m, 1, "m"));
+  put("battery", number(now.battery_pct, 0, "%"));
+  put("contact", now.contact === "none" ? "nothing" : now.contact);
+  cues(now.cues);
+  tell(now.words);
+}
+
+const source = new EventSource("/live/stream");
+source.onmessage = (event) => show(JSON.parse(event.data));
+source.onerror = () => {
+  state.textContent = "not connected";
+  state.classList.remove("on");
+};
+
+for (const form of root.querySelectorAll("form[data-act]")) {
+  form.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const body = new URLSearchParams(new FormData(form, event.submitter));
+    const answer = await fetch(form.action, { method: "POST", body, headers: { Accept: "application/json" } });
+    if (answer.ok) form.querySelector("input[name=text]")?.form.reset();
+    else state.textContent = `not done: the server says ${answer.status}`;
+  });
+}

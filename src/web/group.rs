@@ -1,0 +1,73 @@
+//! The cohort's page: the sections of the offline page, with a form that chooses what counts.
+
+use super::access::Visitor;
+use super::frame::{page, section};
+use crate::report::page::cohort::{in_short, sections};
+use crate::training::cohort::Cohort;
+use maud::{Markup, html};
+
+/// What was asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Chosen<'a> {
+    /// All scenarios that were flown.
+    pub flown: &'a [String],
+    /// Those that count.
+    pub scenarios: &'a [String],
+    /// Repetitions compared.
+    pub repetitions: usize,
+}
+
+/// The page; without sessions it says so.
+#[must_use]
+pub fn group(visitor: &Visitor, chosen: &Chosen<'_>, cohort: Option<&Cohort>) -> Markup {
+    let body = html! {
+        section {
+            form.inline method="get" action="/cohort" {
+                fieldset {
+                    legend { "Scenarios that count as the job" }
+                    @for name in chosen.flown {
+                        label { input type="checkbox" name="scenario" value=(name) checked[chosen.scenarios.contains(name)]; " " (name) }
+                    }
+                }
+                label { "Repetitions " input type="number" name="repetitions" min="1" max="100" value=(chosen.repetitions); }
+                button type="submit" { "Show" }
+                @if cohort.is_some() { a href={ "/cohort/report.html?" (query(chosen)) } { "As a page that opens offline" } }
+            }
+            @match cohort {
+                Some(cohort) => (in_short(cohort)),
+                None => p.calm { "There is no session yet." },
+            }
+        }
+        @if let Some(cohort) = cohort {
+            @for (id, name, body) in sections(cohort) { (section(id, name, &body)) }
+        }
+    };
+    page(visitor, "/cohort", "Cohort", &body)
+}
+
+fn query(chosen: &Chosen<'_>) -> String {
+    let scenarios: String = chosen.scenarios.iter().map(|name| format!("scenario={name}&")).collect();
+    format!("{scenarios}repetitions={}", chosen.repetitions)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::*;
+    use crate::training::cohort::{Selection, cohort};
+    use crate::training::testing::faultless;
+
+    #[test]
+    fn exact_the_page_holds_the_reports_sections_and_escapes() {
+        let mut records = vec![faultless("anna", 1), faultless("ben", 1)];
+        records[0].scenario = EVIL.into();
+        records[1].scenario = EVIL.into();
+        let cohort = cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1 });
+        let names = [EVIL.to_owned()];
+        let chosen = Chosen { flown: &names, scenarios: &names, repetitions: 1 };
+        let text = group(&administrator(), &chosen, Some(&cohort)).into_string();
+        check(&text);
+        assert!(text.contains("2 trainees, 2 sessions") && text.contains("class=\"histogram\""), "{text}");
+        assert!(group(&administrator(), &chosen, None).into_string().contains("no session yet"));
+    }
+}

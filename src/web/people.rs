@@ -1,0 +1,201 @@
+//! Trainees: who there is, and one's progress, plan, details, export and erasure.
+
+use super::access::{Needs, Visitor};
+use super::frame::{page, section, table, token};
+use super::sessions::lines;
+use crate::base::calendar::minute;
+use crate::report::plots::lines::{Line, lines as plot};
+use crate::report::words;
+use crate::training::plan::{Change, Plan};
+use crate::training::record::{Listed, Record};
+use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
+use maud::{Markup, html};
+
+/// Everybody.
+#[must_use]
+pub fn list(visitor: &Visitor, people: &[Trainee]) -> Markup {
+    let rows = html! {
+        @for one in people {
+            tr {
+                th scope="row" { a href={ "/trainees/" (one.pseudonym) } { (one.pseudonym) } }
+                td { (one.role.word()) }
+                td { (one.age_band.as_deref().unwrap_or_default()) }
+                td { (one.drone_experience.as_deref().unwrap_or_default()) }
+                td { (one.gaming_experience.as_deref().unwrap_or_default()) }
+            }
+        }
+    };
+    let heads = [("Pseudonym", false), ("Role", false), ("Age", false), ("Drones", false), ("Games", false)];
+    let body = html! {
+        section {
+            @if people.is_empty() { p.calm { "Nobody yet. Whoever flies appears here." } }
+            @else { (table(&format!("{} people", people.len()), &heads, &rows)) }
+        }
+    };
+    page(visitor, "/trainees", "Trainees", &body)
+}
+
+/// What a trainee's page shows.
+#[derive(Debug, Clone, Copy)]
+pub struct About<'a> {
+    /// Who.
+    pub person: &'a Trainee,
+    /// His sessions in their order.
+    pub records: &'a [Record],
+    /// The same in short, the newest first.
+    pub listed: &'a [Listed],
+    /// What to fly next.
+    pub plan: Option<&'a Plan>,
+}
+
+/// One trainee.
+#[must_use]
+pub fn one(visitor: &Visitor, about: &About<'_>) -> Markup {
+    let name = &about.person.pseudonym;
+    let body = html! {
+        @if let Some(plan) = about.plan { (section("plan", "What to fly next", &next(plan))) }
+        @if !about.records.is_empty() { (section("progress", "Progress", &progress(about.records))) }
+        (section("sessions", "Sessions", &html! {
+            @if about.listed.is_empty() { p.calm { "No session yet." } }
+            @else { (lines(visitor, &format!("{} sessions, the newest first", about.listed.len()), about.listed)) }
+        }))
+        (section("details", "Details", &details(visitor, about.person)))
+        (section("data", "Data", &html! {
+            p { a href={ "/trainees/" (name) "/export.json" } { "Download everything that is kept of " (name) } }
+            @if visitor.meets(Needs::Administrator) { (erase(visitor, name)) }
+        }))
+    };
+    page(visitor, "/trainees", &format!("Trainee {name}"), &body)
+}
+
+fn next(plan: &Plan) -> Markup {
+    let told = |change: &&Change| change.better.is_some();
+    html! {
+        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight is longer ago than skill lasts." } } }
+        ol.steps {
+            @for step in &plan.steps {
+                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
+            }
+        }
+        @if let Some(changes) = &plan.changes {
+            h3 { "What changed" }
+            p.note { "Since " a href={ "/sessions/" (changes.since) } { "the session before on the same job" } "." }
+            ul {
+                @for change in changes.changes.iter().filter(told) {
+                    li { (change.what) ": " (words::number(change.before, 1)) " → " (words::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) }
+                }
+            }
+        }
+    }
+}
+
+fn progress(records: &[Record]) -> Markup {
+    let pick = |name: &'static str, style: u8, value: fn(&Record) -> Option<f64>| Line {
+        name,
+        style,
+        values: records.iter().map(value).collect(),
+    };
+    let scores = [
+        pick("conformity", 1, |record| record.scores.conformity),
+        pick("efficiency", 2, |record| Some(record.scores.efficiency)),
+        pick("safety", 3, |record| Some(record.scores.safety)),
+        pick("accuracy", 4, |record| record.scores.accuracy),
+    ];
+    let maybe = |value: Option<f64>| value.map_or("n/a".to_owned(), |value| words::number(value, 1));
+    let heads = [
+        ("Session", true),
+        ("Scenario", false),
+        ("Conformity", true),
+        ("Efficiency", true),
+        ("Safety", true),
+        ("Accuracy", true),
+        ("Overall", true),
+        ("Crashes", true),
+    ];
+    html! {
+        figure {
+            figcaption { "The four scores, session by session" }
+            ul.legend {
+                @for one in scores.iter().filter(|one| one.values.iter().any(Option::is_some)) { li { svg.swatch viewBox="0 0 14 14" aria-hidden="true" { rect class={ "dot-" (one.style) } x="1" y="1" width="12" height="12" rx="3" {} } (one.name) } }
+            }
+            (plot(&scores, 100.0, "Scores by session"))
+        }
+        details.numbers {
+            summary { "Numbers: progress" }
+            (table("Each session in numbers", &heads, &html! {
+                @for (k, record) in records.iter().enumerate() {
+                    tr {
+                        th.number scope="row" { (k + 1) }
+                        td { (record.scenario) }
+                        td.number { (maybe(record.scores.conformity)) }
+                        td.number { (maybe(Some(record.scores.efficiency))) }
+                        td.number { (maybe(Some(record.scores.safety))) }
+                        td.number { (maybe(record.scores.accuracy)) }
+                        td.number { (words::number(record.scores.overall, 1)) }
+                        td.number { (record.crashes().total()) }
+                    }
+                }
+            }))
+        }
+    }
+}
+
+fn details(visitor: &Visitor, person: &Trainee) -> Markup {
+    let choice = |name: &str, label: &str, given: Option<&str>, all: &[&str]| {
+        html! {
+            label { (label)
+                select name=(name) {
+                    option value="" selected[given.is_none()] { "not said" }
+                    @for one in all { option value=(one) selected[given == Some(one)] { (one) } }
+                }
+            }
+        }
+    };
+    html! {
+        p { "Role: " (person.role.word()) ". What one tells of oneself is free, and kept for the study alone." }
+        form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
+            (token(visitor))
+            (choice("age_band", "Age, years", person.age_band.as_deref(), AGE_BANDS))
+            (choice("drone_experience", "Experience with drones", person.drone_experience.as_deref(), EXPERIENCE))
+            (choice("gaming_experience", "Experience with games", person.gaming_experience.as_deref(), EXPERIENCE))
+            button type="submit" { "Save" }
+        }
+    }
+}
+
+fn erase(visitor: &Visitor, name: &str) -> Markup {
+    html! {
+        details {
+            summary { "Erase" }
+            form.stacked method="post" action={ "/trainees/" (name) "/erase" } {
+                (token(visitor))
+                p { "Erases " (name) " with all sessions, answers and session folders. This cannot be undone." }
+                label { "Write the pseudonym to go on" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
+                button.danger type="submit" { "Erase for ever" }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::*;
+    use crate::training::plan::{RULES, plan, read_rules};
+    use crate::training::testing::faultless;
+    use crate::training::trainee::Role;
+
+    #[test]
+    fn exact_a_trainees_page_escapes_and_offers_erasure_to_administrators_alone() {
+        let records = [faultless(EVIL, 1), faultless(EVIL, 2)];
+        let person = Trainee { age_band: Some(EVIL.into()), ..Trainee::new(EVIL) };
+        let plan = plan(&records, &read_rules("rules.toml", RULES).unwrap(), records[1].started_unix_us);
+        let about = About { person: &person, records: &records, listed: &[], plan: plan.as_ref() };
+        let text = one(&administrator(), &about).into_string();
+        check(&text);
+        assert!(text.contains("Erase for ever") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
+        let instructor = Visitor { role: Role::Instructor, ..administrator() };
+        assert!(!one(&instructor, &about).into_string().contains("Erase for ever"));
+        check(&list(&administrator(), &[person]).into_string());
+    }
+}

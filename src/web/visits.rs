@@ -1,0 +1,155 @@
+//! Visits: what a browser's cookie stands for. Kept in memory by the hash of the cookie's token, so that neither a dump nor a log holds
+//! what would open a session; a restart logs everybody out. Time and randomness are arguments.
+
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+
+/// A visit that is not used ends after this, µs: two hours, so that a flight does not log anybody out.
+const IDLE_US: u64 = 2 * 3_600_000_000;
+/// Every visit ends after this, µs: a working day.
+const LONGEST_US: u64 = 12 * 3_600_000_000;
+/// Strangers' visits that are kept; a robot that drops its cookies must not fill the memory.
+const STRANGERS: usize = 4_096;
+
+/// Random bytes of a token.
+pub type Secret = [u8; 32];
+
+/// One browser.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Visit {
+    /// Who logged in.
+    pub name: Option<String>,
+    /// Goes with every form.
+    pub token: String,
+    began_us: u64,
+    used_us: u64,
+}
+
+/// All browsers.
+#[derive(Debug, Default)]
+pub struct Visits(BTreeMap<[u8; 32], Visit>);
+
+/// A secret as text for a cookie or a form.
+#[must_use]
+pub fn text_of(secret: &Secret) -> String {
+    secret.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn key(cookie: &str) -> [u8; 32] {
+    Sha256::digest(cookie.as_bytes()).into()
+}
+
+impl Visits {
+    /// The visit of a cookie, if it lives; using it keeps it alive.
+    pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<Visit> {
+        let key = key(cookie);
+        let visit = self.0.get_mut(&key)?;
+        let over = now_us.saturating_sub(visit.used_us) > IDLE_US || now_us.saturating_sub(visit.began_us) > LONGEST_US;
+        if over {
+            self.0.remove(&key);
+            return None;
+        }
+        visit.used_us = now_us;
+        Some(visit.clone())
+    }
+
+    /// Begins a visit: a stranger's, or that of somebody who has just logged in. The cookie is new in either case, so that one that was
+    /// planted before the login opens nothing after it. Returns the cookie's text and the visit.
+    pub fn begin(&mut self, name: Option<&str>, [cookie, token]: [Secret; 2], now_us: u64) -> (String, Visit) {
+        if name.is_none() {
+            self.make_room(now_us);
+        }
+        let visit = Visit { name: name.map(str::to_owned), token: text_of(&token), began_us: now_us, used_us: now_us };
+        let cookie = text_of(&cookie);
+        self.0.insert(key(&cookie), visit.clone());
+        (cookie, visit)
+    }
+
+    /// Ends a visit.
+    pub fn end(&mut self, cookie: &str) {
+        self.0.remove(&key(cookie));
+    }
+
+    /// Ends all visits of a person (a new password, an erasure) but that of one cookie.
+    pub fn end_all_of(&mut self, name: &str, but: Option<&str>) {
+        let kept = but.map(key);
+        self.0.retain(|key, visit| visit.name.as_deref() != Some(name) || Some(*key) == kept);
+    }
+
+    /// Forgets what is over, and of too many strangers those who were here longest ago.
+    fn make_room(&mut self, now_us: u64) {
+        if self.0.len() < STRANGERS {
+            return;
+        }
+        self.0.retain(|_, visit| now_us.saturating_sub(visit.used_us) <= IDLE_US);
+        let mut strangers: Vec<(u64, [u8; 32])> =
+            self.0.iter().filter(|(_, visit)| visit.name.is_none()).map(|(key, visit)| (visit.used_us, *key)).collect();
+        if strangers.len() >= STRANGERS {
+            strangers.sort_unstable();
+            // A quarter at once, so that not every further stranger costs a look at all.
+            for (_, key) in strangers.into_iter().take(STRANGERS / 4) {
+                self.0.remove(&key);
+            }
+        }
+    }
+}
+
+/// Equal, in a time that does not tell how many characters are.
+#[must_use]
+pub fn same(a: &str, b: &str) -> bool {
+    a.len() == b.len() && a.bytes().zip(b.bytes()).fold(0, |different, (x, y)| different | (x ^ y)) == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn secrets(k: u32) -> [Secret; 2] {
+        let mut a = [0; 32];
+        a[..4].copy_from_slice(&k.to_le_bytes());
+        [a, [7; 32]]
+    }
+
+    #[test]
+    fn exact_a_visit_lives_while_it_is_used_and_no_longer_than_a_day() {
+        let mut visits = Visits::default();
+        let (cookie, visit) = visits.begin(Some("anna"), secrets(1), 0);
+        assert_eq!(cookie.len(), 64);
+        assert_eq!(visits.find(&cookie, IDLE_US).map(|visit| visit.name), Some(Some("anna".into())));
+        assert_eq!(visits.find(&cookie, 2 * IDLE_US).map(|found| found.token), Some(visit.token));
+        assert_eq!(visits.find(&cookie, 3 * IDLE_US + 1), None);
+        let (cookie, _) = visits.begin(Some("anna"), secrets(2), 0);
+        for k in 1..=6 {
+            assert!(visits.find(&cookie, k * IDLE_US).is_some());
+        }
+        assert_eq!(visits.find(&cookie, LONGEST_US + 1), None);
+        assert_eq!(visits.find("", 0), None);
+    }
+
+    #[test]
+    fn exact_a_new_password_ends_all_other_visits_of_that_person() {
+        let mut visits = Visits::default();
+        let cookies = [("anna", 1), ("anna", 2), ("ben", 3)].map(|(name, k)| visits.begin(Some(name), secrets(k), 0).0);
+        visits.end_all_of("anna", Some(&cookies[0]));
+        assert_eq!(cookies.each_ref().map(|cookie| visits.find(cookie, 1).is_some()), [true, false, true]);
+        visits.end(&cookies[0]);
+        assert_eq!(visits.find(&cookies[0], 1), None);
+    }
+
+    #[test]
+    fn prop_strangers_fill_no_memory_and_put_nobody_out() {
+        let mut visits = Visits::default();
+        let (anna, _) = visits.begin(Some("anna"), secrets(u32::MAX), 0);
+        for k in 0..20_000 {
+            visits.begin(None, secrets(k), u64::from(k));
+        }
+        assert!(visits.0.len() <= STRANGERS + 1, "{}", visits.0.len());
+        assert!(visits.find(&anna, 20_000).is_some());
+    }
+
+    #[test]
+    fn exact_tokens_are_compared_whole() {
+        assert!(same("ab", "ab") && same("", ""));
+        assert!(!same("ab", "ac") && !same("ab", "abc") && !same("", "a"));
+    }
+}

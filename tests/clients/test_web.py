@@ -1,0 +1,383 @@
+"""`spandrel serve` in a real browser: what trainee, instructor and administrator do, wide and narrow, light and dark."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect, sync_playwright
+
+import spandrel
+import webserver
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
+# Pictures for people to look at go here, where it is set.
+PICTURES = os.environ.get("SPANDREL_PICTURES")
+# Milliseconds that anything may take on a busy two-core machine, many times over.
+PATIENCE_MS = 300_000
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """Debian's Chromium."""
+    assert CHROMIUM, "no chromium: apt-get install chromium"
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(scope="module")
+def sessions(tmp_path_factory):
+    """Anna flew twice, Ben once."""
+    folder = tmp_path_factory.mktemp("web") / "sessions"
+    webserver.flown(folder, "anna", "anna", "ben")
+    spandrel.run("records", "import", "--sessions", str(folder))
+    for name, role in [("anna", "trainee"), ("ben", "trainee"), ("ida", "instructor"), ("ada", "administrator")]:
+        webserver.set_password(folder, name, role)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def server(sessions):
+    """One server for all, over those sessions."""
+    server = webserver.Server(sessions)
+    yield server
+    server.close()
+
+
+def ids(sessions, trainee):
+    return sorted(path.name for path in sessions.iterdir() if f"-{trainee}-" in path.name)
+
+
+class Person:
+    """Somebody at a browser, with everything that went wrong on the pages."""
+
+    def __init__(self, browser, server, name=None, size="desktop", scheme="light"):
+        width, height = SIZES[size]
+        self.context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme, accept_downloads=True)
+        self.context.set_default_timeout(PATIENCE_MS)
+        self.page = self.context.new_page()
+        self.wrong = []
+        self.address = server.address
+        self.page.on("console", lambda m: self.wrong.append(f"{m.type}: {m.text}") if m.type in ("error", "warning") else None)
+        self.page.on("pageerror", lambda error: self.wrong.append(str(error)))
+        own = (server.address, "data:", "blob:")
+        self.page.on("request", lambda r: self.wrong.append(r.url) if not r.url.startswith(own) else None)
+        if name:
+            self.log_in(name)
+
+    def go(self, path):
+        return self.page.goto(self.address + path)
+
+    def log_in(self, name, password=webserver.PASSWORD):
+        self.go("/login")
+        self.page.fill("[name=name]", name)
+        self.page.fill("[name=password]", password)
+        self.page.click("main button[type=submit]")
+
+    def keep(self, name):
+        if PICTURES:
+            folder = pathlib.Path(PICTURES)
+            folder.mkdir(parents=True, exist_ok=True)
+            self.page.screenshot(path=str(folder / f"{name}.png"), full_page=True)
+
+    def check(self):
+        """Nothing runs out of the page, nothing was wrong, axe finds nothing."""
+        page = self.page
+        assert page.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth"), page.url
+        page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
+        found = Axe().run(page)
+        assert found.violations_count == 0, page.url + "\n" + found.generate_report()
+        assert self.wrong == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", list(SIZES))
+def test_every_page_passes_axe_wide_and_narrow_light_and_dark(browser, server, sessions, size, scheme):
+    person = Person(browser, server, "ada", size, scheme)
+    anna = ids(sessions, "anna")
+    pages = {
+        "sessions": "/sessions", "session": f"/sessions/{anna[0]}", "questions": f"/sessions/{anna[0]}/questions", "trainees": "/trainees",
+        "trainee": "/trainees/anna", "cohort": "/cohort?scenario=drill-hover&repetitions=2", "scenarios": "/scenarios",
+        "scenario": "/scenarios/two-bridges", "upload": "/upload", "settings": "/settings", "account": "/account", "live": "/live",
+        "missing": "/sessions/none",
+    }
+    for name, path in pages.items():
+        answer = person.go(path)
+        assert answer.status == (404 if name == "missing" else 200), path
+        person.keep(f"{name}-{size}-{scheme}")
+        # A page that is not there is an error in the browser's eyes, and in the test's intention.
+        person.wrong = [wrong for wrong in person.wrong if "404" not in wrong]
+        person.check()
+    stranger = Person(browser, server, None, size, scheme)
+    stranger.go("/sessions")
+    assert stranger.page.url.endswith("/login")
+    stranger.keep(f"login-{size}-{scheme}")
+    stranger.check()
+
+
+def test_a_trainee_answers_leaves_and_returns(browser, server, sessions):
+    session = sessions / ids(sessions, "anna")[0]
+    person = Person(browser, server, "anna")
+    person.page.click("table a >> nth=-1")
+    person.page.click("text=Answer the questionnaire")
+    person.page.click("fieldset >> nth=0 >> label >> nth=1")
+    expect(person.page.locator("[data-status]")).to_contain_text("1 of", timeout=PATIENCE_MS)
+    person.page.focus("fieldset >> nth=1 >> input >> nth=0")
+    person.page.keyboard.press("ArrowRight")
+    expect(person.page.locator("[data-status]")).to_contain_text("2 of", timeout=PATIENCE_MS)
+    given = json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"]
+    assert sorted(given.values()) == [2, 2]
+    # Away, logged out, and back: what was answered is still there.
+    person.page.click("text=Log out")
+    person.log_in("anna")
+    person.go(f"/sessions/{session.name}/questions")
+    assert person.page.locator("input:checked").count() == 2
+    person.page.locator("fieldset").evaluate_all("sets => sets.forEach(set => set.querySelectorAll('input')[3].checked = true)")
+    person.page.click("button:text-is('Save')")
+    expect(person.page.locator("main")).to_contain_text("Saved.")
+    given = json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"]
+    assert set(given.values()) == {4} and len(given) == person.page.locator("fieldset").count()
+    # The database follows by itself.
+    heard = lambda: json.loads(spandrel.run("records", "list", "--json", "--sessions", str(sessions)))
+    spandrel.wait_for("answers in the records", lambda: next(r for r in heard() if r["id"] == session.name)["answers"]["answers"] == given)
+    assert person.wrong == []
+
+
+def test_answers_without_script(browser, server, sessions):
+    session = sessions / ids(sessions, "ben")[0]
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto(server.address + "/login")
+    page.fill("[name=name]", "ben")
+    page.fill("[name=password]", webserver.PASSWORD)
+    page.click("main button[type=submit]")
+    page.goto(f"{server.address}/sessions/{session.name}/questions")
+    page.check("fieldset >> nth=2 >> input >> nth=4")
+    page.click("button:text-is('Save')")
+    assert list(json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"].values()) == [5]
+
+
+def test_a_report_opens_under_its_own_policy_and_its_slider_works(browser, server, sessions):
+    person = Person(browser, server, "anna")
+    session = ids(sessions, "anna")[0]
+    person.go(f"/sessions/{session}")
+    person.page.click("text=Open the report")
+    person.page.wait_for_selector("body.live")
+    most = int(person.page.get_attribute("#moment", "max"))
+    place = lambda: person.page.locator(".drone").first.get_attribute("transform")
+    move = "i => { const s = document.getElementById('moment'); s.value = i; s.dispatchEvent(new Event('input', {bubbles: true})); }"
+    person.page.evaluate(move, most // 3)
+    first = place()
+    person.page.evaluate(move, most // 2)
+    assert first and place() != first
+    # The report lives in a box: it does not see our cookie, nor we its scripts.
+    assert person.page.evaluate("self.origin") == "null"
+    assert person.wrong == []
+
+
+def test_a_report_of_another_version_is_made_again(server, sessions):
+    session = sessions / ids(sessions, "ben")[0]
+    page = (session / "report.html").read_bytes()
+    (session / "report.html").write_text("<script>alert('planted')</script>", encoding="utf-8")
+    visitor = webserver.Browser(server.address)
+    assert visitor.log_in("ben") == 303
+    status, headers, text = visitor.ask(f"/sessions/{session.name}/report")
+    assert status == 200 and "sandbox" in headers["Content-Security-Policy"] and "planted" not in text
+    assert (session / "report.html").read_bytes() == page
+
+
+def test_two_sessions_are_compared(browser, server, sessions):
+    person = Person(browser, server, "anna")
+    first, second = ids(sessions, "anna")
+    person.go(f"/sessions/{first}")
+    person.page.select_option("[name=second]", second)
+    person.page.click("text=Compare >> nth=-1")
+    assert person.page.locator(".shape-1").count() == 1 and person.page.locator(".shape-2").count() == 1
+    person.keep("compare")
+    assert person.wrong == []
+
+
+def test_nobody_reads_what_is_somebody_elses(browser, server, sessions):
+    person = Person(browser, server, "anna")
+    ben = ids(sessions, "ben")[0]
+    expect(person.page.locator("main")).not_to_contain_text("ben")
+    for path in [f"/sessions/{ben}", f"/sessions/{ben}/report", f"/sessions/{ben}/questions", f"/sessions/{ben}/frames.csv",
+                 f"/sessions/{ben}/telemetry.tlog", f"/compare?first={ids(sessions, 'anna')[0]}&second={ben}", "/trainees/ben",
+                 "/trainees/ben/export.json"]:
+        assert person.go(path).status == 404, path
+    for path in ["/trainees", "/cohort", "/live", "/upload", "/settings", "/live/stream"]:
+        assert person.go(path).status == 403, path
+    assert person.go("/trainees/anna").status == 200
+
+
+def test_a_trainee_is_exported_and_erased(browser, server, sessions, tmp_path):
+    webserver.flown(sessions, "gone", seed=31)
+    person = Person(browser, server, "ada")
+    # The server finds the new session by itself.
+    spandrel.wait_for("the new session", lambda: person.go("/sessions?trainee=gone") and person.page.locator("table.list").count())
+    person.go("/trainees/gone")
+    with person.page.expect_download() as download:
+        person.page.click("text=Download everything")
+    download.value.save_as(tmp_path / "gone.json")
+    kept = json.loads((tmp_path / "gone.json").read_text(encoding="utf-8"))
+    assert kept["trainee"]["pseudonym"] == "gone" and len(kept["sessions"]) == len(kept["folders"]) == 1
+    person.page.click("summary:has-text('Erase')")
+    person.page.fill("[name=again]", "anna")
+    person.page.click("text=Erase for ever")
+    assert ids(sessions, "gone"), "another name erases nobody"
+    person.go("/trainees/gone")
+    person.page.click("summary:has-text('Erase')")
+    person.page.fill("[name=again]", "gone")
+    person.page.click("text=Erase for ever")
+    assert person.page.url.endswith("/trainees") and ids(sessions, "gone") == []
+    assert person.go("/trainees/gone").status == 404
+
+
+def test_a_scenario_is_uploaded_checked_and_taken_away(browser, server, tmp_path):
+    person = Person(browser, server, "ida")
+    good = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
+    name = "ours-hover"
+    renamed = good.replace('name = "drill-hover"', f'name = "{name}"')
+    assert renamed != good
+    for text, said in [(renamed + "\nnonsense = 1\n", "nonsense"), (good, "name of a shipped"), (renamed, "is kept")]:
+        (tmp_path / "job.toml").write_text(text, encoding="utf-8")
+        person.go("/scenarios")
+        person.page.set_input_files("[name=file]", tmp_path / "job.toml")
+        person.page.click("text=Check and keep")
+        expect(person.page.locator(".message")).to_contain_text(said)
+        person.keep(f"upload-{said.split()[0]}")
+    person.page.click(f"a:has-text('{name}')")
+    person.page.click("text=Take this upload away")
+    expect(person.page.locator("main")).not_to_contain_text(name)
+
+
+def test_a_recorded_flight_is_taken_in(browser, server, sessions):
+    log = sessions / ids(sessions, "anna")[1] / "telemetry.tlog"
+    person = Person(browser, server, "ida")
+    person.go("/upload")
+    person.page.fill("[name=trainee]", "carl")
+    person.page.select_option("[name=scenario]", "drill-hover")
+    person.page.set_input_files("[name=file]", log)
+    person.page.click("text=Take in >> nth=-1")
+    person.page.wait_for_url("**/sessions/*-carl-*")
+    taken = sessions / ids(sessions, "carl")[0]
+    source = log.parent
+    ours, theirs = (json.loads((folder / "assessment.json").read_text(encoding="utf-8")) for folder in (taken, source))
+    assert ours == theirs
+    assert (taken / "telemetry.tlog").read_bytes() == log.read_bytes()
+    assert "lift_off" in (taken / "events.jsonl").read_text(encoding="utf-8")
+    # A flight of another job is refused, and leaves nothing behind.
+    person.go("/upload")
+    person.page.fill("[name=trainee]", "carl")
+    person.page.select_option("[name=scenario]", "two-bridges")
+    person.page.set_input_files("[name=file]", log)
+    person.page.click("text=Take in >> nth=-1")
+    expect(person.page.locator(".message")).to_contain_text("cannot be taken in")
+    assert len(ids(sessions, "carl")) == 1
+
+
+def test_everybody_changes_the_own_password(browser, server, sessions):
+    webserver.set_password(sessions, "dora", "trainee")
+    person, elsewhere = Person(browser, server, "dora"), Person(browser, server, "dora")
+    person.go("/account")
+    person.page.fill("[name=present]", webserver.PASSWORD)
+    person.page.fill("[name=new]", "another long word")
+    person.page.click("text=Change >> nth=-1")
+    expect(person.page.locator(".message")).to_contain_text("is changed")
+    elsewhere.go("/sessions")
+    assert elsewhere.page.url.endswith("/login"), "other visits have ended"
+    assert person.go("/account").status == 200
+    elsewhere.log_in("dora", "another long word")
+    assert elsewhere.page.url.endswith("/sessions")
+
+
+def test_on_one_machine_nobody_logs_in_until_somebody_has_a_password(browser, tmp_path):
+    server = webserver.Server(tmp_path / "sessions")
+    person = Person(browser, server)
+    person.go("/")
+    expect(person.page.locator("main")).to_contain_text("no session yet")
+    person.keep("open")
+    person.go("/settings")
+    person.page.fill("[name=name]", "ada")
+    person.page.select_option("[name=role]", "trainee")
+    person.page.fill("[name=password]", webserver.PASSWORD)
+    person.page.click("text=Set >> nth=-1")
+    expect(person.page.locator("main")).to_contain_text("must be an administrator's")
+    person.go("/settings")
+    person.page.fill("[name=name]", "ada")
+    person.page.select_option("[name=role]", "administrator")
+    person.page.fill("[name=password]", webserver.PASSWORD)
+    person.page.click("text=Set >> nth=-1")
+    assert person.page.url.endswith("/login")
+    person.go("/sessions")
+    assert person.page.url.endswith("/login")
+    person.log_in("ada")
+    assert person.page.url.endswith("/sessions")
+    server.close()
+
+
+def test_an_instructor_watches_and_acts(browser, tmp_path):
+    """A whole flight of the synthetic trainee, seen from the server's page: the drone moves, cues come, wind, a failure and a note go out."""
+    flight = spandrel.Flight(tmp_path, speed=2)
+    server = webserver.Server(flight.sessions, vehicle=f"127.0.0.1:{flight.payload_port}")
+    pilot = subprocess.Popen(
+        [spandrel.PROGRAM, "pilot", "--scenario", "two-bridges", "--skill", "novice", "--seed", "7", "--port", str(flight.client_port)],
+        stdin=subprocess.DEVNULL, stdout=flight.log, stderr=flight.log,
+    )
+    try:
+        person = Person(browser, server)
+        page = person.page
+        person.go("/live")
+        page.wait_for_selector(".live-page.live", timeout=PATIENCE_MS)
+        expect(page.locator("[data-state]")).to_contain_text("motors armed", timeout=PATIENCE_MS)
+        place = lambda: page.locator(".drone").first.get_attribute("transform")
+        first = place()
+        page.wait_for_function("before => document.querySelector('.drone').getAttribute('transform') !== before", arg=first)
+        said = page.locator("[data-said]")
+        page.fill("[name=text]", "watch the pier <b>")
+        page.click("text=Note >> nth=-1")
+        expect(said).to_contain_text("note: watch the pier <b>", timeout=PATIENCE_MS)
+        page.fill("[name=speed]", "8")
+        page.fill("[name=from]", "180")
+        page.click("text=Set the wind")
+        expect(said).to_contain_text("instructor: wind 8 m/s from 180", timeout=PATIENCE_MS)
+        page.select_option("[name=unit]", "compass")
+        page.click("text=Let it fail")
+        expect(said).to_contain_text("instructor: compass fails", timeout=PATIENCE_MS)
+        page.click("text=Make it whole")
+        expect(said).to_contain_text("instructor: compass is whole again", timeout=PATIENCE_MS)
+        for size, scheme in [("desktop", "light"), ("phone", "dark")]:
+            page.set_viewport_size({"width": SIZES[size][0], "height": SIZES[size][1]})
+            page.emulate_media(color_scheme=scheme)
+            person.keep(f"live-flight-{size}-{scheme}")
+            person.check()
+        events = next(path for path in flight.sessions.iterdir() if path.is_dir()) / "events.jsonl"
+        noted = lambda: [e["text"] for e in map(json.loads, events.read_text(encoding="utf-8").splitlines()) if e["event"] == "note"]
+        spandrel.wait_for("the note in the session", lambda: noted() == ["watch the pier <b>"])
+        assert person.wrong == []
+    finally:
+        server.close()
+        spandrel.end(pilot)
+        flight.close()
+
+
+def test_train_prints_the_address_of_its_pages(tmp_path):
+    process = subprocess.Popen(
+        [spandrel.PROGRAM, "train", "--scenario", "drill-hover", "--ports", "ephemeral", "--sessions", str(tmp_path / "sessions")],
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+    )
+    try:
+        address = next(line for line in process.stdout if "web pages" in line).split()[-1]
+        visitor = webserver.Browser(address)
+        assert visitor.ask("/sessions")[0] == 200
+        live = lambda: "Waiting for a flight" not in visitor.ask("/live")[2]
+        spandrel.wait_for("the flight on the live page", live)
+    finally:
+        spandrel.end(process)

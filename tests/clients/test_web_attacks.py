@@ -1,0 +1,382 @@
+"""What somebody tries who should not: other sites, stored scripts, paths, uploads, guesses, planted cookies, floods, cuts of power."""
+
+import concurrent.futures
+import json
+import random
+import re
+import socket
+import subprocess
+import time
+import urllib.parse
+
+import pytest
+
+import spandrel
+import webserver
+
+EVIL = "<script>alert(1)</script>"
+# Kills of the server at random moments.
+KILLS = 200
+SEED = 20260801
+
+
+@pytest.fixture(scope="module")
+def sessions(tmp_path_factory):
+    """One session each of Anna and Ben."""
+    folder = tmp_path_factory.mktemp("attacks") / "sessions"
+    webserver.flown(folder, "anna", "ben")
+    spandrel.run("records", "import", "--sessions", str(folder))
+    for name, role in [("anna", "trainee"), ("ben", "trainee"), ("ida", "instructor"), ("ada", "administrator")]:
+        webserver.set_password(folder, name, role)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def server(sessions):
+    """One server over them."""
+    server = webserver.Server(sessions)
+    yield server
+    server.close()
+
+
+def logged_in(server, name):
+    browser = webserver.Browser(server.address)
+    assert browser.log_in(name) == 303
+    return browser
+
+
+def of(sessions, trainee):
+    return next(path.name for path in sessions.iterdir() if f"-{trainee}-" in path.name)
+
+
+def forms(sessions):
+    """Every form of the server: page that holds it, where it goes, its fields. A new one belongs here."""
+    anna = of(sessions, "anna")
+    return {
+        "/logout": ("/sessions", {}),
+        "/account": ("/account", {"present": "x" * 12, "new": "y" * 12}),
+        f"/sessions/{anna}/questions": (f"/sessions/{anna}/questions", {"frustration": "3"}),
+        "/trainees/anna/details": ("/trainees/anna", {"age_band": "25-34"}),
+        "/trainees/nobody/erase": ("/trainees", {"again": "nobody"}),
+        "/scenarios/none/remove": ("/scenarios", {}),
+        "/live/act": ("/sessions", {"act": "note", "text": "x"}),
+        "/settings/login": ("/settings", {"name": "eve", "role": "trainee", "password": webserver.PASSWORD}),
+        "/settings/no-login": ("/settings", {"name": "nobody"}),
+        "/settings/retention": ("/settings", {"days": "36525", "sure": "yes"}),
+    }
+
+
+def test_another_site_changes_nothing(server, sessions):
+    ada = logged_in(server, "ada")
+    token = ada.token("/sessions")
+    for path, (_, fields) in forms(sessions).items():
+        for name, form, headers in [
+            ("without a token", fields, {}),
+            ("with a wrong token", {"token": "0" * 64, **fields}, {}),
+            ("from another site's page", {"token": token, **fields}, {"Origin": "https://evil.example"}),
+            ("from a hidden page", {"token": token, **fields}, {"Origin": "null"}),
+            ("as the browser tells", {"token": token, **fields}, {"Sec-Fetch-Site": "cross-site"}),
+        ]:
+            status, _, _ = ada.ask(path, form, headers)
+            assert status == 403, (path, name, status)
+    # A picture or a link of another site asks by GET: nothing is changed by it.
+    for path in forms(sessions):
+        status, _, _ = ada.ask(path)
+        assert status in (200, 404, 405), (path, status)
+    status, _, text = ada.ask("/settings")
+    assert status == 200 and "eve" not in text
+    for path in ("/scenarios", "/upload"):
+        status, _, _ = ada.upload("/sessions", path, {"trainee": "x", "scenario": "drill-hover", "vehicle": "phantom2"}, b"x", token="0" * 64)
+        assert status == 403, path
+
+
+def test_forms_are_all_in_the_table_of_attacks(sessions):
+    """The server's own table of routes against the list above."""
+    source = (spandrel.ROOT / "src" / "app" / "web" / "routes.rs").read_text(encoding="utf-8")
+    changes = set(re.findall(r'change\(\s*"([^"]+)"', source)) - {"/login"}
+    listed = {re.sub(r"/(sessions|trainees|scenarios)/[^/]+/", r"/\1/{}/", path) for path in forms(sessions)}
+    assert {re.sub(r"\{\w+\}", "{}", path) for path in changes} == listed
+
+
+def test_a_script_in_any_field_stays_words(server, sessions):
+    ada = logged_in(server, "ada")
+    anna = of(sessions, "anna")
+    tries = [
+        ("/trainees/anna", "/trainees/anna/details", {"age_band": EVIL}),
+        ("/settings", "/settings/login", {"name": EVIL, "role": "trainee", "password": webserver.PASSWORD}),
+        ("/settings", "/settings/login", {"name": "eve", "role": EVIL, "password": webserver.PASSWORD}),
+        ("/settings", "/settings/no-login", {"name": EVIL}),
+        ("/settings", "/settings/retention", {"days": EVIL, "sure": EVIL}),
+        (f"/sessions/{anna}/questions", f"/sessions/{anna}/questions", {"frustration": EVIL}),
+        ("/trainees", f"/trainees/{urllib.parse.quote(EVIL)}/erase", {"again": EVIL}),
+        ("/account", "/account", {"present": EVIL, "new": EVIL}),
+        ("/sessions", "/live/act", {"act": EVIL, "text": EVIL}),
+    ]
+    for page, path, fields in tries:
+        status, headers, text = ada.post(page, path, fields)
+        assert status != 500 and "<script>" not in text, (path, status)
+        assert "script-src 'self'" in headers["Content-Security-Policy"]
+    for path in [f"/sessions?trainee={urllib.parse.quote(EVIL)}", f"/cohort?scenario={urllib.parse.quote(EVIL)}", f"/trainees/{urllib.parse.quote(EVIL)}",
+                 f"/scenarios/{urllib.parse.quote(EVIL)}", f"/compare?first={urllib.parse.quote(EVIL)}", f"/{urllib.parse.quote(EVIL)}"]:
+        status, _, text = ada.ask(path)
+        assert status != 500 and "<script>" not in text, (path, status)
+    # What files and the database hold may have come by other ways: names in a scenario, in a session, in the log of a login.
+    evil = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
+    evil = re.sub(r'^title = .*$', f'title = "{EVIL}"', evil, count=1, flags=re.MULTILINE).replace('name = "drill-hover"', 'name = "evil-title"')
+    status, _, text = ada.upload("/scenarios", "/scenarios", {}, evil.encode(), EVIL + ".toml")
+    assert status == 200 and "<script>" not in text and "&lt;script&gt;" in text
+    status, _, text = ada.ask("/scenarios/evil-title")
+    assert status == 200 and "<script>" not in text and "&lt;script&gt;" in text
+    stranger = webserver.Browser(server.address)
+    status, _, text = stranger.post("/login", "/login", {"name": EVIL, "password": EVIL})
+    assert status == 403 and "<script>" not in text
+    ada.post("/scenarios/evil-title", "/scenarios/evil-title/remove", {})
+
+
+def test_no_path_leads_out(server, sessions):
+    secret = sessions.parent / "secret"
+    secret.mkdir(exist_ok=True)
+    for name in ("telemetry.tlog", "report.html", "secret.toml"):
+        (secret / name).write_text("secret-secret", encoding="utf-8")
+    ida = logged_in(server, "ida")
+    ways = ["..%2Fsecret", "%2e%2e%2fsecret", "..", "%2e%2e", "....//secret", "..%5Csecret", "%00", f"{of(sessions, 'anna')}%2F..%2F..%2Fsecret",
+            urllib.parse.quote(str(secret), safe=""), ".%2e%2fsecret", "..%252fsecret"]
+    routes = ["/sessions/{}", "/sessions/{}/report", "/sessions/{}/frames.csv", "/sessions/{}/telemetry.tlog", "/sessions/{}/questions",
+              "/scenarios/{}", "/assets/{}", "/trainees/{}/export.json", "/compare?first={}&second={}"]
+    for route in routes:
+        for way in ways:
+            status, _, text = ida.ask(route.replace("{}", way))
+            assert status in (400, 404, 422) and "secret-secret" not in text, (route, way, status)
+    # As it stands on the wire, without a client that tidies it up.
+    host, port = server.address.removeprefix("http://").split(":")
+    for path in ["/../../../../etc/passwd", "/assets/../../../../etc/passwd", "/sessions/../../secret/report", "//etc/passwd", "/\\..\\secret"]:
+        with socket.create_connection((host, int(port))) as raw:
+            raw.sendall(f"GET {path} HTTP/1.1\r\nHost: {host}:{port}\r\nCookie: {ida.cookie}\r\nConnection: close\r\n\r\n".encode())
+            answer = b"".join(iter(lambda: raw.recv(65536), b""))
+        assert b"200 OK" not in answer.split(b"\r\n")[0] and b"root:" not in answer and b"secret-secret" not in answer, path
+
+
+def test_uploads_that_are_too_large_or_no_such_file_are_refused(server, sessions):
+    ida = logged_in(server, "ida")
+    fields = {"trainee": "mallory", "scenario": "drill-hover", "vehicle": "phantom2"}
+    before = sorted(path.name for path in sessions.iterdir())
+    real = (sessions / of(sessions, "anna") / "telemetry.tlog").read_bytes()
+    generator = random.Random(SEED)
+    for name, body in {
+        "nothing": b"", "text": b"no recording", "noise": generator.randbytes(200_000), "half a record": real[:15],
+        "another's bytes": real[: len(real) // 2][::-1], "the ground alone": real[:20_000],
+    }.items():
+        status, _, text = ida.upload("/upload", "/upload", fields, body)
+        assert status == 422 and "cannot be taken in" in text, (name, status)
+    for key, value in [("trainee", "../../x"), ("trainee", ""), ("scenario", "../../x"), ("scenario", "/etc/passwd"), ("vehicle", "../x")]:
+        status, _, _ = ida.upload("/upload", "/upload", {**fields, key: value}, real)
+        assert status == 422, (key, value)
+    for name, body in {
+        "nothing": b"", "noise": generator.randbytes(50_000), "no TOML": b"]]]", "deep": b"a = " + b"[" * 20_000 + b"]" * 20_000,
+        "another's file": b'name = "x"\n[terrain]\nfile = "/etc/passwd"\n',
+    }.items():
+        status, _, text = ida.upload("/scenarios", "/scenarios", {}, body, "x.toml")
+        assert status == 422 and "root:" not in text, (name, status)
+    assert ida.upload("/scenarios", "/scenarios", {}, b"#" * 400_000, "x.toml")[0] == 413
+    status, _, _ = ida.ask("/settings/login", body=b"a=" + b"x" * 200_000, headers={"Content-Type": "application/x-www-form-urlencoded"})
+    assert status in (403, 413)
+    # A length beyond the limit ends before it was sent.
+    host, port = server.address.removeprefix("http://").split(":")
+    with socket.create_connection((host, int(port)), timeout=webserver.PATIENCE_S) as raw:
+        raw.sendall(
+            f"POST /upload HTTP/1.1\r\nHost: {host}:{port}\r\nCookie: {ida.cookie}\r\nContent-Type: multipart/form-data; boundary=b\r\n"
+            f"Content-Length: {10**12}\r\n\r\n--b\r\nContent-Disposition: form-data; name=\"token\"\r\n\r\nwrong\r\n--b\r\n"
+            "Content-Disposition: form-data; name=\"file\"; filename=\"f\"\r\n\r\n".encode()
+        )
+        assert raw.recv(64).split(b" ")[1] in (b"403", b"413")
+    assert sorted(path.name for path in sessions.iterdir() if not path.name.startswith(".")) == [n for n in before if not n.startswith(".")]
+    assert ida.ask("/sessions")[0] == 200
+
+
+def test_a_guessed_name_tells_nothing(server, sessions):
+    anna = logged_in(server, "anna")
+    ben = of(sessions, "ben")
+    for route in ["/sessions/{}", "/sessions/{}/report", "/sessions/{}/questions", "/trainees/{}", "/trainees/{}/export.json"]:
+        there = anna.ask(route.format("ben" if "trainees" in route else ben))
+        nowhere = anna.ask(route.format("nobody"))
+        assert there[0] == nowhere[0] == 404, route
+        scrubbed = [re.sub(r'value="[0-9a-f]{64}"', "", text) for text in (there[2], nowhere[2])]
+        assert scrubbed[0] == scrubbed[1], route
+    status, _, _ = anna.post("/sessions", f"/sessions/{ben}/questions", {"frustration": "1"})
+    assert status == 404 and not (sessions / ben / "answers.json").exists()
+    status, _, _ = anna.post("/sessions", "/trainees/ben/details", {"age_band": "65+"})
+    assert status == 404
+    # Nobody's name and a wrong password are told by the same words.
+    told = []
+    for name in ("ben", "no-such-person"):
+        stranger = webserver.Browser(server.address)
+        status, _, text = stranger.post("/login", "/login", {"name": name, "password": "not the password"})
+        told.append((status, re.sub(r'value="[^"]*"', "", text)))
+    assert told[0] == told[1]
+
+
+def test_a_planted_cookie_opens_nothing(server):
+    victim = webserver.Browser(server.address)
+    victim.ask("/login")
+    planted = victim.cookie
+    assert victim.log_in("anna") == 303
+    assert victim.cookie != planted
+    attacker = webserver.Browser(server.address)
+    attacker.cookie = planted
+    assert attacker.ask("/sessions")[0] == 303, "the cookie from before the login is worth nothing"
+    attacker.cookie = "spandrel=" + "a" * 64
+    status, headers, _ = attacker.ask("/sessions")
+    assert status == 303 and "a" * 64 not in headers["Set-Cookie"], "a made-up cookie is not taken over"
+    old = victim.cookie
+    assert victim.post("/sessions", "/logout", {})[0] == 303
+    attacker.cookie = old
+    assert attacker.ask("/sessions")[0] == 303, "what was logged out stays so"
+    _, headers, _ = webserver.Browser(server.address).ask("/login")
+    assert "HttpOnly" in headers["Set-Cookie"] and "SameSite=Strict" in headers["Set-Cookie"]
+
+
+def test_a_flood_of_logins_waits(sessions):
+    server = webserver.Server(sessions)
+    try:
+        browser = webserver.Browser(server.address)
+        statuses = [browser.log_in("ben", f"guess number {k}") for k in range(8)]
+        assert statuses == [403] * 5 + [429] * 3
+        status, headers, _ = browser.ask("/login", {"token": browser.token("/login"), "name": "ben", "password": webserver.PASSWORD})
+        assert status == 429 and int(headers["Retry-After"]) > 0, "the right password waits as well"
+        assert browser.log_in("anna") == 303, "others log in all the same"
+
+        def one(k):
+            other = webserver.Browser(server.address)
+            return other.log_in(f"name-{k}", "guess guess guess")
+
+        with concurrent.futures.ThreadPoolExecutor(16) as pool:
+            flood = list(pool.map(one, range(60)))
+        assert set(flood) == {403, 429} and flood.count(403) <= 20
+    finally:
+        server.close()
+
+
+def test_headers_on_every_answer(server, sessions):
+    ada = logged_in(server, "ada")
+    for path in ["/sessions", f"/sessions/{of(sessions, 'anna')}/report", "/assets/style.css", "/none", "/login", "/trainees/anna/export.json"]:
+        _, headers, _ = ada.ask(path)
+        assert headers["X-Content-Type-Options"] == "nosniff" and headers["X-Frame-Options"] == "DENY", path
+        assert headers["Referrer-Policy"] == "same-origin", path
+        policy = headers["Content-Security-Policy"]
+        assert "default-src 'none'" in policy and "frame-ancestors 'none'" in policy and "unsafe" not in policy, path
+        assert "no-store" in headers["Cache-Control"] or path.startswith("/assets"), path
+
+
+def test_it_stays_at_home_unless_it_is_safe(tmp_path):
+    place = ["--sessions", str(tmp_path / "sessions"), "--vehicle", "none", "--leash"]
+
+    def refused(*args):
+        done = subprocess.run([spandrel.PROGRAM, "serve", *place, *args], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              timeout=webserver.PATIENCE_S, check=False)
+        assert done.returncode == 2, (args, done.stderr)
+        return done.stderr
+
+    assert "--set-password" in refused("--listen", "0.0.0.0:0")
+    assert "--set-password" in refused("--listen", "127.0.0.1:0", "--behind-proxy")
+    webserver.set_password(tmp_path / "sessions", "ada", "administrator")
+    assert "--tls-cert" in refused("--listen", "0.0.0.0:0")
+    assert "--tls-cert" in refused("--listen", "0.0.0.0:0", "--tls-cert", "none.pem", "--tls-key", "none.pem")
+    short = subprocess.run([spandrel.PROGRAM, "serve", "--sessions", str(tmp_path / "sessions"), "--set-password", "eve", "--role", "trainee"],
+                           input="short\n", capture_output=True, text=True, timeout=webserver.PATIENCE_S, check=False)
+    assert short.returncode == 2 and "12 to 256" in short.stderr and "short" not in short.stderr.replace("--set-password", "")
+
+
+def test_another_name_for_this_machine_reaches_no_open_server(tmp_path):
+    """DNS rebinding: a site's own name that suddenly means 127.0.0.1."""
+    server = webserver.Server(tmp_path / "sessions")
+    try:
+        browser = webserver.Browser(server.address)
+        port = server.address.rsplit(":", 1)[1]
+        assert browser.ask("/sessions")[0] == 200
+        assert browser.ask("/sessions", headers={"Host": f"evil.example:{port}"})[0] == 403
+        assert browser.ask("/sessions", headers={"Host": f"localhost:{port}"})[0] == 200
+    finally:
+        server.close()
+
+
+def test_tls_by_files(tmp_path):
+    import ssl
+    import urllib.request
+
+    cert, key = tmp_path / "cert.pem", tmp_path / "key.pem"
+    subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", str(key), "-out", str(cert), "-days", "2", "-subj",
+                    "/CN=localhost", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1"], check=True, capture_output=True)
+    webserver.set_password(tmp_path / "sessions", "ada", "administrator")
+    server = webserver.Server(tmp_path / "sessions", "--tls-cert", str(cert), "--tls-key", str(key))
+    try:
+        assert server.address.startswith("https://")
+        context = ssl.create_default_context(cafile=str(cert))
+        answer = urllib.request.urlopen(server.address + "/login", context=context, timeout=webserver.PATIENCE_S)
+        assert answer.headers["Strict-Transport-Security"] and "__Host-spandrel=" in answer.headers["Set-Cookie"]
+        assert "Secure" in answer.headers["Set-Cookie"]
+    finally:
+        server.close()
+
+
+def test_two_hundred_kills_lose_no_finished_session(tmp_path):
+    """The server dies at random moments while answers are saved and recordings are taken in; what it confirmed is there, all else is whole."""
+    sessions = tmp_path / "sessions"
+    flown = webserver.flown(sessions, "anna", "ben")
+    spandrel.run("records", "import", "--sessions", str(sessions))
+    before = json.loads(spandrel.run("records", "list", "--json", "--sessions", str(sessions)))
+    log = (flown[0] / "telemetry.tlog").read_bytes()
+    generator = random.Random(SEED)
+    confirmed = {}
+    taken = set()
+    keys = ["frustration", "feedback", "time_pressure", "calibration.performance", "landing.performance"]
+    for kill in range(KILLS):
+        server = webserver.Server(sessions)
+        stop = generator.uniform(0.0, 0.06)
+
+        def work():
+            browser = webserver.Browser(server.address)
+            page = f"/sessions/{flown[kill % 2].name}/questions"
+            try:
+                token = browser.token(page)
+                # Now and then a recording, which takes longer than an answer.
+                if kill % 10 == 0:
+                    status, headers, _ = browser.upload(page, "/upload", {"trainee": "carl", "scenario": "drill-hover", "vehicle": "phantom2"}, log)
+                    if status == 303:
+                        taken.add(headers["Location"].rsplit("/", 1)[1])
+                for k in range(40):
+                    key, value = keys[(kill + k) % len(keys)], 1 + (kill + k) % 5
+                    status, _, _ = browser.ask(page, {"token": token, key: value}, {"Accept": "application/json"})
+                    if status == 200:
+                        confirmed[(flown[kill % 2], key)] = value
+                    else:
+                        return
+            except (OSError, ValueError, AssertionError):
+                return  # The server is gone, as it should be.
+
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            working = pool.submit(work)
+            if kill % 10 == 0:
+                stop = generator.uniform(0.0, 0.6)
+            time.sleep(stop)  # The moment of the kill, not a wait for anything.
+            server.kill()
+            working.result()
+        last = {}
+        for folder in flown:
+            path = folder / "answers.json"
+            if path.exists():
+                last[folder] = json.loads(path.read_text(encoding="utf-8"))["answers"]
+        for (folder, key), value in confirmed.items():
+            # One answer may have been written and not yet confirmed when the power went.
+            assert key in last[folder], (kill, key)
+    assert len(confirmed) >= len(keys), "answers got through"
+    spandrel.run("records", "import", "--sessions", str(sessions))
+    after = {record["id"]: record for record in json.loads(spandrel.run("records", "list", "--json", "--sessions", str(sessions)))}
+    for record in before:
+        ours = after[record["id"]]
+        assert {k: v for k, v in ours.items() if k not in ("answers", "fingerprint")} == {
+            k: v for k, v in record.items() if k not in ("answers", "fingerprint")
+        }
+    assert taken <= set(after)
+    for folder in sessions.iterdir():
+        if (folder / "telemetry.tlog").is_file():
+            assert folder.name in after and json.loads((folder / "assessment.json").read_text(encoding="utf-8")), folder

@@ -1,0 +1,121 @@
+"""A server of our own for one test: on a free port, over a folder of its own."""
+
+import json
+import os
+import re
+import subprocess
+import urllib.error
+import urllib.parse
+import urllib.request
+
+import spandrel
+
+PASSWORD = "correct horse battery"
+# Wall seconds within which a request is answered on a busy two-core machine, many times over.
+PATIENCE_S = 300
+
+
+class Server:
+    """`spandrel serve` on a free port."""
+
+    def __init__(self, sessions, *more, vehicle="none", program=None):
+        self.sessions = sessions
+        arguments = ["serve", "--sessions", str(sessions), "--listen", "127.0.0.1:0", "--vehicle", vehicle, "--announce", "--leash", *more]
+        self.log = open(str(sessions) + ".log", "a", encoding="utf-8")
+        self.process = subprocess.Popen(
+            [program or spandrel.PROGRAM, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.log, text=True
+        )
+        line = self.process.stdout.readline()
+        assert line, open(self.log.name, encoding="utf-8").read()
+        self.address = json.loads(line)["address"]
+
+    def close(self):
+        """Ends it as a parent that goes away."""
+        self.process.stdin.close()
+        self.process.wait(timeout=PATIENCE_S)
+        self.log.close()
+
+    def kill(self):
+        """Ends it as a power cut."""
+        self.process.kill()
+        self.process.wait()
+        self.log.close()
+
+
+def set_password(sessions, name, role, password=PASSWORD):
+    """Sets a password as an administrator does at the command line."""
+    done = subprocess.run(
+        [spandrel.PROGRAM, "serve", "--sessions", str(sessions), "--set-password", name, "--role", role],
+        input=password + "\n", capture_output=True, text=True, timeout=PATIENCE_S, check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+class NoRedirect(urllib.request.HTTPRedirectHandler):
+    """Redirects are looked at, not followed."""
+
+    def redirect_request(self, *_):
+        return None
+
+
+class Browser:
+    """The least of a browser: cookies by hand, every header in the test's power."""
+
+    def __init__(self, address):
+        self.address = address
+        self.cookie = None
+        self.opener = urllib.request.build_opener(NoRedirect)
+
+    def ask(self, path, form=None, headers=None, body=None, method=None, keep_cookie=True):
+        """Status, headers, text."""
+        data = urllib.parse.urlencode(form).encode() if form is not None else body
+        request = urllib.request.Request(self.address + path, data=data, headers=dict(headers or {}), method=method)
+        if self.cookie and not request.has_header("Cookie"):
+            request.add_header("Cookie", self.cookie)
+        try:
+            answer = self.opener.open(request, timeout=PATIENCE_S)
+        except urllib.error.HTTPError as error:
+            answer = error
+        text = answer.read().decode("utf-8", "replace")
+        fresh = answer.headers.get("Set-Cookie")
+        if fresh and keep_cookie:
+            self.cookie = fresh.split(";")[0]
+        return answer.status, answer.headers, text
+
+    def token(self, path):
+        """The token of a page's forms."""
+        status, _, text = self.ask(path)
+        found = re.search(r'name="token" value="([0-9a-f]{64})"', text)
+        assert status == 200 and found, (status, text)
+        return found.group(1)
+
+    def log_in(self, name, password=PASSWORD):
+        """Logs in; returns the status."""
+        token = self.token("/login")
+        status, _, _ = self.ask("/login", {"token": token, "name": name, "password": password})
+        return status
+
+    def post(self, page, path, form, **more):
+        """Sends a form of a page."""
+        return self.ask(path, {"token": self.token(page), **form}, **more)
+
+    def upload(self, page, path, fields, file, name="file.tlog", token=None):
+        """Sends a form with a file."""
+        boundary = "spandrel-test-boundary"
+        parts = [("token", token or self.token(page)), *fields.items()]
+        body = b"".join(
+            f'--{boundary}\r\nContent-Disposition: form-data; name="{key}"\r\n\r\n{value}\r\n'.encode() for key, value in parts
+        )
+        body += f'--{boundary}\r\nContent-Disposition: form-data; name="file"; filename="{name}"\r\n\r\n'.encode()
+        body += file + f"\r\n--{boundary}--\r\n".encode()
+        return self.ask(path, body=body, headers={"Content-Type": f"multipart/form-data; boundary={boundary}"})
+
+
+def flown(folder, *trainees, seed=7):
+    """Real sessions of a hover drill, the quickest flight there is, one for each trainee."""
+    for k, trainee in enumerate(trainees):
+        spandrel.run(
+            "demo", "--scenario", "drill-hover", "--skill", "novice", "--seed", str(seed + k), "--speed", "max", "--trainee", trainee,
+            "--sessions", str(folder),
+        )
+    return sorted(path for path in folder.iterdir() if (path / "telemetry.tlog").is_file())
