@@ -31,12 +31,21 @@ impl Child {
     /// # Errors
     /// When it cannot be started.
     pub fn start(name: &'static str, args: &[String]) -> Result<Self, AppError> {
+        Self::start_beside(name, args, &[])
+    }
+
+    /// Starts it with further variables in its environment.
+    ///
+    /// # Errors
+    /// When it cannot be started.
+    pub fn start_beside(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("cannot start the {name}: {error}"));
         let program = std::env::current_exe().map_err(failed)?;
         let mut process = Command::new(program)
             .arg(name)
             .args(args)
             .args(["--announce", "--leash"])
+            .envs(environment.iter().map(|(key, value)| (key, value)))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()

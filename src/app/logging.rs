@@ -4,9 +4,11 @@ use std::io::{IsTerminal, stderr};
 use tracing::Level;
 use tracing_subscriber::EnvFilter;
 
-/// Starts logging at this level. The libraries below speak up from warnings on.
+/// Starts logging at this level. The libraries below speak up from warnings on; those of windows and graphics drivers tell the loader's and
+/// the display's troubles one by one, which the one message of the view sums up: they speak when somebody looks for a fault.
 pub fn start(level: Level) {
-    let filter = EnvFilter::new(format!("warn,spandrel={level}").to_lowercase());
+    let graphics = if level > Level::INFO { "" } else { ",winit=error,wgpu_hal=off" };
+    let filter = EnvFilter::new(format!("warn{graphics},spandrel={level}").to_lowercase());
     let done = tracing_subscriber::fmt()
         .with_env_filter(filter)
         .with_writer(stderr)

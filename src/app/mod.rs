@@ -38,6 +38,7 @@ mod stop;
 mod store;
 mod table;
 mod train;
+mod view;
 mod web;
 
 pub use errors::AppError;
@@ -77,6 +78,7 @@ enum Command {
     Report(report::Args),
     Serve(web::Args),
     Render(render::Args),
+    View(view::Args),
     Check(check::Args),
 }
 
@@ -101,6 +103,7 @@ pub fn main() -> ExitCode {
         Command::Report(args) => report::run(args),
         Command::Serve(args) => web::run(args),
         Command::Render(args) => render::run(args),
+        Command::View(args) => view::run(args),
         Command::Check(args) => check::run(args),
     };
     match done {

@@ -2,21 +2,20 @@
 
 use super::args;
 use super::clock::Stopwatch;
-use super::controller::{self, Profiles, Source, Terminal, read_profile};
+use super::controller::{self, Hand, Look, Profiles, Source, Terminal};
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::net::{Arrival, Hub, SocketId};
 use super::stop::Stop;
 use crate::base::time::SimTime;
-use crate::rc::keyboard::{Keyboard, Keys};
+use crate::rc::StickMode;
+use crate::rc::keyboard::Keyboard;
 use crate::rc::link::Link;
-use crate::rc::record::{self, Record};
+use crate::rc::record::Record;
 use crate::rc::wizard::Wizard;
-use crate::rc::{Device, Event, Profile, Raw, StickMode, Sticks};
-use std::fs::File;
-use std::io::{BufRead, Write};
+use std::io::BufRead;
 use std::net::{IpAddr, SocketAddr};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
@@ -70,7 +69,7 @@ pub struct Args {
     /// Fly with the terminal's keyboard
     #[arg(long, conflicts_with_all = ["replay", "device", "profile"])]
     keyboard: bool,
-    /// Which key does what (TOML: format = 1, push, [sticks], [actions])
+    /// Which key does what (TOML: format = 1, push, [sticks], [actions], [window]); the same file as that of `spandrel view`
     #[arg(long, value_name = "FILE", requires = "keyboard")]
     keys: Option<PathBuf>,
     /// Write down what the device reports
@@ -120,39 +119,9 @@ enum Pilot {
     Keyboard { terminal: Terminal, board: Keyboard },
 }
 
-/// A calibrated device.
-struct Hand {
-    source: Source,
-    profile: Profile,
-    raw: Raw,
-    log: Option<Log>,
-}
-
-struct Log {
-    path: PathBuf,
-    file: File,
-}
-
-impl Log {
-    fn begin(path: &Path, device: &Device) -> Result<Self, AppError> {
-        let failed = |error: std::io::Error| AppError::wrong(format!("{}: {error}", path.display()));
-        let mut file = File::create(path).map_err(failed)?;
-        writeln!(file, "{}", record::head(device)).map_err(failed)?;
-        Ok(Self { path: path.to_owned(), file })
-    }
-
-    fn write(&mut self, now: SimTime, event: Event) -> Result<(), AppError> {
-        writeln!(self.file, "{}", record::line(now, event))
-            .map_err(|error| AppError::failed(format!("{}: {error}", self.path.display())))
-    }
-}
-
 fn pilot(args: &Args, profiles: &Profiles) -> Result<Pilot, AppError> {
     if args.keyboard {
-        let keys = match &args.keys {
-            Some(path) => Keys::read(&path.display().to_string(), &files::read(path)?)?,
-            None => Keys::default(),
-        };
+        let keys = controller::keys(args.keys.as_deref())?;
         let words = keys.explain();
         let terminal = Terminal::take()?;
         say(&format!("{words}\nescape     end"));
@@ -162,53 +131,12 @@ fn pilot(args: &Args, profiles: &Profiles) -> Result<Pilot, AppError> {
         Some(path) => Source::Record(Record::read(&path.display().to_string(), &files::read(path)?).map_err(AppError::wrong)?),
         None => Source::device(args.device.as_deref())?,
     };
-    let device = source.of().clone();
-    let profile = match &args.profile {
-        Some(path) => Some(read_profile(path)?),
-        None => profiles.find(&device)?,
-    };
-    let profile = profile.ok_or_else(|| {
-        AppError::failed(format!(
-            "'{}' is not calibrated: run `spandrel rc --calibrate` (no {})",
-            device.name,
-            profiles.path(&device).display()
-        ))
-    })?;
-    tracing::info!("flying with '{}', stick mode {}", device.name, profile.mode.number());
-    let log = args.record.as_ref().map(|path| Log::begin(path, &device)).transpose()?;
-    Ok(Pilot::Device(Box::new(Hand { source, profile, raw: Raw::default(), log })))
+    Ok(Pilot::Device(Box::new(Hand::take(source, profiles, args.profile.as_deref(), args.record.as_deref())?)))
 }
 
 /// A line on standard error that also begins at the left when the terminal gives single keys.
 fn say(text: &str) {
     eprint!("{}\r\n", text.replace('\n', "\r\n"));
-}
-
-/// What a look at the controller gave.
-struct Look {
-    sticks: Option<Sticks>,
-    over: bool,
-}
-
-impl Hand {
-    fn look(&mut self, link: &mut Link, flown: SimTime, now: SimTime) -> Result<Look, AppError> {
-        while let Some(event) = self.source.next(flown) {
-            if let Some(log) = &mut self.log {
-                log.write(flown, event)?;
-            }
-            let fresh = matches!(event, Event::Button { button, pressed: true } if !self.raw.down.contains(&button));
-            self.raw.take(event);
-            match event {
-                Event::Button { button, .. } if fresh => {
-                    self.profile.buttons.get(&button).into_iter().for_each(|action| link.act(*action, now));
-                }
-                Event::Lost => tracing::warn!("'{}' is lost: sticks centred, then silent", self.profile.device.name),
-                Event::Found => tracing::info!("'{}' is there", self.profile.device.name),
-                _ => {}
-            }
-        }
-        Ok(Look { sticks: (!self.raw.lost).then(|| self.profile.sticks(&self.raw)), over: self.source.is_over() })
-    }
 }
 
 impl Pilot {

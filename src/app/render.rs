@@ -2,21 +2,32 @@
 
 use super::args;
 use super::errors::{AppError, EXIT_CODES};
+use std::path::PathBuf;
 #[cfg(feature = "view")]
-#[path = "render/draw.rs"]
 mod draw;
+#[cfg(feature = "view")]
+mod recorded;
+#[cfg(feature = "view")]
+mod snapshots;
+#[cfg(feature = "view")]
+mod video;
+#[cfg(feature = "view")]
+pub(super) use draw::{png, quality, size};
 
 /// Draw any moment of a recorded session, or a scenario from anywhere, as a PNG picture
 ///
 /// Of a session: what the aircraft's camera saw at a simulation time, what the inspector at the pad saw, or both side by side, with the
 /// head-up display. Of a scenario: from any point towards another. No window and no graphics card are needed: a software Vulkan driver
-/// does (Debian and Ubuntu: mesa-vulkan-drivers).
+/// does (Debian and Ubuntu: mesa-vulkan-drivers). --snapshots draws all photographs of a session as JPEG files with EXIF and XMP into its
+/// folder, --video a film of the camera's view with the photographs as chapters beside it (WebVTT).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel render sessions/20260801T... --at 95 --out both.png
   spandrel render sessions/20260801T... --at 95 --view camera --size 4000x3000 --quality high --no-hud
+  spandrel render sessions/20260801T... --snapshots
+  spandrel render sessions/20260801T... --video flight.mp4 --span 60,90 --size 960x540
   spandrel render two-bridges --from=-150,-60,12 --look 0,0,25 --utc 2026-06-20T08:00:00Z --cloud 0.2
   spandrel render two-bridges --from 20,-1,28 --look 0,0,31 --lamp --seed 7
 
@@ -34,15 +45,27 @@ pub struct Args {
     /// Which view of a session
     #[arg(long, value_name = "VIEW", value_parser = ["camera", "inspector", "both"], default_value = "both")]
     view: String,
-    /// Size of each view, px
-    #[arg(long, value_name = "WxH", default_value = "1280x720")]
-    size: String,
+    /// Size of each view, px [default: 1280x720; of photographs the camera's, without a graphics card smaller]
+    #[arg(long, value_name = "WxH")]
+    size: Option<String>,
     /// How much the picture may cost: low, medium, high or ultra
     #[arg(long, value_name = "PRESET", default_value = "high")]
     quality: String,
     /// Without the head-up display
     #[arg(long)]
     no_hud: bool,
+    /// All photographs of a session into its folder snapshots (JPEG, at most 400 kB each), and its report anew
+    #[arg(long, conflicts_with_all = ["at", "out", "view", "video"])]
+    snapshots: bool,
+    /// A film of a session's camera view (MP4, H.264), and beside it its chapters (.vtt)
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["at", "out", "view"])]
+    video: Option<PathBuf>,
+    /// Pictures a second of the film, 1 to 60
+    #[arg(long, value_name = "HZ", default_value_t = 15.0, requires = "video")]
+    fps: f64,
+    /// Part of the flight in the film, s of simulation time [default: all of it]
+    #[arg(long, value_name = "FROM,TO", requires = "video")]
+    span: Option<String>,
     /// Where the eye is, m from the scenario's origin: east, north, up
     #[arg(long, value_name = "E,N,U", allow_hyphen_values = true, requires = "look")]
     from: Option<String>,

@@ -78,6 +78,15 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
     Ok(page::comparison(&review(first)?, &review(second)?))
 }
 
+/// A session's pictures with their verdicts.
+///
+/// # Errors
+/// As [`run`].
+#[cfg(feature = "view")]
+pub fn pictures(session: &Path) -> Result<Vec<crate::report::pictures::Picture>, AppError> {
+    Ok(review(session)?.pictures)
+}
+
 /// A file's address for a browser.
 pub fn address(path: &Path) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());

@@ -21,12 +21,14 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Fly a session yourself
 ///
 /// Starts simulator and monitor, says how to connect a ground station or a script, waits for the flight, and prints the scores and the
-/// session folder. There is no camera view yet: fly by your ground station's map and instruments, or by a script.
+/// session folder. Where there is a display, a window shows the inspector's view and the camera's (`spandrel view`) and flies with its keys
+/// or with a calibrated controller; without, fly by your ground station's map and instruments, or by a script.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel train                                  the paper's job; QGroundControl on this machine connects by itself
   spandrel train --trainee anna --scenario drill-hover
+  spandrel train --no-view                        without the window
   spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     a ground station on another machine
 
 {EXIT_CODES}"))]
@@ -48,6 +50,15 @@ pub struct Args {
     /// Web pages of this machine's sessions and of the live flight: a port of this machine, 0 for any free one, or none
     #[arg(long, value_name = "PORT|none", default_value = "0")]
     web: args::Port,
+    /// Without the window
+    #[arg(long)]
+    no_view: bool,
+    /// How much a picture in the window may cost: low, medium, high, ultra, or auto
+    #[arg(long, value_name = "PRESET", default_value = "auto")]
+    quality: String,
+    /// Which key does what in the window (as `spandrel view --keys`)
+    #[arg(long, value_name = "FILE")]
+    keys: Option<PathBuf>,
     #[command(flatten)]
     ports: PortArgs,
 }
@@ -75,8 +86,10 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let mut sim = Child::start("sim", &sim_args.concat())?;
     let ports = sim.announced()?;
     let web = pages(args, &ports);
-    print!("{}", how_to_connect(&scenario.title, &args.ports, &ports, &session, web.as_ref()));
-    let lost = wait(&mut monitor, &mut sim, &stop);
+    let mut view = view_args(args, log, &ports).and_then(|args| Window::open(&args));
+    print!("{}", how_to_connect(&scenario.title, &args.ports, &ports, &session, (web.as_ref(), view.is_some())));
+    let lost = wait(&mut monitor, &mut sim, view.as_mut(), &stop);
+    drop(view);
     monitor.finish();
     sim.finish();
     let told = tell(&session);
@@ -162,8 +175,11 @@ fn monitor_args(args: &Args) -> Vec<String> {
 }
 
 /// Waits until the session is over, somebody interrupts, or a process ends too early.
-fn wait(monitor: &mut Child, sim: &mut Child, stop: &Stop) -> Option<AppError> {
+fn wait(monitor: &mut Child, sim: &mut Child, mut view: Option<&mut Window>, stop: &Stop) -> Option<AppError> {
     loop {
+        if let Some(view) = &mut view {
+            view.look();
+        }
         if monitor.ended().is_some() || stop.asked() {
             return None;
         }
@@ -174,7 +190,63 @@ fn wait(monitor: &mut Child, sim: &mut Child, stop: &Stop) -> Option<AppError> {
     }
 }
 
-fn how_to_connect(title: &str, args: &PortArgs, ports: &serde_json::Value, session: &Path, web: Option<&Server>) -> String {
+/// Arguments of the window; `None` when there is to be none, or nothing that it could listen to.
+fn view_args(args: &Args, log: tracing::Level, ports: &serde_json::Value) -> Option<Vec<String>> {
+    if args.no_view || !cfg!(feature = "view") {
+        return None;
+    }
+    let local = |key: &str| ports[key].as_u64().map(|port| format!("127.0.0.1:{port}"));
+    let Some(payload) = local("payload_port") else {
+        tracing::warn!("no window: it listens at the payload port, and --payload-port is none");
+        return None;
+    };
+    let seed = ports["seed"].as_u64();
+    let mut out = common(&JobArgs { seed, ..args.job.clone() }, log);
+    out.extend(["--connect".to_owned(), payload, "--quality".to_owned(), args.quality.clone()]);
+    if let Some(gcs) = local("gcs_port") {
+        out.extend(["--fly".to_owned(), gcs]);
+    }
+    if let Some(keys) = &args.keys {
+        out.extend(["--keys".to_owned(), keys.display().to_string()]);
+    }
+    Some(out)
+}
+
+/// The window's process. The session does not depend on it.
+struct Window {
+    child: Child,
+    over: bool,
+}
+
+impl Window {
+    fn open(args: &[String]) -> Option<Self> {
+        let opened = Child::start_beside("view", args, &spare_threads());
+        opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok().map(|child| Self { child, over: false })
+    }
+
+    /// Tells once how it ended.
+    fn look(&mut self) {
+        if let Some(status) = self.child.ended().filter(|_| !self.over) {
+            self.over = true;
+            let how = if status.success() { "the window is closed" } else { "there is no window (its message stands above)" };
+            tracing::info!("{how}: the session goes on without");
+        }
+    }
+}
+
+/// Mesa's software driver takes every processor unless it is told otherwise; half of them are the simulator's and the monitor's.
+fn spare_threads() -> [(&'static str, String); 1] {
+    let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    [("LP_NUM_THREADS", (all / 2).max(1).to_string())]
+}
+
+fn how_to_connect(
+    title: &str,
+    args: &PortArgs,
+    ports: &serde_json::Value,
+    session: &Path,
+    (web, window): (Option<&Server>, bool),
+) -> String {
     let port = |key: &str| ports[key].as_u64().map_or("not opened".to_owned(), |port| port.to_string());
     let targets: Vec<String> = args.ground_stations().iter().map(ToString::to_string).collect();
     let (auto, targets) = if targets.is_empty() { ("no", "nobody".to_owned()) } else { ("yes", targets.join(", ")) };
@@ -187,7 +259,7 @@ fn how_to_connect(title: &str, args: &PortArgs, ports: &serde_json::Value, sessi
   pymavlink        udpout:127.0.0.1:{}
   session folder   {}
   web pages        {}
-There is no camera view yet: fly by the ground station's map and instruments, or by a script.
+{}
 Take off, do the tasks, land on the pad; the scores follow. Ctrl-C ends the session early.
 ",
         port("gcs_port"),
@@ -197,5 +269,10 @@ Take off, do the tasks, land on the pad; the scores follow. Ctrl-C ends the sess
         port("gcs_port"),
         session.display(),
         web.map_or("none".to_owned(), |web| web.address().to_owned()),
+        if window {
+            "A window shows both views, says which key does what, and flies with them; a ground station or a script may fly as well."
+        } else {
+            "No window: fly by the ground station's map and instruments, or by a script."
+        },
     )
 }

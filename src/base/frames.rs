@@ -304,6 +304,17 @@ impl<A, B> Rotation<A, B> {
         Rotation::assume(next.q * self.q)
     }
 
+    /// Part of the shorter way to another rotation: 0 is here, 1 is there. Between close rotations it turns evenly to the fourth order of
+    /// their angle.
+    #[must_use]
+    pub fn lerp(self, other: Self, t: f64) -> Self {
+        let (a, b) = (self.q.into_inner(), other.q.into_inner());
+        let b = if a.dot(&b) < 0.0 { -b } else { b };
+        let between = a * (1.0 - t) + b * t;
+        // Opposite quaternions are the same rotation, so the sum never vanishes; a rotation by half a turn has no shorter way.
+        if between.norm() > 1e-9 { Self::assume(UnitQuaternion::new_normalize(between)) } else { self }
+    }
+
     /// Turned further by a rotation vector (axis times angle in radians) expressed in the source frame `A`.
     #[must_use]
     pub fn turned_by(self, rotation_vector_rad: Vec3<A>) -> Self {
@@ -404,6 +415,15 @@ mod tests {
     fn exact_euler_angles_come_back() {
         let (r, p, y) = Rotation::from_euler(0.3, -0.4, 2.5).euler();
         assert!((r - 0.3).abs() < ROUNDING && (p + 0.4).abs() < ROUNDING && (y - 2.5).abs() < ROUNDING);
+    }
+
+    #[test]
+    fn exact_half_way_between_two_headings_is_the_heading_between() {
+        let deg = |yaw: f64| Rotation::from_euler(0.0, 0.0, yaw.to_radians());
+        let yaw = |a: f64, b: f64, t: f64| deg(a).lerp(deg(b), t).yaw_rad().to_degrees();
+        assert!((yaw(10.0, 50.0, 0.5) - 30.0).abs() < 1e-9);
+        assert!((yaw(170.0, -170.0, 0.5).abs() - 180.0).abs() < 1e-9, "the shorter way");
+        assert!((yaw(0.0, 4.0, 0.25) - 1.0).abs() < 1e-4);
     }
 
     #[test]

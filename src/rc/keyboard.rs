@@ -46,8 +46,8 @@ const PUSHES: [(&str, Push, &str); 8] = [
 const KEYS: [(Action, &str); 11] = [
     (Action::Lamp, "b"),
     (Action::Snapshot, "p"),
-    (Action::Arm, "m"),
-    (Action::Disarm, "n"),
+    (Action::Arm, "1"),
+    (Action::Disarm, "0"),
     (Action::TakeOff, "t"),
     (Action::Land, "l"),
     (Action::Return, "r"),
@@ -57,12 +57,49 @@ const KEYS: [(Action, &str); 11] = [
     (Action::GimbalDown, "pagedown"),
 ];
 
-/// Which key does what. Keys by name: a letter, a digit, `up`, `down`, `left`, `right`, `space`, `enter`, `pageup`, `pagedown`.
+/// What a key does in the window of the view; a terminal has none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Wish {
+    /// Both views side by side, the camera's large, the inspector's large.
+    Swap,
+    /// The map on or off.
+    Map,
+    /// The inspector looks after the aircraft again.
+    Follow,
+    /// The inspector turns left.
+    LookLeft,
+    /// The inspector turns right.
+    LookRight,
+    /// The inspector looks up.
+    LookUp,
+    /// The inspector looks down.
+    LookDown,
+    /// The inspector sees nearer.
+    ZoomIn,
+    /// The inspector sees wider.
+    ZoomOut,
+}
+
+const WISHES: [(&str, Wish, &str); 9] = [
+    ("swap", Wish::Swap, "tab"),
+    ("map", Wish::Map, "m"),
+    ("follow", Wish::Follow, "f"),
+    ("look_left", Wish::LookLeft, ","),
+    ("look_right", Wish::LookRight, "."),
+    ("look_up", Wish::LookUp, "i"),
+    ("look_down", Wish::LookDown, "k"),
+    ("zoom_in", Wish::ZoomIn, "+"),
+    ("zoom_out", Wish::ZoomOut, "-"),
+];
+
+/// Which key does what. Keys by name: a letter, a digit, another sign, `up`, `down`, `left`, `right`, `space`, `enter`, `pageup`,
+/// `pagedown`, `tab`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Keys {
     push: f64,
     pushes: BTreeMap<String, Push>,
     actions: BTreeMap<String, Action>,
+    wishes: BTreeMap<String, Wish>,
 }
 
 impl Default for Keys {
@@ -71,6 +108,7 @@ impl Default for Keys {
             push: PUSH,
             pushes: PUSHES.iter().map(|(_, push, key)| ((*key).to_owned(), *push)).collect(),
             actions: KEYS.iter().map(|(action, key)| ((*key).to_owned(), *action)).collect(),
+            wishes: WISHES.iter().map(|(_, wish, key)| ((*key).to_owned(), *wish)).collect(),
         }
     }
 }
@@ -89,6 +127,7 @@ impl Keys {
                 push: r.number(&mut root, "push", (0.05, 1.0), Some(PUSH)),
                 pushes: BTreeMap::new(),
                 actions: BTreeMap::new(),
+                wishes: BTreeMap::new(),
             };
             let mut taken: BTreeMap<String, &str> = BTreeMap::new();
             let mut s = r.section(&mut root, "sticks");
@@ -105,6 +144,13 @@ impl Keys {
                 keys.actions.insert(key, action);
             }
             r.finish(&s);
+            let mut s = r.section(&mut root, "window");
+            for (name, wish, usual) in WISHES {
+                let key = r.text(&mut s, name, Some(usual)).to_lowercase();
+                own(&mut r, &s, name, &key, &mut taken);
+                keys.wishes.insert(key, wish);
+            }
+            r.finish(&s);
             r.finish(&root);
             keys
         });
@@ -114,7 +160,24 @@ impl Keys {
         }
     }
 
-    /// The keys in words, a line each.
+    /// What a key does in the window.
+    #[must_use]
+    pub fn wish(&self, key: &str) -> Option<Wish> {
+        self.wishes.get(&key.to_lowercase()).copied()
+    }
+
+    /// The key of a wish or action by its name in files.
+    #[must_use]
+    pub fn of(&self, name: &str) -> Option<&str> {
+        let push = PUSHES.iter().find(|p| p.0 == name).map(|p| p.1);
+        let wish = WISHES.iter().find(|w| w.0 == name).map(|w| w.1);
+        let pushes = self.pushes.iter().filter(|(_, p)| Some(**p) == push).map(|(key, _)| key);
+        let wishes = self.wishes.iter().filter(|(_, w)| Some(**w) == wish).map(|(key, _)| key);
+        let actions = self.actions.iter().filter(|(_, a)| a.name() == name).map(|(key, _)| key);
+        pushes.chain(wishes).chain(actions).next().map(String::as_str)
+    }
+
+    /// The keys of the sticks and of the vehicle in words, a line each.
     #[must_use]
     pub fn explain(&self) -> String {
         let pushes = self
@@ -150,6 +213,12 @@ impl Keyboard {
     #[must_use]
     pub fn new(keys: Keys) -> Self {
         Self { keys, held: BTreeMap::new() }
+    }
+
+    /// Which key does what.
+    #[must_use]
+    pub fn keys(&self) -> &Keys {
+        &self.keys
     }
 
     /// A key went down (again). Where releases are not told, `until_released` is false and it counts as held for [`HELD_S`].
@@ -228,6 +297,8 @@ mod tests {
         let mut board = Keyboard::new(keys);
         board.press("space", true, at(0.0));
         assert_eq!(board.sticks(at(0.0)).up, 1.0);
+        assert_eq!((board.keys().of("up"), board.keys().of("lamp")), (Some("space"), Some("b")));
+        assert_eq!((board.keys().wish("Tab"), board.keys().wish("w")), (Some(Wish::Swap), None));
         let told = Keys::read("keys.toml", "format = 1\n[sticks]\nup = \"b\"\n[actions]\nfly = \"f\"\n").unwrap_err().to_string();
         assert!(told.contains("does up already") && told.contains("fly"), "{told}");
     }

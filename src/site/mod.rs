@@ -22,7 +22,7 @@ pub mod heights;
 mod nearest;
 pub mod terrain;
 
-use crate::base::frames::{Enu, Vec3};
+use crate::base::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::scenario::bridges::{Lane, Member};
@@ -135,6 +135,26 @@ pub struct CameraPose {
     pub right: Vec3<Enu>,
     /// The lamp is on (it looks where the camera looks).
     pub lamp_on: bool,
+}
+
+impl CameraPose {
+    /// The camera of an aircraft in a pose: the attitude gives the heading, the gimbal holds roll level and its pitch over the horizon, rad,
+    /// up positive.
+    #[must_use]
+    pub fn on(
+        camera: &Camera,
+        (position_m, ned_from_frd): (Vec3<Enu>, Rotation<Frd, Ned>),
+        gimbal_rad: f64,
+        lamp_on: bool,
+    ) -> Self {
+        let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, gimbal_rad, ned_from_frd.yaw_rad());
+        Self {
+            position_m: position_m + (ned_from_frd * camera.position_m).enu(),
+            forward: (looking * Vec3::new(1.0, 0.0, 0.0)).enu(),
+            right: (looking * Vec3::new(0.0, 1.0, 0.0)).enu(),
+            lamp_on,
+        }
+    }
 }
 
 /// How one defect shows in a picture: every condition on its own, so that a report can name what failed.

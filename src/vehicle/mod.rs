@@ -210,7 +210,16 @@ pub struct Camera {
     pub gimbal_rate_rad_s: f64,
 }
 
+/// Width of the sensor, mm (1/2.3 inch; estimate): focal lengths in mm follow from the field of view.
+pub const SENSOR_MM: f64 = 6.17;
+
 impl Camera {
+    /// Focal length, mm.
+    #[must_use]
+    pub fn focal_mm(&self) -> f64 {
+        0.5 * SENSOR_MM / math::tan(0.5 * self.hfov_rad)
+    }
+
     /// Focal length in pixels of the ideal pinhole.
     #[must_use]
     pub fn focal_px(&self) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::hud::Gnss;
 use crate::base::time::SimTime;
-use crate::mav::codec::Decoder;
+use crate::mav::codec::{Decoder, Received};
 use crate::mav::dialect::{
     GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavAutopilot, MavMessage, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA,
 };
@@ -32,9 +32,14 @@ impl Feed {
     /// Takes what a datagram holds, heard at this simulation time.
     pub fn hear(&mut self, bytes: &[u8], now: SimTime) {
         for received in Decoder::new().datagram(bytes) {
-            if let Some(message) = &received.message {
-                self.message(message, received.component_id, now);
-            }
+            self.take(&received, now);
+        }
+    }
+
+    /// Takes a frame, heard at this simulation time.
+    pub fn take(&mut self, received: &Received, now: SimTime) {
+        if let Some(message) = &received.message {
+            self.message(message, received.component_id, now);
         }
     }
 

@@ -2,17 +2,22 @@
 //! card is plain data and pure functions; only `gpu` (feature `view`) knows a device.
 //!
 //! [`scene`] turns a [`Site`](crate::site::Site) into meshes once and into what moves for every picture; [`camera`] says from where and how
-//! bright; [`hud`] lays the head-up display out; [`shaders`] holds the sources of the shaders.
+//! bright; [`hud`] lays the head-up display out; [`live`] hears a flight and says what to draw now; [`shaders`] holds the sources of the shaders.
 
+pub mod arrange;
 pub mod camera;
 pub mod exposure;
 pub mod feed;
+pub mod gaze;
 #[cfg(feature = "view")]
 pub mod gpu;
 pub mod hud;
+pub mod live;
 pub mod matrix;
 pub mod mesh;
 pub mod noise;
+#[cfg(feature = "view")]
+pub mod photo;
 pub mod picture;
 pub mod quality;
 pub mod scene;
@@ -21,3 +26,5 @@ pub mod shadows;
 pub mod shot;
 pub mod sky;
 pub mod stage;
+#[cfg(feature = "view")]
+pub mod video;

@@ -1,8 +1,9 @@
 //! From a moment of a flight to the shots of both views.
 
-use super::camera::{EYE_HEIGHT_M, Eye, INSPECTOR_FOV_RAD};
+use super::camera::Eye;
 use super::exposure::{Exposure, Lighting, meter};
 use super::feed::{Feed, shutter};
+use super::gaze::Gaze;
 use super::hud::{Hud, Track};
 use super::scene::{DronePose, Scene};
 use super::shot::{Beam, Finish, Shot, wind};
@@ -14,11 +15,6 @@ use crate::scenario::Scenario;
 use crate::site::{CameraPose, Site};
 use crate::telemetry::Flight;
 use crate::vehicle::{Camera, Vehicle};
-
-/// The inspector's view narrows on a drone that is farther away than this, m, as binoculars do.
-const NARROW_FROM_M: f64 = 60.0;
-/// And shows no less than this, rad.
-const NARROWEST_RAD: f64 = 0.22;
 
 /// What does not change during a session.
 #[derive(Debug, Clone, Copy)]
@@ -68,16 +64,15 @@ impl Stage<'_> {
     /// What the inspector at the pad sees, looking at the aircraft.
     #[must_use]
     pub fn inspector(&self, moment: &Moment, size_px: (u32, u32)) -> Shot {
+        self.looking(&Gaze::default(), moment, size_px)
+    }
+
+    /// What the inspector sees who looks where they want.
+    #[must_use]
+    pub fn looking(&self, gaze: &Gaze, moment: &Moment, size_px: (u32, u32)) -> Shot {
         let stands = self.scenario.ground_team.inspector_m;
-        let to = moment.drone.position_m - stands;
-        let level: Vec3<Enu> = Vec3::new(to.east(), to.north(), 0.0);
-        let ahead = if level.norm() > 0.5 { level.unit() } else { Vec3::new(0.0, 1.0, 0.0) };
-        // Half a step ahead, so that the own body is not in the picture.
-        let eye_m = stands + ahead * 0.45 + Vec3::new(0.0, 0.0, EYE_HEIGHT_M);
-        let distance = (moment.drone.position_m - eye_m).norm();
-        let vfov = (INSPECTOR_FOV_RAD * NARROW_FROM_M / distance.max(NARROW_FROM_M)).max(NARROWEST_RAD);
         let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
-        self.person(Eye::at(eye_m, moment.drone.position_m, vfov, aspect), moment, size_px)
+        self.person(gaze.eye(stands, moment.drone.position_m, aspect), moment, size_px)
     }
 
     /// What a person sees from anywhere.
@@ -120,21 +115,56 @@ impl Stage<'_> {
     }
 }
 
+/// What the display tells besides the moment itself and the feed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Told {
+    /// Battery, %, once it has been heard of.
+    pub battery_pct: Option<f64>,
+    /// Lift-off.
+    pub begun: Option<SimTime>,
+    /// Age of the newest telemetry, s.
+    pub silent_s: f64,
+    /// Pictures taken.
+    pub pictures: usize,
+    /// When the last one was taken.
+    pub taken: Option<SimTime>,
+}
+
+impl Told {
+    /// From a recorded flight.
+    #[must_use]
+    pub fn of(flight: &Flight, pad_up_m: f64, at: SimTime) -> Self {
+        let newest = flight.truths.iter().rev().find(|truth| truth.time <= at).map(|truth| truth.time);
+        let taken = flight.snapshots.all().iter().filter(|shot| shot.0 <= at);
+        Self {
+            battery_pct: flight.battery.at(at),
+            begun: flight.lift_off(pad_up_m, LIFT_OFF_M).filter(|begun| *begun <= at),
+            silent_s: newest.map_or(0.0, |newest| (at - newest).s()),
+            pictures: taken.clone().count(),
+            taken: taken.map(|shot| shot.0).max(),
+        }
+    }
+}
+
 /// What a flight's telemetry tells the display at a moment. `feed` tells the rest; `held`: its cues come from a record that tells changes
 /// only. `map`: the reference paths may be shown.
 #[must_use]
-pub fn hud(stage: &Stage, moment: &Moment, flight: &Flight, (feed, held): (&Feed, bool), map: bool) -> Hud {
+pub fn hud(stage: &Stage, moment: &Moment, flight: &Flight, feed: (&Feed, bool), map: bool) -> Hud {
+    let told = Told::of(flight, stage.scenario.ground_team.pad_m.up(), moment.at);
+    display(stage, moment, &told, feed, map)
+}
+
+/// The same from what has been told, by whomever.
+#[must_use]
+pub fn display(stage: &Stage, moment: &Moment, told: &Told, (feed, held): (&Feed, bool), map: bool) -> Hud {
     let (scenario, at) = (stage.scenario, moment.at);
     let pad_m = scenario.ground_team.pad_m;
     let from_pad = moment.drone.position_m - pad_m;
-    let begun = flight.lift_off(pad_m.up(), LIFT_OFF_M).filter(|begun| *begun <= at);
-    let newest = flight.truths.iter().rev().find(|truth| truth.time <= at).map(|truth| truth.time);
-    let taken = flight.snapshots.all().iter().filter(|shot| shot.0 <= at);
     let wide = math::tan(0.5 * stage.vehicle.camera.hfov_rad);
     Hud {
         speed_m_s: moment.velocity_m_s.norm(),
         limit_m_s: scenario.scoring.speed_limit_m_s,
-        battery_pct: flight.battery.at(at),
+        battery_pct: told.battery_pct,
         green_pct: scenario.feedback.battery_green_pct,
         yellow_pct: scenario.feedback.battery_yellow_pct,
         cues: feed.cues(at, held),
@@ -143,13 +173,13 @@ pub fn hud(stage: &Stage, moment: &Moment, flight: &Flight, (feed, held): (&Feed
         home_m: from_pad.horizontal_norm(),
         mode: feed.mode().to_owned(),
         gnss: feed.gnss(),
-        silent_s: newest.map_or(0.0, |newest| (at - newest).s()),
+        silent_s: told.silent_s,
         gimbal_rad: math::asin(moment.camera.forward.up().clamp(-1.0, 1.0)),
         zoom: wide / math::tan(0.5 * moment.lens.hfov_rad),
         lamp: moment.camera.lamp_on,
-        left_s: scenario.scoring.time_max_s - begun.map_or(0.0, |begun| (at - begun).s()),
-        pictures: taken.clone().count(),
-        shutter: shutter(taken.max_by_key(|shot| shot.0).map(|shot| shot.0), at),
+        left_s: scenario.scoring.time_max_s - told.begun.map_or(0.0, |begun| (at - begun).s()),
+        pictures: told.pictures,
+        shutter: shutter(told.taken, at),
         time_s: at.s(),
         position_m: moment.drone.position_m,
         heading_rad: moment.drone.ned_from_frd.yaw_rad(),
@@ -159,7 +189,7 @@ pub fn hud(stage: &Stage, moment: &Moment, flight: &Flight, (feed, held): (&Feed
 }
 
 /// Flight time counts from this height over the pad, m (assessment.md, frames).
-const LIFT_OFF_M: f64 = 0.3;
+pub const LIFT_OFF_M: f64 = 0.3;
 
 fn tracks(scenario: &Scenario) -> Vec<Track> {
     let track = |task: &crate::scenario::Task| Track { id: task.id, path_m: task.path_m.clone(), closed: task.closed };

@@ -217,7 +217,7 @@ fn wire_before_every_picture_stands_the_field_of_view_that_it_has() {
 }
 
 #[test]
-fn wire_focus_is_answered_as_it_is_and_streams_do_not_run_yet() {
+fn wire_focus_is_answered_as_it_is_and_a_stream_runs_while_somebody_sends_it() {
     let mut station = on_the_pad("phantom2");
     for (kind, result) in [(0.0, UNSUPPORTED), (1.0, UNSUPPORTED), (2.0, UNSUPPORTED), (3.0, UNSUPPORTED), (4.0, OK), (6.0, OK)] {
         assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_FOCUS, p(&[kind, 1.0])), result, "{kind}");
@@ -232,6 +232,32 @@ fn wire_focus_is_answered_as_it_is_and_streams_do_not_run_yet() {
     let stream = station.last(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.clone()) } else { None }).unwrap();
     assert_eq!((stream.stream_id, stream.count, stream.mavtype), (1, 1, VideoStreamType::VIDEO_STREAM_TYPE_RTPUDP));
     assert_eq!((stream.flags, stream.uri.to_str()), (VideoStreamStatusFlags::empty(), Ok("5600")));
+    let running = VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING;
+    let sent = VIDEO_STREAM_STATUS_DATA {
+        framerate: 20.0,
+        bitrate: 1_000_000,
+        flags: running,
+        resolution_h: 640,
+        resolution_v: 360,
+        stream_id: 1,
+        ..Default::default()
+    };
+    station.heard.clear();
+    station.send(&MavMessage::VIDEO_STREAM_STATUS(sent.clone()));
+    station.run_ms(100);
+    let told = |station: &Station| {
+        station.last(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.clone()) } else { None })
+    };
+    let stream = told(&station).expect("told to everybody at once");
+    assert_eq!((stream.flags, stream.resolution_h, stream.resolution_v, stream.framerate), (running, 640, 360, 20.0));
+    assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_STREAMING, p(&[1.0])), OK);
+    station.send(&MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA { framerate: f32::NAN, resolution_h: 9, ..sent }));
+    station.run_ms(3_000);
+    assert_eq!(ask(&mut station, 269), OK);
+    assert_eq!(told(&station).map(|s| (s.flags, s.resolution_h)), Some((running, 640)), "nonsense changes nothing");
+    station.run_ms(1_000);
+    assert_eq!(ask(&mut station, 269), OK);
+    assert_eq!(told(&station).map(|s| s.flags), Some(VideoStreamStatusFlags::empty()), "nobody sends it any more");
     for track in [MavCmd::MAV_CMD_CAMERA_TRACK_POINT, MavCmd::MAV_CMD_CAMERA_STOP_TRACKING] {
         assert_eq!(station.command(CAMERA, track, p(&[0.5, 0.5])), UNSUPPORTED);
     }

@@ -2,16 +2,21 @@
 
 #[cfg(feature = "gamepad")]
 mod gamepad;
+mod hand;
 mod profiles;
 mod terminal;
 
+pub use hand::{Hand, Look};
 pub use profiles::{Profiles, read as read_profile};
 pub use terminal::{Key, Terminal};
 
 use super::errors::AppError;
+use super::files;
 use crate::base::time::SimTime;
+use crate::rc::keyboard::Keys;
 use crate::rc::record::Record;
 use crate::rc::{Device, Event};
+use std::path::Path;
 
 /// A source of raw events.
 #[derive(Debug)]
@@ -65,6 +70,17 @@ impl Source {
 
 #[cfg(not(feature = "gamepad"))]
 const NO_GAMEPADS: &str = "this build reads no gamepads (build with --features gamepad; on Debian and Ubuntu that needs libudev-dev); --keyboard flies without one";
+
+/// Which key does what: a file's, or the usual ones.
+///
+/// # Errors
+/// When the file cannot be read or is wrong.
+pub fn keys(file: Option<&Path>) -> Result<Keys, AppError> {
+    match file {
+        Some(path) => Ok(Keys::read(&path.display().to_string(), &files::read(path)?)?),
+        None => Ok(Keys::default()),
+    }
+}
 
 /// All devices that are connected.
 ///

@@ -3,28 +3,22 @@
 use super::super::errors::AppError;
 use super::super::files;
 use super::super::progress::Progress;
-use super::super::session_folder::Stored;
 use super::Args;
+use super::recorded::Recorded;
+use super::{snapshots, video};
 use crate::base::frames::{Enu, Vec3};
-use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
-use crate::monitor::assessment::scored_flight;
-use crate::monitor::folder::EVENTS;
-use crate::monitor::measures::attention;
 use crate::scenario::Scenario;
 use crate::site::Site;
-use crate::telemetry::sample::{Header, truth_time};
-use crate::telemetry::{Flight, Timeline, tlog};
 use crate::vehicle::{Camera, Vehicle};
 use crate::view::camera::Eye;
-use crate::view::feed::Feed;
 use crate::view::gpu::{Gpu, GpuError, Overlay, Renderer};
 use crate::view::hud;
 use crate::view::picture::Picture;
 use crate::view::quality::{PRESETS, Quality};
-use crate::view::scene::{DronePose, Scene};
+use crate::view::scene::Scene;
 use crate::view::shot::Shot;
-use crate::view::stage::{self, Moment, Stage, aimed, parked};
+use crate::view::stage::{self, Stage, aimed, parked};
 
 /// Largest side of a picture, px.
 const LARGEST_PX: u32 = 8192;
@@ -37,19 +31,27 @@ impl From<GpuError> for AppError {
 
 /// Draws what was asked for.
 pub fn run(args: &Args) -> Result<(), AppError> {
+    if args.snapshots {
+        return snapshots::run(args);
+    }
+    if let Some(path) = &args.video {
+        return video::run(args, path);
+    }
     let quality = quality(&args.quality)?;
-    let size = size(&args.size)?;
+    let size = size(args.size.as_deref().unwrap_or("1280x720"))?;
     let path = std::path::Path::new(&args.what);
     let picture = if path.is_dir() { of_session(args, quality, size)? } else { of_scenario(args, quality, size)? };
     files::write(&args.out, &png(&picture)?)
 }
 
-fn quality(name: &str) -> Result<Quality, AppError> {
+/// The preset of a name.
+pub fn quality(name: &str) -> Result<Quality, AppError> {
     let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
     Quality::named(name).ok_or_else(|| AppError::wrong(format!("--quality {name}: give one of {}", names.join(", "))))
 }
 
-fn size(text: &str) -> Result<(u32, u32), AppError> {
+/// Width and height from the command line, px.
+pub fn size(text: &str) -> Result<(u32, u32), AppError> {
     let wrong = || AppError::wrong(format!("--size {text}: give width x height in px, each 16 to {LARGEST_PX}, as 1280x720"));
     let (width, height) = text.split_once('x').ok_or_else(wrong)?;
     let side = |text: &str| text.parse::<u32>().ok().filter(|px| (16..=LARGEST_PX).contains(px)).ok_or_else(wrong);
@@ -64,7 +66,8 @@ fn point(name: &str, text: &str) -> Result<Vec3<Enu>, AppError> {
     }
 }
 
-fn instant(seconds: f64) -> Result<SimTime, AppError> {
+/// A time from the command line.
+pub fn instant(seconds: f64) -> Result<SimTime, AppError> {
     if (0.0..=86_400.0).contains(&seconds) {
         Ok(SimTime::from_s(seconds))
     } else {
@@ -107,26 +110,12 @@ fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pictur
 
 /// A moment of a session.
 fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
-    let stored = Stored::read(std::path::Path::new(&args.what))?;
-    let (scenario, vehicle) = (&stored.scenario.scenario, &stored.vehicle.vehicle);
-    let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
-    timeline.push_log(&stored.log);
-    let flight = scored_flight(&timeline, scenario, vehicle);
-    let (Some(first), Some(last)) = (flight.truths.first(), flight.truths.last()) else {
-        return Err(AppError::failed("the session holds no flight to draw"));
-    };
-    let middle = 0.5 * (first.time.s() + last.time.s());
-    let at = instant(args.at.unwrap_or(middle))?;
-    let Some(moment) = moment(&flight, at, vehicle) else {
-        return Err(AppError::failed(format!(
-            "the session holds nothing at {:.1} s: it goes from {:.1} to {:.1} s",
-            at.s(),
-            first.time.s(),
-            last.time.s()
-        )));
-    };
-    let seed = scenario.seed.or(flight.seeds.all().first().map(|said| said.2)).unwrap_or_default();
-    let drawing = Drawing::new(scenario, vehicle, seed, quality, at)?;
+    let recorded = Recorded::read(std::path::Path::new(&args.what))?;
+    let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
+    let (first, last) = recorded.span();
+    let at = instant(args.at.unwrap_or(0.5 * (first.s() + last.s())))?;
+    let moment = recorded.moment(at)?;
+    let drawing = Drawing::new(scenario, vehicle, recorded.seed(), quality, at)?;
     let stage = drawing.stage(scenario, vehicle);
     let mut views = Vec::new();
     if args.view != "camera" {
@@ -135,70 +124,30 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
         views.push((shot, if args.no_hud { Vec::new() } else { mark }));
     }
     if args.view != "inspector" {
-        let feed = heard(&stored, std::path::Path::new(&args.what), at);
-        let display = hud::layout(&stage::hud(&stage, &moment, &flight, (&feed, true), true), aspect(size));
-        views.push((stage.camera(&moment, size), if args.no_hud { Vec::new() } else { display }));
+        let mut heard = recorded.heard();
+        let display = stage::hud(&stage, &moment, &recorded.flight, (heard.until(at), true), true);
+        views.push((stage.camera(&moment, size), if args.no_hud { Vec::new() } else { hud::layout(&display, aspect(size)) }));
     }
     drawing.draw(&views)
 }
 
-fn aspect((width, height): (u32, u32)) -> f64 {
+/// Width over height.
+pub fn aspect((width, height): (u32, u32)) -> f64 {
     f64::from(width) / f64::from(height)
 }
 
-/// What the display tells besides the flight: from the telemetry up to a time, and the monitor's own cues and words from its record.
-fn heard(stored: &Stored, folder: &std::path::Path, at: SimTime) -> Feed {
-    let mut feed = Feed::default();
-    let mut now = SimTime::ZERO;
-    for record in tlog::Reader::new(&stored.log) {
-        now = truth_time(record.frame).unwrap_or(now);
-        if now > at {
-            break;
-        }
-        if Header::peek(record.frame).is_some_and(|header| Feed::listens(header.message_id)) {
-            feed.hear(record.frame, now);
-        }
-    }
-    // A session without its record of events is drawn without cues.
-    for line in files::read(&folder.join(EVENTS)).unwrap_or_default().lines() {
-        let Ok(event) = serde_json::from_str::<serde_json::Value>(line) else { continue };
-        let Some(time) = event["t_s"].as_f64().map(SimTime::from_s).filter(|time| *time <= at) else { continue };
-        if let Some(mask) = event["cues"].as_i64() {
-            feed.cue(i32::try_from(mask).unwrap_or(0), time);
-        }
-        if let Some(words) = event["text"].as_str() {
-            feed.words(words);
-        }
-    }
-    feed
-}
-
-/// Where everything was; `None` where the telemetry says nothing.
-fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<Moment> {
-    let state = flight.between(at)?;
-    Some(Moment {
-        at,
-        drone: DronePose {
-            position_m: state.position_m,
-            ned_from_frd: state.ned_from_frd,
-            spinning: flight.armed.at(at).unwrap_or(false),
-        },
-        velocity_m_s: state.velocity_m_s,
-        camera: attention::pose(flight, at, vehicle)?,
-        lens: attention::camera(flight, at, &vehicle.camera),
-    })
-}
-
 /// A site and what draws it.
-struct Drawing {
-    gpu: Gpu,
+pub struct Drawing {
+    /// The device.
+    pub gpu: Gpu,
     site: Site,
     scene: Scene,
     quality: Quality,
 }
 
 impl Drawing {
-    fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
+    /// Opens a device and builds the site: seconds of work.
+    pub fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
         let gpu = Gpu::open()?;
         tracing::info!("drawing with {}", gpu.name);
         let progress = Progress::start("building the site and its light");
@@ -208,19 +157,35 @@ impl Drawing {
         Ok(Self { gpu, site, scene, quality })
     }
 
-    fn stage<'a>(&'a self, scenario: &'a Scenario, vehicle: &'a Vehicle) -> Stage<'a> {
+    /// What does not change during a session.
+    pub fn stage<'a>(&'a self, scenario: &'a Scenario, vehicle: &'a Vehicle) -> Stage<'a> {
         Stage { scenario, vehicle, site: &self.site, scene: &self.scene }
+    }
+
+    /// What draws one picture after the other.
+    pub fn brush(&self) -> Brush<'_> {
+        Brush { gpu: &self.gpu, renderer: Renderer::new(&self.gpu, self.quality, &self.scene), overlay: Overlay::new(&self.gpu) }
     }
 
     /// Shots side by side, each with what lies over it.
     fn draw(&self, views: &[(Shot, Vec<hud::Item>)]) -> Result<Picture, AppError> {
-        let mut renderer = Renderer::new(&self.gpu, self.quality, &self.scene);
-        let mut overlay = Overlay::new(&self.gpu);
-        let mut pictures = Vec::new();
-        for (shot, items) in views {
-            pictures.push(renderer.picture_with(&self.gpu, shot, &mut overlay, items)?);
-        }
+        let mut brush = self.brush();
+        let pictures = views.iter().map(|(shot, items)| brush.draw(shot, items)).collect::<Result<Vec<_>, _>>()?;
         Ok(beside(&pictures))
+    }
+}
+
+/// A scene on the device.
+pub struct Brush<'a> {
+    gpu: &'a Gpu,
+    renderer: Renderer,
+    overlay: Overlay,
+}
+
+impl Brush<'_> {
+    /// A picture with what lies over it.
+    pub fn draw(&mut self, shot: &Shot, items: &[hud::Item]) -> Result<Picture, AppError> {
+        Ok(self.renderer.picture_with(self.gpu, shot, &mut self.overlay, items)?)
     }
 }
 
@@ -232,7 +197,8 @@ fn beside(pictures: &[Picture]) -> Picture {
     Picture { width, height, rgba }
 }
 
-fn png(picture: &Picture) -> Result<Vec<u8>, AppError> {
+/// A picture as a PNG file.
+pub fn png(picture: &Picture) -> Result<Vec<u8>, AppError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);
     encoder.set_color(png::ColorType::Rgb);

@@ -1,6 +1,6 @@
 //! Visual attention: what each picture shows, by geometry and light.
 
-use crate::base::frames::{Enu, Ned, Rotation, Vec3};
+use crate::base::frames::{Enu, Vec3};
 use crate::base::time::SimTime;
 use crate::scenario::PlacedDefect;
 use crate::site::{CameraPose, DefectView, Site};
@@ -97,19 +97,13 @@ pub fn camera(flight: &Flight, time: SimTime, camera: &Camera) -> Camera {
     }
 }
 
-/// Where the camera was: attitude gives the heading, the gimbal holds roll level and its pitch over the horizon.
+/// Where the camera was.
 #[must_use]
 pub fn pose(flight: &Flight, time: SimTime, vehicle: &Vehicle) -> Option<CameraPose> {
     let state = flight.between(time)?;
-    let yaw = state.ned_from_frd.yaw_rad();
-    let pitch = flight.gimbal.at(time).unwrap_or(0.0);
-    let looking: Rotation<_, Ned> = Rotation::from_euler(0.0, pitch, yaw);
-    Some(CameraPose {
-        position_m: state.position_m + (state.ned_from_frd * vehicle.camera.position_m).enu(),
-        forward: (looking * Vec3::new(1.0, 0.0, 0.0)).enu(),
-        right: (looking * Vec3::new(0.0, 1.0, 0.0)).enu(),
-        lamp_on: flight.light.at(time).unwrap_or(false),
-    })
+    let gimbal_rad = flight.gimbal.at(time).unwrap_or(0.0);
+    let lamp_on = flight.light.at(time).unwrap_or(false);
+    Some(CameraPose::on(&vehicle.camera, (state.position_m, state.ned_from_frd), gimbal_rad, lamp_on))
 }
 
 fn view(look: &DefectView) -> View {

@@ -2,6 +2,7 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::arrival::Arrival;
+use super::camera::stream;
 use super::commands::{self, Command};
 use super::guard::Admitted;
 use super::streams::{AUTOPILOT, CAMERA};
@@ -63,6 +64,7 @@ handlers! {
     MISSION_SET_CURRENT MISSION_SET_CURRENT_DATA exchange::mission_set_current,
     MISSION_REQUEST_PARTIAL_LIST MISSION_REQUEST_PARTIAL_LIST_DATA exchange::mission_request_partial,
     MISSION_WRITE_PARTIAL_LIST MISSION_WRITE_PARTIAL_LIST_DATA exchange::mission_write_partial,
+    VIDEO_STREAM_STATUS VIDEO_STREAM_STATUS_DATA stream::status,
     LOG_REQUEST_LIST LOG_REQUEST_LIST_DATA exchange::log_list,
     LOG_REQUEST_DATA LOG_REQUEST_DATA_DATA exchange::log_data,
     LOG_REQUEST_END LOG_REQUEST_END_DATA exchange::log_end,

@@ -117,6 +117,8 @@ pub struct CameraSummary {
     pub zoom: f64,
     /// Rate of recordings, Mbit/s.
     pub video_mbit_s: u32,
+    /// The live picture, while it runs.
+    pub stream: Option<super::camera::stream::Stream>,
 }
 
 /// What is kept of plans.

@@ -23,6 +23,10 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// What it calls itself.
     pub name: String,
+    /// It is a program on the processor, not a graphics card.
+    pub software: bool,
+    /// Whose device it is.
+    pub adapter: wgpu::Adapter,
 }
 
 impl Gpu {
@@ -52,6 +56,7 @@ impl Gpu {
         let descriptor = wgpu::DeviceDescriptor { label: Some("spandrel"), required_limits: limits, ..Default::default() };
         let (device, queue) =
             pollster::block_on(adapter.request_device(&descriptor)).map_err(|e| GpuError::NoDevice(e.to_string()))?;
-        Ok(Self { device, queue, name: adapter.get_info().name })
+        let info = adapter.get_info();
+        Ok(Self { device, queue, name: info.name, software: info.device_type == wgpu::DeviceType::Cpu, adapter })
     }
 }

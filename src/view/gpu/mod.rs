@@ -9,5 +9,5 @@ mod targets;
 mod uniforms;
 
 pub use device::{Gpu, GpuError};
-pub use overlay::Overlay;
+pub use overlay::{Overlay, paint};
 pub use renderer::{Counts, Renderer, picture_texture, read};

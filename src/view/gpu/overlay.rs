@@ -31,9 +31,7 @@ impl Overlay {
         let input = egui::RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), ..egui::RawInput::default() };
         let mut output = self.context.run_ui(input, |ui| {
             let painter = ui.ctx().layer_painter(egui::LayerId::background());
-            for item in items {
-                paint(&painter, item, size);
-            }
+            paint(&painter, items, Rect::from_min_size(Pos2::ZERO, size));
         });
         let mut changes = std::mem::take(&mut output.textures_delta);
         for (id, deltas) in &changes.set {
@@ -70,8 +68,16 @@ impl Overlay {
     }
 }
 
-fn paint(painter: &egui::Painter, item: &Item, size: egui::Vec2) {
-    let px = |p: &Point| Pos2::new(p.x as f32 * size.x, p.y as f32 * size.y);
+/// Paints items over the picture that fills a rectangle.
+pub fn paint(painter: &egui::Painter, items: &[Item], rect: Rect) {
+    for item in items {
+        paint_one(painter, item, rect);
+    }
+}
+
+fn paint_one(painter: &egui::Painter, item: &Item, rect: Rect) {
+    let size = rect.size();
+    let px = |p: &Point| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
     let colour = |c: crate::view::hud::Colour| {
         let [r, g, b, a] = c.rgba();
         Color32::from_rgba_unmultiplied(r, g, b, a)

@@ -324,7 +324,7 @@ fn count(counts: &mut Counts, solid: &Solid, copies: &Copies) {
     counts.triangles += u64::from(solid.triangles()) * u64::from(copies.count());
 }
 
-/// A texture for a finished picture that can be read back.
+/// A texture for a finished picture that can be read back, and shown in a window.
 pub fn picture_texture(gpu: &Gpu, (width, height): (u32, u32)) -> wgpu::Texture {
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
@@ -333,7 +333,7 @@ pub fn picture_texture(gpu: &Gpu, (width, height): (u32, u32)) -> wgpu::Texture 
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: PICTURE,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     })
 }

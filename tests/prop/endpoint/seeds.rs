@@ -39,6 +39,15 @@ fn connection() -> Vec<MavMessage> {
         MavMessage::PING(PING_DATA { seq: 7, ..Default::default() }),
         MavMessage::REQUEST_DATA_STREAM(REQUEST_DATA_STREAM_DATA { req_message_rate: 4, start_stop: 1, ..Default::default() }),
         MavMessage::LOG_REQUEST_LIST(LOG_REQUEST_LIST_DATA { end: u16::MAX, ..Default::default() }),
+        MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
+            framerate: 25.0,
+            bitrate: 3_000_000,
+            flags: VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING,
+            resolution_h: 1280,
+            resolution_v: 720,
+            stream_id: 1,
+            ..Default::default()
+        }),
         MavMessage::LOG_REQUEST_END(LOG_REQUEST_END_DATA::default()),
         MavMessage::LOG_ERASE(LOG_ERASE_DATA::default()),
         MavMessage::LOG_REQUEST_DATA(LOG_REQUEST_DATA_DATA { count: 90, ..Default::default() }),

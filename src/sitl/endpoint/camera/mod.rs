@@ -4,6 +4,7 @@ pub mod card;
 mod series;
 pub mod settings;
 mod shot;
+pub mod stream;
 pub mod zoom;
 
 use super::payload::News;
@@ -110,6 +111,8 @@ pub struct CameraState {
     pub zoom: Zoom,
     /// What else is set.
     pub settings: Settings,
+    /// The live picture.
+    pub stream: stream::Told,
     series: Series,
     card: Card,
     recording: Option<Recording>,
@@ -129,6 +132,7 @@ impl CameraState {
             used_mib: self.used_mib(now),
             zoom: self.zoom.level(),
             video_mbit_s: self.settings.video_mbit_s,
+            stream: self.stream.running(now),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::base::math;
 use crate::vehicle::Camera;
+pub use crate::vehicle::SENSOR_MM;
 
 /// The whole range takes this long, s (estimate: small motor zooms take 2 to 4 s).
 const SWEEP_S: f64 = 3.0;
@@ -9,8 +10,6 @@ const SWEEP_S: f64 = 3.0;
 const STEPS: f64 = 10.0;
 /// A focal length or field of view this far beyond the range is taken as its end: clients round.
 const SLACK: f64 = 0.01;
-/// Width of the sensor, mm (1/2.3 inch; estimate): focal lengths in mm follow from the field of view.
-pub const SENSOR_MM: f64 = 6.17;
 
 /// What somebody wants of the lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +44,7 @@ pub struct Zoom {
 /// Focal length at the wide end, mm.
 #[must_use]
 pub fn wide_mm(camera: &Camera) -> f64 {
-    0.5 * SENSOR_MM / math::tan(0.5 * camera.hfov_rad)
+    camera.focal_mm()
 }
 
 impl Zoom {

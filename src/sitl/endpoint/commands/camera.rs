@@ -55,14 +55,17 @@ pub(super) const ROWS: &[Row] = &[
         p.camera.stop_recording(v.now);
         told(p, &[CAMERA_CAPTURE_STATUS_DATA::ID, STORAGE_INFORMATION_DATA::ID])
     }),
-    (MavCmd::MAV_CMD_VIDEO_START_STREAMING, |c, _, p| {
+    (MavCmd::MAV_CMD_VIDEO_START_STREAMING, |c, v, p| {
         if !for_us(c, 1) || !is_one_or_all(c, 0, STREAM) {
             return DENIED;
         }
-        p.news.warn("Camera: no video stream yet");
+        if v.camera.stream.is_some() {
+            return told(p, &[VIDEO_STREAM_STATUS_DATA::ID]);
+        }
+        p.news.warn("Camera: no video stream: start spandrel view --stream");
         FAILED
     }),
-    // It never runs: stopping it is done.
+    // Who sends it sends it to whoever is there: nobody is drawn to it, and nobody is sent away.
     (MavCmd::MAV_CMD_VIDEO_STOP_STREAMING, |c, _, p| {
         if !for_us(c, 1) || !is_one_or_all(c, 0, STREAM) {
             return DENIED;

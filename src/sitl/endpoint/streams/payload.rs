@@ -1,6 +1,7 @@
 //! Camera, gimbal and lamp.
 
 use super::super::camera::card::CARD_MIB;
+use super::super::camera::stream::Stream;
 use super::super::camera::{Mode, settings, zoom};
 use super::super::gimbal::DEVICE;
 use super::super::view::View;
@@ -124,24 +125,31 @@ pub(super) fn capture_status(v: &View) -> Option<MavMessage> {
     }))
 }
 
-/// The stream that a cockpit will send: size, rate (estimates: 1080p30, 8 Mbit/s) and place; it does not run.
-const STREAM: (u16, u16, f32, u32) = (1920, 1080, 30.0, 8_000_000);
+/// What is told of a stream that does not run: what `spandrel view --stream` sends unless it is told otherwise.
+const STREAM: Stream = Stream { width_px: 1280, height_px: 720, rate_hz: 25.0, bits_s: 3_000_000 };
 /// Where ground stations listen for RTP (mavlink.md 1.7).
 const STREAM_PORT: &str = "5600";
 
+fn stream_flags(v: &View) -> VideoStreamStatusFlags {
+    let mut flags = VideoStreamStatusFlags::empty();
+    flags.set(VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING, v.camera.stream.is_some());
+    flags
+}
+
 pub(super) fn stream_information(v: &View) -> Option<MavMessage> {
+    let stream = v.camera.stream.unwrap_or(STREAM);
     Some(MavMessage::VIDEO_STREAM_INFORMATION(VIDEO_STREAM_INFORMATION_DATA {
-        framerate: STREAM.2,
-        bitrate: STREAM.3,
-        flags: VideoStreamStatusFlags::empty(),
-        resolution_h: STREAM.0,
-        resolution_v: STREAM.1,
+        framerate: stream.rate_hz,
+        bitrate: stream.bits_s,
+        flags: stream_flags(v),
+        resolution_h: stream.width_px,
+        resolution_v: stream.height_px,
         rotation: 0,
         hfov: v.camera_now().hfov_rad.to_degrees().round() as u16,
         stream_id: 1,
         count: 1,
         mavtype: VideoStreamType::VIDEO_STREAM_TYPE_RTPUDP,
-        name: "Camera (not streaming yet)".into(),
+        name: "Camera".into(),
         uri: STREAM_PORT.into(),
         encoding: VideoStreamEncoding::VIDEO_STREAM_ENCODING_H264,
         ..Default::default()
@@ -149,12 +157,13 @@ pub(super) fn stream_information(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn stream_status(v: &View) -> Option<MavMessage> {
+    let stream = v.camera.stream.unwrap_or(STREAM);
     Some(MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
-        framerate: STREAM.2,
-        bitrate: STREAM.3,
-        flags: VideoStreamStatusFlags::empty(),
-        resolution_h: STREAM.0,
-        resolution_v: STREAM.1,
+        framerate: stream.rate_hz,
+        bitrate: stream.bits_s,
+        flags: stream_flags(v),
+        resolution_h: stream.width_px,
+        resolution_v: stream.height_px,
         rotation: 0,
         hfov: v.camera_now().hfov_rad.to_degrees().round() as u16,
         stream_id: 1,

@@ -1,0 +1,142 @@
+//! A recorded session as it is drawn: where everything was at any time, and what the display told.
+
+use super::super::errors::AppError;
+use super::super::files;
+use super::super::session_folder::Stored;
+use crate::base::geodesy::LocalPlane;
+use crate::base::time::SimTime;
+use crate::monitor::assessment::scored_flight;
+use crate::monitor::folder::EVENTS;
+use crate::monitor::measures::attention;
+use crate::scenario::Scenario;
+use crate::telemetry::sample::{Header, truth_time};
+use crate::telemetry::{Flight, Timeline, tlog};
+use crate::vehicle::Vehicle;
+use crate::view::feed::Feed;
+use crate::view::scene::DronePose;
+use crate::view::stage::Moment;
+use std::path::{Path, PathBuf};
+
+/// A session folder that holds a flight.
+pub struct Recorded {
+    /// Where it is.
+    pub folder: PathBuf,
+    /// What it holds.
+    pub stored: Stored,
+    /// The flight.
+    pub flight: Flight,
+}
+
+impl Recorded {
+    /// Reads a session folder.
+    ///
+    /// # Errors
+    /// When it is none, a file is wrong, or it holds no flight.
+    pub fn read(folder: &Path) -> Result<Self, AppError> {
+        let stored = Stored::read(folder)?;
+        let mut timeline = Timeline::new(LocalPlane::new(stored.scenario.scenario.origin));
+        timeline.push_log(&stored.log);
+        let flight = scored_flight(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
+        if flight.truths.is_empty() {
+            return Err(AppError::failed("the session holds no flight to draw"));
+        }
+        Ok(Self { folder: folder.to_owned(), stored, flight })
+    }
+
+    /// The job.
+    pub fn scenario(&self) -> &Scenario {
+        &self.stored.scenario.scenario
+    }
+
+    /// The aircraft.
+    pub fn vehicle(&self) -> &Vehicle {
+        &self.stored.vehicle.vehicle
+    }
+
+    /// First and last instant.
+    pub fn span(&self) -> (SimTime, SimTime) {
+        let time = |truth: Option<&crate::telemetry::Truth>| truth.map_or(SimTime::ZERO, |truth| truth.time);
+        (time(self.flight.truths.first()), time(self.flight.truths.last()))
+    }
+
+    /// The seed that placed defects and traffic.
+    pub fn seed(&self) -> u64 {
+        self.scenario().seed.or(self.flight.seeds.all().first().map(|said| said.2)).unwrap_or_default()
+    }
+
+    /// Where everything was.
+    ///
+    /// # Errors
+    /// Where the telemetry says nothing.
+    pub fn moment(&self, at: SimTime) -> Result<Moment, AppError> {
+        let (first, last) = self.span();
+        moment(&self.flight, at, self.vehicle()).ok_or_else(|| {
+            let (at, first, last) = (at.s(), first.s(), last.s());
+            AppError::failed(format!("the session holds nothing at {at:.1} s: it goes from {first:.1} to {last:.1} s"))
+        })
+    }
+
+    /// What the display tells besides the flight, from the beginning on.
+    pub fn heard(&self) -> Heard<'_> {
+        // A session without its record of events is drawn without cues.
+        let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
+        let mut events: Vec<(SimTime, serde_json::Value)> = events
+            .lines()
+            .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+            .filter_map(|event| Some((event["t_s"].as_f64().map(SimTime::from_s)?, event)))
+            .collect();
+        events.sort_by_key(|event| std::cmp::Reverse(event.0));
+        Heard { feed: Feed::default(), now: SimTime::ZERO, frames: tlog::Reader::new(&self.stored.log), next: None, events }
+    }
+}
+
+/// Mode, satellites, cues and words as they were told, up to a time that only goes on.
+pub struct Heard<'a> {
+    feed: Feed,
+    now: SimTime,
+    frames: tlog::Reader<'a>,
+    next: Option<&'a [u8]>,
+    events: Vec<(SimTime, serde_json::Value)>,
+}
+
+impl Heard<'_> {
+    /// What had been told by then: the telemetry's part, and the monitor's own cues and words from its record.
+    pub fn until(&mut self, at: SimTime) -> &Feed {
+        while let Some(frame) = self.next.take().or_else(|| self.frames.next().map(|record| record.frame)) {
+            let now = truth_time(frame).unwrap_or(self.now);
+            if now > at {
+                self.next = Some(frame);
+                break;
+            }
+            self.now = now;
+            if Header::peek(frame).is_some_and(|header| Feed::listens(header.message_id)) {
+                self.feed.hear(frame, now);
+            }
+        }
+        while let Some((time, event)) = self.events.pop_if(|(time, _)| *time <= at) {
+            if let Some(mask) = event["cues"].as_i64() {
+                self.feed.cue(i32::try_from(mask).unwrap_or(0), time);
+            }
+            if let Some(words) = event["text"].as_str() {
+                self.feed.words(words);
+            }
+        }
+        &self.feed
+    }
+}
+
+/// Where everything was; `None` where the telemetry says nothing.
+fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<Moment> {
+    let state = flight.between(at)?;
+    Some(Moment {
+        at,
+        drone: DronePose {
+            position_m: state.position_m,
+            ned_from_frd: state.ned_from_frd,
+            spinning: flight.armed.at(at).unwrap_or(false),
+        },
+        velocity_m_s: state.velocity_m_s,
+        camera: attention::pose(flight, at, vehicle)?,
+        lens: attention::camera(flight, at, &vehicle.camera),
+    })
+}

@@ -1,0 +1,95 @@
+//! The photographs of a session, drawn after the flight from its telemetry and written as the camera would have.
+
+use super::super::clock;
+use super::super::errors::AppError;
+use super::super::progress::Progress;
+use super::super::report;
+use super::super::session_folder::replace;
+use super::Args;
+use super::draw::{Drawing, quality, size};
+use super::recorded::Recorded;
+use crate::base::geodesy::LocalPlane;
+use crate::monitor::folder::SNAPSHOTS;
+use crate::report::pictures::Picture;
+use crate::view::photo::{self, About, PhotoError};
+use crate::view::shot::Shot;
+
+/// Largest file, bytes: what the report takes in.
+const MOST_BYTES: usize = 400_000;
+/// Without a graphics card pictures have at most so many pixels unless a size is asked for: a second each, not a minute.
+const SOFTWARE_PX: f64 = 1280.0 * 960.0;
+
+impl From<PhotoError> for AppError {
+    fn from(error: PhotoError) -> Self {
+        Self::failed(error.to_string())
+    }
+}
+
+/// Draws all of a session's photographs into its folder, and its report anew.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let preset = quality(&args.quality)?;
+    let asked = args.size.as_deref().map(size).transpose()?;
+    let recorded = Recorded::read(std::path::Path::new(&args.what))?;
+    let taken = report::pictures(&recorded.folder)?;
+    if taken.is_empty() {
+        tracing::info!("no picture was taken");
+        return Ok(());
+    }
+    let drawing = Drawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
+    let camera = &recorded.vehicle().camera;
+    let most = drawing.gpu.software.then_some(SOFTWARE_PX);
+    let size_px =
+        asked.unwrap_or_else(|| crate::view::arrange::drawn_px((f64::from(camera.width_px), f64::from(camera.height_px)), most));
+    if size_px != (camera.width_px, camera.height_px) {
+        tracing::info!("drawn at {} x {} px, not the camera's {} x {}", size_px.0, size_px.1, camera.width_px, camera.height_px);
+    }
+    let folder = recorded.folder.join(SNAPSHOTS);
+    std::fs::create_dir_all(&folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
+    let mut brush = drawing.brush();
+    let mut progress = Progress::start("drawing pictures");
+    for (k, picture) in taken.iter().enumerate() {
+        progress.tell(|| format!("picture {} of {}", k + 1, taken.len()));
+        let moment = recorded.moment(picture.time)?;
+        let shot = drawing.stage(recorded.scenario(), recorded.vehicle()).camera(&moment, size_px);
+        let drawn = brush.draw(&shot, &[])?;
+        let bytes = photo::jpeg(&drawn, &about(&recorded, picture, &shot), MOST_BYTES)?;
+        if bytes.len() > MOST_BYTES {
+            tracing::warn!("picture {} has {} bytes at the coarsest: give a smaller --size", picture.number, bytes.len());
+        }
+        replace(&folder.join(format!("{:04}.jpg", picture.index.max(0))), &bytes)?;
+    }
+    progress.end();
+    report::write(&recorded.folder)?;
+    println!("pictures      {} in {}", taken.len(), folder.display());
+    Ok(())
+}
+
+fn about(recorded: &Recorded, picture: &Picture, shot: &Shot) -> About {
+    let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
+    let taken_unix_us = recorded.stored.started_unix_us + u64::try_from(picture.time.us()).unwrap_or(0);
+    let (utc, _) = clock::utc(taken_unix_us);
+    let (date, time) = utc.trim_end_matches('Z').split_once('T').unwrap_or(("", ""));
+    let (yaw_deg, pitch_deg) = photo::direction_deg(&picture.pose);
+    let attitude = recorded.flight.between(picture.time).map_or([0.0; 3], |state| {
+        let (roll, pitch, yaw) = state.ned_from_frd.euler();
+        [yaw, pitch, roll].map(f64::to_degrees)
+    });
+    About {
+        number: picture.number,
+        taken_unix_us,
+        taken_utc: (date.replace('-', ":"), time.to_owned()),
+        at_s: picture.time.s(),
+        place: LocalPlane::new(scenario.origin).geo_from_enu(picture.pose.position_m),
+        over_pad_m: (picture.pose.position_m - scenario.ground_team.pad_m).up(),
+        yaw_deg,
+        pitch_deg,
+        aircraft_deg: attitude,
+        lens: picture.camera,
+        exposure_s: shot.finish.exposure.time_s,
+        iso: shot.finish.exposure.iso,
+        lamp: picture.pose.lamp_on,
+        distance_m: picture.target.as_ref().map(|target| target.distance_m),
+        model: format!("{} inspection camera", vehicle.name),
+        job: scenario.name.clone(),
+    }
+}

@@ -1,0 +1,117 @@
+//! A session's camera view as a film, with its photographs as chapters.
+
+use super::super::errors::AppError;
+use super::super::progress::Progress;
+use super::super::report;
+use super::super::session_folder::replace;
+use super::Args;
+use super::draw::{Drawing, aspect, instant, quality, size};
+use super::recorded::Recorded;
+use crate::base::time::SimTime;
+use crate::report::pictures::Picture;
+use crate::view::hud;
+use crate::view::stage;
+use crate::view::video::{Encoder, Mp4, Piece, VideoError, webvtt};
+use std::fs::File;
+use std::io::{Seek, SeekFrom, Write};
+use std::path::Path;
+
+/// Bits for a pixel of a picture (estimate: 1080p30 then has 6 Mbit/s, as small cameras record).
+const BITS_PX: f64 = 0.1;
+/// One picture in so many s can be read by itself: as far as a player jumps.
+const KEY_EVERY_S: f64 = 2.0;
+/// A photograph's chapter lasts this long, s, or until the next.
+const CHAPTER_S: f64 = 4.0;
+
+impl From<VideoError> for AppError {
+    fn from(error: VideoError) -> Self {
+        Self::failed(error.to_string())
+    }
+}
+
+/// Draws the film to `path`, and its chapters beside it.
+pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
+    let preset = quality(&args.quality)?;
+    let size_px = size(args.size.as_deref().unwrap_or("1280x720"))?;
+    if !(1.0..=60.0).contains(&args.fps) {
+        return Err(AppError::wrong(format!("--fps {}: give pictures a second, 1 to 60", args.fps)));
+    }
+    let recorded = Recorded::read(Path::new(&args.what))?;
+    let (from, to) = span(args, &recorded)?;
+    let drawing = Drawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
+    let bits_s = BITS_PX * f64::from(size_px.0) * f64::from(size_px.1) * args.fps;
+    let mut encoder = Encoder::new(size_px, args.fps, bits_s as u32, (KEY_EVERY_S * args.fps).ceil() as u32)?;
+    let (mut film, head) = Mp4::new(size_px, args.fps)?;
+    let mut file = Film::create(path)?;
+    file.write(&head)?;
+    let (mut brush, mut heard, mut progress) = (drawing.brush(), recorded.heard(), Progress::start("drawing the film"));
+    let count = ((to - from).s() * args.fps).floor() as u32 + 1;
+    for k in 0..count {
+        let at = from + SimTime::from_s(f64::from(k) / args.fps);
+        progress.tell(|| format!("{:.1} of {:.1} s", (at - from).s(), (to - from).s()));
+        let moment = recorded.moment(at)?;
+        let stage = drawing.stage(recorded.scenario(), recorded.vehicle());
+        let items = if args.no_hud {
+            Vec::new()
+        } else {
+            hud::layout(&stage::hud(&stage, &moment, &recorded.flight, (heard.until(at), true), true), aspect(size_px))
+        };
+        let picture = brush.draw(&stage.camera(&moment, size_px), &items)?;
+        file.write(&film.push(&encoder.encode(&picture)?)?)?;
+    }
+    for piece in film.finish()? {
+        file.write(&piece)?;
+    }
+    progress.end();
+    let track = path.with_extension("vtt");
+    replace(&track, webvtt::write(&chapters(&report::pictures(&recorded.folder)?, from, to)).as_bytes())?;
+    println!("film          {} ({count} pictures), chapters {}", path.display(), track.display());
+    Ok(())
+}
+
+/// From when to when, of the flight.
+fn span(args: &Args, recorded: &Recorded) -> Result<(SimTime, SimTime), AppError> {
+    let (first, last) = recorded.span();
+    let Some(text) = &args.span else { return Ok((first, last)) };
+    let wrong = || {
+        let (first, last) = (first.s(), last.s());
+        AppError::wrong(format!("--span {text}: give from,to in s of simulation time within {first:.1} to {last:.1}, as 60,90"))
+    };
+    let (from, to) = text.split_once(',').ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
+    let (from, to) = (instant(number(from)?)?, instant(number(to)?)?);
+    if from < first || to > last || from >= to { Err(wrong()) } else { Ok((from, to)) }
+}
+
+/// A chapter for each photograph of the span, named by its verdict.
+fn chapters(taken: &[Picture], from: SimTime, to: SimTime) -> Vec<webvtt::Chapter> {
+    let within: Vec<&Picture> = taken.iter().filter(|picture| (from..=to).contains(&picture.time)).collect();
+    let next = |k: usize| within.get(k + 1).map_or(to, |next: &&Picture| next.time);
+    within
+        .iter()
+        .enumerate()
+        .map(|(k, picture)| webvtt::Chapter {
+            from_s: (picture.time - from).s(),
+            to_s: (picture.time - from).s().max(((picture.time + SimTime::from_s(CHAPTER_S)).min(next(k)) - from).s()),
+            title: format!("Picture {}: {} ({})", picture.number, picture.verdict.name(), picture.reason),
+        })
+        .collect()
+}
+
+/// The file.
+struct Film<'a> {
+    path: &'a Path,
+    file: File,
+}
+
+impl<'a> Film<'a> {
+    fn create(path: &'a Path) -> Result<Self, AppError> {
+        let file = File::create(path).map_err(|error| AppError::wrong(format!("{}: {error}", path.display())))?;
+        Ok(Self { path, file })
+    }
+
+    fn write(&mut self, piece: &Piece) -> Result<(), AppError> {
+        let written = self.file.seek(SeekFrom::Start(piece.at)).and_then(|_| self.file.write_all(&piece.bytes));
+        written.map_err(|error| AppError::failed(format!("{}: {error}", self.path.display())))
+    }
+}

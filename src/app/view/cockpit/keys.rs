@@ -1,0 +1,64 @@
+//! Keys of the window by the names that files of keys use.
+
+use std::collections::BTreeMap;
+use winit::event::{ElementState, KeyEvent};
+use winit::keyboard::{Key, NamedKey, PhysicalKey};
+
+/// A key that changed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Change {
+    /// Down; not told again while it is held.
+    Down(String),
+    /// Up, by the name that it went down with.
+    Up(String),
+}
+
+/// Which keys are down. A key that comes up while Shift is held has another sign than when it went down: the place on the keyboard tells.
+#[derive(Debug, Default)]
+pub struct Held(BTreeMap<String, String>);
+
+impl Held {
+    /// Takes an event of the window.
+    pub fn take(&mut self, event: &KeyEvent) -> Option<Change> {
+        let place = place(&event.physical_key);
+        match event.state {
+            ElementState::Pressed if event.repeat => None,
+            ElementState::Pressed => {
+                let name = name(&event.logical_key)?;
+                self.0.insert(place, name.clone());
+                Some(Change::Down(name))
+            }
+            ElementState::Released => self.0.remove(&place).map(Change::Up),
+        }
+    }
+
+    /// All are up.
+    pub fn let_go(&mut self) {
+        self.0.clear();
+    }
+
+    /// True while a key of this name is down.
+    pub fn is_down(&self, name: &str) -> bool {
+        self.0.values().any(|held| held == name)
+    }
+}
+
+fn place(key: &PhysicalKey) -> String {
+    format!("{key:?}")
+}
+
+fn name(key: &Key) -> Option<String> {
+    Some(match key {
+        Key::Character(sign) => sign.to_lowercase(),
+        Key::Named(NamedKey::ArrowUp) => "up".to_owned(),
+        Key::Named(NamedKey::ArrowDown) => "down".to_owned(),
+        Key::Named(NamedKey::ArrowLeft) => "left".to_owned(),
+        Key::Named(NamedKey::ArrowRight) => "right".to_owned(),
+        Key::Named(NamedKey::Space) => "space".to_owned(),
+        Key::Named(NamedKey::Enter) => "enter".to_owned(),
+        Key::Named(NamedKey::PageUp) => "pageup".to_owned(),
+        Key::Named(NamedKey::PageDown) => "pagedown".to_owned(),
+        Key::Named(NamedKey::Tab) => "tab".to_owned(),
+        _ => return None,
+    })
+}

@@ -1,0 +1,57 @@
+//! The live picture: the vehicle draws none itself. Whoever draws and sends it (`spandrel view --stream`) tells by VIDEO_STREAM_STATUS, and the
+//! camera announces that stream for as long as it is told of.
+
+use super::super::Endpoint;
+use super::super::arrival::Arrival;
+use super::super::streams::{AUTOPILOT, CAMERA};
+use crate::base::time::SimTime;
+use crate::mav::dialect::{VIDEO_STREAM_INFORMATION_DATA, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
+use mavlink::MessageData;
+
+/// A stream that is not told of for so long has ended: it is told of every second.
+const LASTS: SimTime = SimTime::from_ms(3_500);
+/// Largest rate that is believed, Hz.
+const RATE_MAX_HZ: f32 = 240.0;
+
+/// What runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stream {
+    /// Width, px.
+    pub width_px: u16,
+    /// Height, px.
+    pub height_px: u16,
+    /// Pictures a second.
+    pub rate_hz: f32,
+    /// Bits a second.
+    pub bits_s: u32,
+}
+
+/// The last word of who sends it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Told(Option<(Stream, SimTime)>);
+
+impl Told {
+    /// The stream, while it is told of.
+    #[must_use]
+    pub fn running(&self, now: SimTime) -> Option<Stream> {
+        self.0.filter(|(_, heard)| now.saturating_sub(*heard) <= LASTS).map(|(stream, _)| stream)
+    }
+}
+
+/// VIDEO_STREAM_STATUS of the first stream, of anybody but the vehicle's own components.
+pub(in super::super) fn status(e: &mut Endpoint, m: &VIDEO_STREAM_STATUS_DATA, a: &mut Arrival) {
+    let own = a.from.0 == e.system_id && matches!(a.from.1, AUTOPILOT | CAMERA);
+    let sound = m.framerate.is_finite() && (0.0..=RATE_MAX_HZ).contains(&m.framerate) && m.resolution_h > 0 && m.resolution_v > 0;
+    if own || m.stream_id != 1 || !sound {
+        return;
+    }
+    let before = e.payload.camera.stream.running(a.view.now);
+    let runs = m.flags.contains(VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING);
+    let stream = Stream { width_px: m.resolution_h, height_px: m.resolution_v, rate_hz: m.framerate, bits_s: m.bitrate };
+    e.payload.camera.stream = Told(runs.then_some((stream, a.view.now)));
+    // Ground stations open the picture when they hear that it runs.
+    if before.is_some() != runs {
+        e.payload.news.say(VIDEO_STREAM_INFORMATION_DATA::ID);
+        e.payload.news.say(VIDEO_STREAM_STATUS_DATA::ID);
+    }
+}

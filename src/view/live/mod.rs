@@ -1,0 +1,284 @@
+//! A flight as it is heard over the wire: bytes in, the moment to draw out. One more subscriber of telemetry, so it shows any vehicle that
+//! speaks MAVLink, the simulated one by its truth and any other by its own estimate. No socket and no clock in here.
+
+pub mod clock;
+mod estimate;
+mod trace;
+
+pub use trace::{Pose, Trace};
+
+use super::feed::Feed;
+use super::scene::DronePose;
+use super::stage::{LIFT_OFF_M, Moment, Told};
+use crate::base::geodesy::LocalPlane;
+use crate::base::time::SimTime;
+use crate::mav::codec::{Decoder, Encoder, Received};
+use crate::mav::dialect::{HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavType};
+use crate::mav::station;
+use crate::scenario::Scenario;
+use crate::site::CameraPose;
+use crate::telemetry::Truth;
+use crate::telemetry::sample::{self, Said, Sample};
+use crate::vehicle::{Camera, Vehicle};
+use clock::Playhead;
+use estimate::Estimate;
+use std::collections::{BTreeSet, VecDeque};
+
+/// The system id of a view: no vehicle's and no ground station's (255 is QGroundControl's, 254 `spandrel rc`'s).
+pub const SYSTEM: u8 = 253;
+/// MAV_COMP_ID_ONBOARD_COMPUTER2: a listener beside the monitor.
+const COMPONENT: u8 = 192;
+const AUTOPILOT: u8 = 1;
+const HEARTBEAT_EVERY: SimTime = SimTime::from_ms(1_000);
+/// A vehicle that says no truth for so long is a real one and is asked for what is drawn instead.
+const NO_TRUTH_AFTER: SimTime = SimTime::from_ms(3_000);
+/// And asked again, in case the question was lost.
+const ASK_EVERY: SimTime = SimTime::from_ms(5_000);
+/// What is drawn instead of the truth, by message number and rate, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
+/// GIMBAL_DEVICE_ATTITUDE_STATUS.
+const INSTEAD: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
+/// A clock that goes back by more is a restarted simulator, once so many samples in a row say so.
+const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
+const RESTART_CONFIRM: u32 = 3;
+
+/// A flight as it is heard.
+#[derive(Debug, Clone)]
+pub struct Live {
+    plane: LocalPlane,
+    pad_up_m: f64,
+    decoder: Decoder,
+    encoder: Encoder,
+    out: VecDeque<Vec<u8>>,
+    next_beat: SimTime,
+    next_ask: Option<SimTime>,
+    system: Option<u8>,
+    seed: Option<u64>,
+    scenario_crc: Option<u32>,
+    spoken: bool,
+    estimate: Estimate,
+    backwards: u32,
+    heard: Option<SimTime>,
+    head: Playhead,
+    state: State,
+}
+
+/// What begins anew with the simulator.
+#[derive(Debug, Clone, Default)]
+struct State {
+    feed: Feed,
+    trace: Trace,
+    lamp: bool,
+    armed: bool,
+    battery_pct: Option<f64>,
+    field_of_view_rad: Option<f64>,
+    begun: Option<SimTime>,
+    pictures: BTreeSet<(i32, Option<SimTime>)>,
+    taken: Option<SimTime>,
+}
+
+/// What is drawn at one instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Now {
+    /// Where everything is.
+    pub moment: Moment,
+    /// What the display tells besides.
+    pub told: Told,
+}
+
+impl Live {
+    /// Nothing has been heard yet.
+    #[must_use]
+    pub fn new(scenario: &Scenario) -> Self {
+        Self {
+            plane: LocalPlane::new(scenario.origin),
+            pad_up_m: scenario.ground_team.pad_m.up(),
+            decoder: Decoder::new(),
+            encoder: Encoder::new(SYSTEM, COMPONENT),
+            out: VecDeque::new(),
+            next_beat: SimTime::ZERO,
+            next_ask: None,
+            system: None,
+            seed: None,
+            scenario_crc: None,
+            spoken: false,
+            estimate: Estimate::default(),
+            backwards: 0,
+            heard: None,
+            head: Playhead::default(),
+            state: State::default(),
+        }
+    }
+
+    /// The vehicle's system id, once it has been heard.
+    #[must_use]
+    pub fn system(&self) -> Option<u8> {
+        self.system
+    }
+
+    /// The session's seed, once it has been said: it places defects and traffic.
+    #[must_use]
+    pub fn seed(&self) -> Option<u64> {
+        self.seed
+    }
+
+    /// The checksum of the scenario that the simulator runs, once it has been said.
+    #[must_use]
+    pub fn scenario_crc(&self) -> Option<u32> {
+        self.scenario_crc
+    }
+
+    /// The aircraft's poses are its own estimate: nobody says the truth.
+    #[must_use]
+    pub fn is_estimated(&self) -> bool {
+        self.heard.is_some() && !self.spoken
+    }
+
+    /// Mode, satellites, cues and words.
+    #[must_use]
+    pub fn feed(&self) -> &Feed {
+        &self.state.feed
+    }
+
+    /// A datagram, heard at a wall time.
+    pub fn handle_datagram(&mut self, bytes: &[u8], wall: SimTime) {
+        for frame in self.decoder.datagram(bytes) {
+            self.frame(&frame, wall);
+        }
+    }
+
+    fn frame(&mut self, frame: &Received, wall: SimTime) {
+        let beats = matches!(frame.message, Some(MavMessage::HEARTBEAT(_))) && frame.component_id == AUTOPILOT;
+        if self.system.is_none() && (beats || sample::truth_time(&frame.bytes).is_some()) {
+            self.system = Some(frame.system_id);
+            self.next_ask = Some(wall + NO_TRUTH_AFTER);
+        }
+        if self.system != Some(frame.system_id) {
+            return;
+        }
+        let now = self.state.trace.newest().unwrap_or_default();
+        if Feed::listens(frame.message_id) {
+            self.state.feed.take(frame, now);
+        }
+        if !self.spoken
+            && let Some(truth) = frame.message.as_ref().and_then(|message| self.estimate.take(message, &self.plane))
+        {
+            self.truth(truth, wall);
+        }
+        if let Some(sample) = sample::read(&frame.bytes, &self.plane) {
+            self.sample(&sample, wall);
+        }
+    }
+
+    fn sample(&mut self, sample: &Sample, wall: SimTime) {
+        let now = self.state.trace.newest().unwrap_or_default();
+        let state = &mut self.state;
+        match sample.said {
+            Said::Truth(truth) => {
+                if !self.spoken {
+                    // From now on the truth is drawn; estimates may run on another clock.
+                    self.spoken = true;
+                    self.restart();
+                }
+                self.truth(truth, wall);
+            }
+            Said::GimbalPitch(pitch_rad) => {
+                let time = sample.own_time.filter(|own| *own <= now + RESTART_AFTER).unwrap_or(now);
+                state.trace.push_gimbal(time, pitch_rad);
+            }
+            Said::Light(on) => state.lamp = on,
+            Said::Battery(pct) => state.battery_pct = Some(pct),
+            Said::FieldOfView(rad) => state.field_of_view_rad = Some(rad),
+            Said::Beat { armed, .. } => state.armed = armed,
+            Said::Snapshot(number) => {
+                if state.pictures.insert((number, sample.own_time)) {
+                    state.taken = Some(sample.own_time.unwrap_or(now));
+                }
+            }
+            Said::Seed(seed) => self.seed = Some(seed),
+            Said::ScenarioCrc(crc) => self.scenario_crc = Some(crc),
+            Said::Sticks(_) | Said::Contact(_) | Said::Hits(_) | Said::Respawns(_) | Said::Clearance(_) | Said::OnGround(_) => {}
+        }
+    }
+
+    fn truth(&mut self, truth: Truth, wall: SimTime) {
+        if self.state.trace.newest().is_some_and(|newest| truth.time + RESTART_AFTER < newest) {
+            self.backwards += 1;
+            if self.backwards < RESTART_CONFIRM {
+                return;
+            }
+            self.restart();
+        }
+        self.backwards = 0;
+        self.heard = Some(wall);
+        self.head.hear(wall, truth.time);
+        if self.state.begun.is_none() && truth.position_m.up() - self.pad_up_m > LIFT_OFF_M {
+            self.state.begun = Some(truth.time);
+        }
+        self.state.trace.push(truth);
+    }
+
+    fn restart(&mut self) {
+        self.head.restart();
+        self.state = State::default();
+    }
+
+    /// Queues what is due to be said: a heartbeat, so that the vehicle knows its listener, and questions to one that says no truth.
+    pub fn handle_timeout(&mut self, wall: SimTime) {
+        if wall >= self.next_beat {
+            self.next_beat = wall + HEARTBEAT_EVERY;
+            self.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
+                mavtype: MavType::MAV_TYPE_ONBOARD_CONTROLLER,
+                autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
+                mavlink_version: 3,
+                ..HEARTBEAT_DATA::default()
+            }));
+        }
+        if let (Some(system), false, Some(due)) = (self.system, self.spoken, self.next_ask)
+            && wall >= due
+        {
+            self.next_ask = Some(wall + ASK_EVERY);
+            for (id, rate_hz) in INSTEAD {
+                let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
+                let ask = station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
+                self.say(&MavMessage::COMMAND_LONG(ask));
+            }
+        }
+    }
+
+    fn say(&mut self, message: &MavMessage) {
+        let bytes = self.encoder.encode(message);
+        self.out.push_back(bytes);
+    }
+
+    /// The next datagram to send.
+    pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
+        self.out.pop_front()
+    }
+
+    /// What to draw at a wall time; `None` while nobody has said where the aircraft is.
+    pub fn now(&mut self, wall: SimTime, vehicle: &Vehicle) -> Option<Now> {
+        let at = self.head.advance(wall)?;
+        let state = &self.state;
+        let pose = state.trace.at(at)?;
+        let lens = state.field_of_view_rad.map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera });
+        let gimbal_rad = state.trace.gimbal_at(at);
+        let moment = Moment {
+            at,
+            drone: DronePose { position_m: pose.position_m, ned_from_frd: pose.ned_from_frd, spinning: state.armed },
+            velocity_m_s: pose.velocity_m_s,
+            camera: CameraPose::on(&vehicle.camera, (pose.position_m, pose.ned_from_frd), gimbal_rad, state.lamp),
+            lens,
+        };
+        let told = Told {
+            battery_pct: state.battery_pct,
+            begun: state.begun,
+            silent_s: self.heard.map_or(0.0, |heard| (wall - heard).s().max(0.0)),
+            pictures: state.pictures.len(),
+            taken: state.taken,
+        };
+        Some(Now { moment, told })
+    }
+}
+
+#[cfg(test)]
+mod tests;

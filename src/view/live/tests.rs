@@ -1,0 +1,148 @@
+use super::*;
+use crate::mav::dialect::{
+    ATTITUDE_DATA, CAMERA_IMAGE_CAPTURED_DATA, GLOBAL_POSITION_INT_DATA, HIL_STATE_QUATERNION_DATA, ILLUMINATOR_STATUS_DATA,
+    MavBool, MavModeFlag, NAMED_VALUE_INT_DATA,
+};
+
+const SCENARIO: &str = include_str!("../../../scenarios/two-bridges.toml");
+const VEHICLE: &str = include_str!("../../../vehicle-params/phantom2.toml");
+
+struct Wire {
+    vehicle: Encoder,
+    live: Live,
+    aircraft: Vehicle,
+}
+
+impl Wire {
+    fn new() -> Self {
+        let scenario = crate::scenario::read("two-bridges.toml", SCENARIO, &|name| Err(format!("{name}: not asked for")))
+            .expect("the shipped scenario is good");
+        let aircraft = crate::vehicle::read("phantom2.toml", VEHICLE).expect("the shipped vehicle is good");
+        Self { vehicle: Encoder::new(1, 1), live: Live::new(&scenario), aircraft }
+    }
+
+    fn say(&mut self, message: &MavMessage, wall_ms: i64) {
+        let bytes = self.vehicle.encode(message);
+        self.live.handle_datagram(&bytes, SimTime::from_ms(wall_ms));
+    }
+
+    /// The truth at a time, so far east of the origin.
+    fn truth(&mut self, sim_ms: i64, wall_ms: i64, east_m: f64) {
+        let geo = self.live.plane.geo_from_enu(crate::base::frames::Vec3::new(east_m, 0.0, self.live.pad_up_m + 20.0));
+        let truth = HIL_STATE_QUATERNION_DATA {
+            time_usec: (sim_ms * 1000) as u64,
+            attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
+            lat: (geo.latitude_deg * 1e7).round() as i32,
+            lon: (geo.longitude_deg * 1e7).round() as i32,
+            alt: (geo.altitude_m * 1e3).round() as i32,
+            vx: 0,
+            vy: 100,
+            ..Default::default()
+        };
+        self.say(&MavMessage::HIL_STATE_QUATERNION(truth), wall_ms);
+    }
+
+    fn now(&mut self, wall_ms: i64) -> Option<Now> {
+        self.live.now(SimTime::from_ms(wall_ms), &self.aircraft)
+    }
+}
+
+/// The wire rounds places to a centimetre (degE7).
+const WIRE_M: f64 = 0.02;
+
+#[test]
+fn exact_the_moment_lies_between_samples_and_tells_what_was_heard() {
+    let mut wire = Wire::new();
+    assert!(wire.now(0).is_none());
+    for k in 0..100 {
+        wire.truth(5_000 + 20 * k, 20 * k, 0.02 * k as f64);
+        wire.now(20 * k);
+    }
+    wire.say(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_980);
+    let picture = CAMERA_IMAGE_CAPTURED_DATA {
+        time_boot_ms: 6_900,
+        image_index: 1,
+        capture_result: MavBool::MAV_BOOL_TRUE,
+        ..Default::default()
+    };
+    // Sent again, it is the same picture.
+    wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture.clone()), 1_980);
+    wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture), 1_980);
+    let beat = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, custom_mode: 3 << 16, ..Default::default() };
+    wire.say(&MavMessage::HEARTBEAT(beat), 1_980);
+    let now = wire.now(1_990).expect("it has been heard");
+    let behind_s = 6.98 + 0.01 - now.moment.at.s();
+    assert!((behind_s - clock::BEHIND_S).abs() < 0.005, "{behind_s} s behind");
+    assert!((now.moment.drone.position_m.east() - (now.moment.at.s() - 5.0)).abs() < WIRE_M);
+    assert!(now.moment.camera.lamp_on && now.moment.drone.spinning);
+    assert_eq!((now.told.pictures, now.told.taken), (1, Some(SimTime::from_ms(6_900))));
+    assert_eq!(now.told.begun, Some(SimTime::from_ms(5_000)));
+    assert_eq!(wire.live.feed().mode(), "Position");
+    let later = wire.now(4_980).expect("it stands");
+    assert!((later.told.silent_s - 3.0).abs() < 1e-9, "the link is silent");
+    assert_eq!(later.moment.at, SimTime::from_ms(6_980));
+}
+
+#[test]
+fn exact_a_restarted_simulator_begins_anew_and_strangers_are_not_drawn() {
+    let mut wire = Wire::new();
+    for k in 0..50 {
+        wire.truth(60_000 + 20 * k, 20 * k, 5.0);
+    }
+    let mut stranger = Encoder::new(7, 1);
+    let lamp = MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() });
+    let bytes = stranger.encode(&lamp);
+    wire.live.handle_datagram(&bytes, SimTime::from_ms(990));
+    for k in 0..20 {
+        wire.truth(20 * k, 1_000 + 20 * k, -5.0);
+    }
+    let now = wire.now(1_400).expect("it flies again");
+    assert!(now.moment.at < SimTime::from_ms(500) && (now.moment.drone.position_m.east() + 5.0).abs() < WIRE_M);
+    assert!(!now.moment.camera.lamp_on);
+}
+
+#[test]
+fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
+    let mut wire = Wire::new();
+    wire.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()), 0);
+    let said = |wire: &mut Wire, ms: i64| {
+        wire.live.handle_timeout(SimTime::from_ms(ms));
+        let mut decoder = Decoder::new();
+        let bytes: Vec<Vec<u8>> = std::iter::from_fn(|| wire.live.poll_transmit()).collect();
+        bytes.iter().flat_map(|b| decoder.datagram(b)).filter(|f| matches!(f.message, Some(MavMessage::COMMAND_LONG(_)))).count()
+    };
+    assert_eq!((said(&mut wire, 100), said(&mut wire, 3_100)), (0, INSTEAD.len()));
+    wire.say(&MavMessage::ATTITUDE(ATTITUDE_DATA { yaw: 1.0, ..Default::default() }), 3_200);
+    let origin = wire.live.plane.origin();
+    for k in 0..20 {
+        let place = GLOBAL_POSITION_INT_DATA {
+            time_boot_ms: 90_000 + 20 * k,
+            lat: (origin.latitude_deg * 1e7).round() as i32,
+            lon: (origin.longitude_deg * 1e7).round() as i32,
+            alt: ((origin.altitude_m + 30.0) * 1e3) as i32,
+            ..Default::default()
+        };
+        wire.say(&MavMessage::GLOBAL_POSITION_INT(place), 3_200 + 20 * i64::from(k));
+    }
+    let now = wire.now(3_600).expect("it is drawn");
+    assert!((now.moment.drone.position_m.up() - 30.0).abs() < WIRE_M && wire.live.is_estimated());
+    assert!((now.moment.drone.ned_from_frd.yaw_rad() - 1.0).abs() < 1e-6);
+    // The truth, once somebody says it, is drawn instead; and nobody is asked any more.
+    for k in 0..10 {
+        wire.truth(1_000 + 20 * k, 4_000 + 20 * k, 3.0);
+    }
+    let now = wire.now(4_200).expect("it is drawn");
+    assert!((now.moment.drone.position_m.east() - 3.0).abs() < WIRE_M && !wire.live.is_estimated());
+    assert_eq!(said(&mut wire, 20_000), 0);
+}
+
+#[test]
+fn exact_the_seed_and_the_scenario_are_heard() {
+    let mut wire = Wire::new();
+    wire.truth(20, 0, 0.0);
+    for (name, value) in [("seed", 7), ("scn_crc", -2)] {
+        let named = NAMED_VALUE_INT_DATA { name: name.into(), value, ..Default::default() };
+        wire.say(&MavMessage::NAMED_VALUE_INT(named), 10);
+    }
+    assert_eq!((wire.live.seed(), wire.live.scenario_crc()), (Some(7), Some(u32::MAX - 1)));
+}

@@ -1,0 +1,44 @@
+//! XMP: attitude of gimbal and aircraft under the names that photogrammetry programs read of drones (Metashape, Pix4D, OpenDroneMap: DJI's),
+//! and what only a trainer knows under names of its own.
+
+use super::About;
+use std::fmt::Write;
+
+/// The packet.
+pub fn write(about: &About, (width, height): (u32, u32)) -> String {
+    let mut fields = String::new();
+    let mut field = |name: &str, value: String| {
+        let _ = write!(fields, "\n   {name}=\"{value}\"");
+    };
+    let [yaw, pitch, roll] = about.aircraft_deg;
+    // DJI counts yaw from -180 to 180.
+    let signed = |deg: f64| (deg + 180.0).rem_euclid(360.0) - 180.0;
+    field("drone-dji:AbsoluteAltitude", format!("{:+.3}", about.place.altitude_m));
+    field("drone-dji:RelativeAltitude", format!("{:+.3}", about.over_pad_m));
+    field("drone-dji:GpsLatitude", format!("{:.8}", about.place.latitude_deg));
+    field("drone-dji:GpsLongitude", format!("{:.8}", about.place.longitude_deg));
+    field("drone-dji:GimbalYawDegree", format!("{:+.2}", signed(about.yaw_deg)));
+    field("drone-dji:GimbalPitchDegree", format!("{:+.2}", about.pitch_deg));
+    field("drone-dji:GimbalRollDegree", format!("{:+.2}", 0.0));
+    field("drone-dji:FlightYawDegree", format!("{:+.2}", signed(yaw)));
+    field("drone-dji:FlightPitchDegree", format!("{pitch:+.2}"));
+    field("drone-dji:FlightRollDegree", format!("{roll:+.2}"));
+    field("spandrel:Picture", about.number.to_string());
+    field("spandrel:SimulationTime", format!("{:.3}", about.at_s));
+    field("spandrel:HorizontalFieldOfViewDegree", format!("{:.4}", about.lens.hfov_rad.to_degrees()));
+    field("spandrel:CameraWidth", about.lens.width_px.to_string());
+    field("spandrel:CameraHeight", about.lens.height_px.to_string());
+    field("spandrel:DrawnWidth", width.to_string());
+    field("spandrel:DrawnHeight", height.to_string());
+    field("spandrel:Lamp", if about.lamp { "on" } else { "off" }.to_owned());
+    if let (Some(distance_m), Some(gsd_mm)) = (about.distance_m, about.gsd_mm(width)) {
+        field("spandrel:DistanceMetre", format!("{distance_m:.3}"));
+        field("spandrel:GroundSamplingDistanceMillimetre", format!("{gsd_mm:.4}"));
+    }
+    format!(
+        "<?xpacket begin=\"\u{feff}\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n \
+         <rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n  <rdf:Description rdf:about=\"\"\n   \
+         xmlns:drone-dji=\"http://www.dji.com/drone-dji/1.0/\"\n   xmlns:spandrel=\"urn:spandrel:picture:1#\"{fields}/>\n </rdf:RDF>\n\
+         </x:xmpmeta>\n<?xpacket end=\"w\"?>"
+    )
+}

@@ -1,0 +1,23 @@
+//! Moving pictures: H.264, alone in RTP packets or with chapters in an MP4 file. Bytes only; who sends and writes them is elsewhere.
+
+mod h264;
+mod mp4;
+pub mod rtp;
+pub mod webvtt;
+
+pub use h264::{Encoded, Encoder};
+pub use mp4::{Mp4, Piece};
+
+/// Why there is no video.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum VideoError {
+    /// The encoder will not.
+    #[error("the video encoder refuses: {0}")]
+    Encoder(String),
+    /// The file's structure will not hold it.
+    #[error("the video file cannot be written: {0}")]
+    File(String),
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,86 @@
+"""Photographs and films of a recorded session, read back by programs of others."""
+
+import json
+import re
+import struct
+
+import pytest
+from PIL import Image
+
+import display
+import spandrel
+
+# Bytes that a photograph may have (what the report takes in).
+MOST_BYTES = 400_000
+# Drawn this small, so that a software driver is done soon.
+SIZE = (640, 480)
+# A hundred-thousandth of a degree is a metre: EXIF holds a ten-thousandth of a second, 3 mm.
+PLACE_DEG = 1e-7
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    """A synthetic expert's flight with photographs."""
+    assert display.DRIVERS, "Mesa's software Vulkan is missing: apt-get install mesa-vulkan-drivers"
+    sessions = tmp_path_factory.mktemp("sessions")
+    spandrel.run("demo", "--skill", "expert", "--seed", "7", "--speed", "max", "--sessions", str(sessions))
+    (folder,) = sessions.iterdir()
+    return folder
+
+
+def degrees(parts, reference):
+    """Degrees, minutes, seconds as one number."""
+    d, m, s = (float(p) for p in parts)
+    return (d + m / 60 + s / 3600) * (-1 if reference in ("S", "W") else 1)
+
+
+@pytest.mark.timeout(900)
+def test_val_photographs_tell_where_and_how_they_were_taken(session):
+    """Pillow reads EXIF and XMP; the report shows the photographs."""
+    spandrel.run("render", str(session), "--snapshots", "--quality", "low", "--size", f"{SIZE[0]}x{SIZE[1]}")
+    taken = json.loads((session / "assessment.json").read_text(encoding="utf-8"))["snapshots"]["taken"]
+    photographs = sorted((session / "snapshots").glob("[0-9][0-9][0-9][0-9].jpg"))
+    assert taken > 0 and len(photographs) >= taken, (taken, photographs)
+    for path in photographs:
+        assert path.stat().st_size <= MOST_BYTES
+        image = Image.open(path)
+        image.load()
+        assert image.size == SIZE and image.getextrema() != ((0, 0),) * 3
+        exif = image.getexif()
+        gps, camera = exif.get_ifd(0x8825), exif.get_ifd(0x8769)
+        assert exif[0x010F] == "Spandrel" and re.fullmatch(r"\d{4}:\d\d:\d\d \d\d:\d\d:\d\d", camera[0x9003])
+        xmp = image.info["xmp"].decode("utf-8")
+        told = dict(re.findall(r'([\w-]+:\w+)="([^"]*)"', xmp))
+        latitude, longitude = degrees(gps[2], gps[1]), degrees(gps[4], gps[3])
+        assert abs(latitude - float(told["drone-dji:GpsLatitude"])) < PLACE_DEG
+        assert abs(longitude - float(told["drone-dji:GpsLongitude"])) < PLACE_DEG
+        assert abs(float(gps[17]) - float(told["drone-dji:GimbalYawDegree"]) % 360) < 0.02
+        assert -90 <= float(told["drone-dji:GimbalPitchDegree"]) <= 90
+        assert (int(camera[0xA002]), int(camera[0xA003])) == SIZE
+        if "spandrel:DistanceMetre" in told:
+            # Width over distance is width over focal length, on the ground as on the sensor.
+            wide = float(camera[0xA002]) * float(told["spandrel:GroundSamplingDistanceMillimetre"]) / 1000
+            plate = float(camera[0xA002]) / float(camera[0xA20E])
+            assert abs(wide / float(told["spandrel:DistanceMetre"]) - plate / float(camera[0x920A])) < 1e-3
+    assert (session / "report.html").read_text(encoding="utf-8").count("data:image/jpeg;base64,") >= 1
+
+
+@pytest.mark.timeout(900)
+def test_val_a_film_has_every_picture_and_its_chapters(session, tmp_path):
+    """Length and number of pictures by the file's own index; a chapter for each photograph of the span."""
+    film = tmp_path / "flight.mp4"
+    spandrel.run("render", str(session), "--video", str(film), "--quality", "low", "--size", "320x240", "--fps", "2", "--span", "30,60")
+    data = film.read_bytes()
+    assert data[4:8] == b"ftyp"
+    at = data.index(b"stts")
+    entries = struct.unpack(">I", data[at + 8 : at + 12])[0]
+    runs = struct.unpack(f">{2 * entries}I", data[at + 12 : at + 12 + 8 * entries])
+    assert sum(runs[::2]) == 61, "30 s at 2 a second, both ends"
+    at = data.index(b"mdhd")
+    scale, length = struct.unpack(">II", data[at + 16 : at + 24])
+    assert abs(length / scale - 30.5) < 0.01
+    chapters = film.with_suffix(".vtt").read_text(encoding="utf-8")
+    events = [json.loads(line) for line in (session / "events.jsonl").read_text(encoding="utf-8").splitlines()]
+    assert chapters.startswith("WEBVTT\n") and events
+    for start, end in re.findall(r"(\d\d:\d\d:\d\d\.\d{3}) --> (\d\d:\d\d:\d\d\.\d{3})", chapters):
+        assert "00:00:00.000" <= start < end <= "00:00:30.500"

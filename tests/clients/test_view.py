@@ -1,0 +1,147 @@
+"""`spandrel view`: the window under a virtual display, photographed and flown by its keys; what it says where something is missing."""
+
+import json
+import os
+import signal
+import subprocess
+
+import numpy
+import pytest
+
+import asking
+import display
+import spandrel
+
+# Colours of the head-up display as it defines them (src/view/hud/mod.rs).
+GREEN, YELLOW, WHITE = (0, 190, 130), (240, 228, 66), (245, 245, 245)
+# Wall seconds for a software driver on a busy machine to compile its shaders and to draw, ten times over.
+DRAW_LIMIT_S = 400
+
+
+@pytest.fixture
+def screen(tmp_path):
+    """A virtual display."""
+    opened = display.Display(tmp_path)
+    yield opened
+    opened.close()
+
+
+def open_view(screen, tmp_path, *args):
+    """The window over all of the display, once it has drawn both views."""
+    log = open(tmp_path / "view.txt", "w", encoding="utf-8")
+    size = f"{screen.size[0]}x{screen.size[1]}"
+    process = subprocess.Popen(
+        [spandrel.PROGRAM, "view", "--scenario", "drill-hover", "--seed", "7", "--size", size, "--announce", *args],
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=log, text=True, env=screen.environment(),
+    )
+    said = process.stdout.readline()
+    assert said, (tmp_path / "view.txt").read_text(encoding="utf-8")
+    return process, json.loads(said)
+
+
+def contrast(part):
+    """Standard deviation of a part's brightness, 0 for a blank one."""
+    return part.mean(axis=2).std()
+
+
+@pytest.mark.timeout(900)
+def test_wire_the_window_shows_both_views_and_flies_by_its_keys(screen, tmp_path):
+    """A simulator flies in real time beside it: photographs show two different pictures and the display, keys swap, hide and fly."""
+    watcher, dial, payload = (spandrel.free_udp_port() for _ in range(3))
+    sim = spandrel.start_sim(tmp_path, watcher, speed=1, gcs_port=dial, payload_port=payload)
+    window = None
+    try:
+        window, told = open_view(
+            screen, tmp_path, "--connect", f"127.0.0.1:{payload}", "--fly", f"127.0.0.1:{dial}",
+            "--profiles", str(tmp_path),
+        )
+        assert told["quality"] == "low" and (told["width"], told["height"]) == screen.size, told
+        (photograph,) = spandrel.wait_for("a photograph with a display", lambda: with_display(screen), DRAW_LIMIT_S)
+        height, width, _ = photograph.shape
+        left, right = photograph[:, : width // 2], photograph[:, width // 2 :]
+        assert contrast(left) > 10 and contrast(right) > 10, "neither view is blank"
+        assert numpy.abs(left - right).mean() > 10, "two views, not one twice"
+        # Battery upper right, speed upper left, of the camera's view on the right alone.
+        rows, columns = display.pixels_of(photograph, GREEN).T
+        assert rows.max() < 0.2 * height and columns.min() > 0.8 * width, "the battery is in its place"
+        speed = right[: height // 6, : width // 6]
+        assert len(display.pixels_of(speed, WHITE)) > 20, "the speed is written"
+        assert len(display.pixels_of(left[: height // 6, : width // 6], WHITE)) == 0
+        assert len(display.pixels_of(right[height // 2 :], YELLOW)) > 10, "the map shows the drone"
+        assert os.getpriority(os.PRIO_PROCESS, window.pid) > os.getpriority(os.PRIO_PROCESS, sim.pid), "the simulator comes first"
+
+        screen.focus()
+        screen.tap("m")
+        spandrel.wait_for("the map is hidden", lambda: len(display.pixels_of(screen.photograph(), YELLOW)) == 0, DRAW_LIMIT_S)
+        beside = len(display.pixels_of(screen.photograph(), GREEN))
+        screen.tap("Tab")
+        spandrel.wait_for("the camera's view is large", lambda: bigger(screen, beside), DRAW_LIMIT_S)
+
+        link = asking.connect(watcher)
+        spandrel.wait_for("it may arm", lambda: armable(link), DRAW_LIMIT_S)
+        screen.tap("1")
+        asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1 and b.base_mode & 128)
+        screen.key("w", True)
+        asking.hear(link, "LOCAL_POSITION_NED", lambda p: p.z < -2.0)
+        screen.key("w", False)
+        asking.hear(link, "LOCAL_POSITION_NED", lambda p: abs(p.vz) < 0.2)
+        window.send_signal(signal.SIGINT)
+        assert window.wait(timeout=60) == 0, (tmp_path / "view.txt").read_text(encoding="utf-8")
+    finally:
+        for process in filter(None, (window, sim)):
+            spandrel.end(process)
+
+
+def with_display(screen):
+    """One photograph, once it shows the battery; none before."""
+    photograph = screen.photograph()
+    return [photograph] if len(display.pixels_of(photograph, GREEN)) > 0 else []
+
+
+def bigger(screen, before):
+    """The display has grown with its view."""
+    green = display.pixels_of(screen.photograph(), GREEN)
+    return len(green) > 0 and len(green) != before and green[:, 1].max() > 0.8 * screen.size[0]
+
+
+def armable(link):
+    """The vehicle's filter has settled: it knows its place."""
+    return link.recv_match(type="GLOBAL_POSITION_INT", blocking=True, timeout=1)
+
+
+@pytest.mark.timeout(600)
+def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
+    """No display, no Vulkan, a wrong file of keys: an exit code and one message each."""
+
+    def view(environment, *args):
+        return subprocess.run(
+            [spandrel.PROGRAM, "view", "--scenario", "drill-hover", *args], env=environment, capture_output=True, text=True,
+            timeout=DRAW_LIMIT_S, check=False, stdin=subprocess.DEVNULL,
+        )
+
+    blind = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET")}
+    refused = view(blind)
+    assert refused.returncode == 1 and refused.stderr.count("no display") == 1, refused.stderr
+    refused = view(screen.environment() | {"VK_DRIVER_FILES": str(tmp_path / "none.json")})
+    assert refused.returncode == 1 and "no Vulkan" in refused.stderr and "mesa-vulkan-drivers" in refused.stderr, refused.stderr
+    keys = tmp_path / "keys.toml"
+    keys.write_text('format = 1\n[window]\nmap = "b"\n', encoding="utf-8")
+    refused = view(blind, "--keys", str(keys))
+    assert refused.returncode == 2 and "does lamp already" in refused.stderr, refused.stderr
+
+
+@pytest.mark.timeout(600)
+def test_wire_training_goes_on_without_a_display(tmp_path):
+    """`train` names what is missing and waits for the flight all the same."""
+    blind = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET")}
+    log = open(tmp_path / "train.txt", "w", encoding="utf-8")
+    training = subprocess.Popen(
+        [spandrel.PROGRAM, "train", "--scenario", "drill-hover", "--ports", "ephemeral", "--sessions", str(tmp_path / "sessions")],
+        env=blind, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+    )
+    try:
+        told = tmp_path / "train.txt"
+        spandrel.wait_for("it goes on", lambda: "the session goes on without" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
+        assert "no display" in told.read_text(encoding="utf-8") and training.poll() is None
+    finally:
+        spandrel.end(training)
