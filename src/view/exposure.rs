@@ -13,7 +13,7 @@ const AIM: f64 = 0.24;
 /// Reflectance taken for whatever is hit (estimate: between wet concrete and grass).
 const ALBEDO: f64 = 0.25;
 /// A bright place counts no more than this many times the middle one: the sky does not black out a soffit.
-const HIGHLIGHT: f64 = 3.0;
+const HIGHLIGHT: f64 = 5.0;
 /// The inspector's eyes see no better than this, lx (estimate: end of colour vision).
 const EYE_LUX: f64 = 3.0;
 /// Lowest sensitivity of cameras.

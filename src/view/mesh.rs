@@ -187,13 +187,16 @@ impl Mesh {
 
     /// A ball squeezed to three half axes; `dent` in 0..1 makes it a boulder.
     pub fn ball(&mut self, centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: Finish) {
-        const RINGS: u32 = 8;
-        const SIDES: u32 = 12;
+        self.ball_of((8, 12), centre, half, dent, finish);
+    }
+
+    /// The same with so many rings and sides.
+    pub fn ball_of(&mut self, (rings, sides): (u32, u32), centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: Finish) {
         let first = self.vertices.len() as u32;
-        for ring in 0..=RINGS {
-            let (sr, cr) = math::sin_cos(math::PI * f64::from(ring) / f64::from(RINGS));
-            for side in 0..=SIDES {
-                let (ss, cs) = math::sin_cos(math::TAU * f64::from(side) / f64::from(SIDES));
+        for ring in 0..=rings {
+            let (sr, cr) = math::sin_cos(math::PI * f64::from(ring) / f64::from(rings));
+            for side in 0..=sides {
+                let (ss, cs) = math::sin_cos(math::TAU * f64::from(side) / f64::from(sides));
                 let d = [sr * cs, sr * ss, cr];
                 let bump = 1.0 - dent * (0.5 + 0.5 * math::sin(5.0 * d[0] + 3.0 * d[2]) * math::cos(4.0 * d[1] - 2.0 * d[0]));
                 let at = Vec3::new(d[0] * half[0] * bump, d[1] * half[1] * bump, d[2] * half[2] * bump);
@@ -202,9 +205,9 @@ impl Mesh {
                 self.vertices.push(vertex(centre + at, normal, uv, finish));
             }
         }
-        let row = SIDES + 1;
-        for ring in 0..RINGS {
-            for side in 0..SIDES {
+        let row = sides + 1;
+        for ring in 0..rings {
+            for side in 0..sides {
                 let i = first + ring * row + side;
                 self.indices.extend([i, i + row, i + 1, i + 1, i + row, i + row + 1]);
             }

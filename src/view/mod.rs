@@ -6,6 +6,7 @@
 
 pub mod arrange;
 pub mod camera;
+pub mod cells;
 pub mod exposure;
 pub mod feed;
 pub mod gaze;
@@ -13,6 +14,7 @@ pub mod gaze;
 pub mod gpu;
 pub mod hud;
 pub mod live;
+pub mod looks;
 pub mod matrix;
 pub mod mesh;
 pub mod noise;

@@ -11,7 +11,7 @@ pub struct Quality {
     pub cascades: u32,
     /// Side of each shadow map, px.
     pub shadow_px: u32,
-    /// Texels a side of the filter over a shadow map: 2 or 3.
+    /// Texels a side of the filter over a shadow map: 1, 2 or 3.
     pub shadow_taps: u32,
     /// The lamp casts shadows.
     pub lamp_shadow: bool,
@@ -23,6 +23,10 @@ pub struct Quality {
     pub light_rays: usize,
     /// Trees that are planted, where there is room.
     pub trees: usize,
+    /// Boughs around a tree's trunk in each whorl; boulders are as fine.
+    pub boughs: u32,
+    /// Between two sizes of noise the mean is taken; without it the nearer one, at half the cost.
+    pub smooth_noise: bool,
     /// Samples along the path of a pixel that moves while the shutter is open; 1: no motion blur.
     pub blur_taps: u32,
 }
@@ -34,12 +38,14 @@ pub const PRESETS: &[Quality] = &[
         samples: 1,
         cascades: 1,
         shadow_px: 4096,
-        shadow_taps: 2,
+        shadow_taps: 1,
         lamp_shadow: false,
         reflection: 0.25,
         light_cell_m: 2.5,
         light_rays: 24,
         trees: 1000,
+        boughs: 5,
+        smooth_noise: false,
         blur_taps: 1,
     },
     Quality {
@@ -53,6 +59,8 @@ pub const PRESETS: &[Quality] = &[
         light_cell_m: 2.0,
         light_rays: 32,
         trees: 1500,
+        boughs: 9,
+        smooth_noise: true,
         blur_taps: 4,
     },
     Quality {
@@ -66,6 +74,8 @@ pub const PRESETS: &[Quality] = &[
         light_cell_m: 1.5,
         light_rays: 48,
         trees: 3000,
+        boughs: 11,
+        smooth_noise: true,
         blur_taps: 8,
     },
     Quality {
@@ -79,6 +89,8 @@ pub const PRESETS: &[Quality] = &[
         light_cell_m: 1.0,
         light_rays: 64,
         trees: 6000,
+        boughs: 11,
+        smooth_noise: true,
         blur_taps: 12,
     },
 ];
@@ -101,7 +113,7 @@ mod tests {
             let (a, b) = (&pair[0], &pair[1]);
             assert!(a.samples <= b.samples && a.cascades <= b.cascades && a.shadow_taps <= b.shadow_taps, "{}", b.name);
             assert!(a.light_cell_m >= b.light_cell_m && a.light_rays <= b.light_rays && a.trees < b.trees, "{}", b.name);
-            assert!(a.reflection <= b.reflection && a.blur_taps <= b.blur_taps, "{}", b.name);
+            assert!(a.reflection <= b.reflection && a.blur_taps <= b.blur_taps && a.boughs <= b.boughs, "{}", b.name);
         }
         assert_eq!(Quality::named("low").map(|q| q.samples), Some(1));
         assert!(Quality::named("best").is_none());

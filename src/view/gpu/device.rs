@@ -39,14 +39,27 @@ impl Gpu {
         Self::open_for(&instance, None)
     }
 
+    /// Opens a renderer in software: slow, and the same on every machine.
+    ///
+    /// # Errors
+    /// When there is none, or it does not open.
+    pub fn open_software() -> Result<Self, GpuError> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+        Self::request(&instance, None, true)
+    }
+
     /// Opens a device that can draw on a window's surface.
     ///
     /// # Errors
     /// When there is none, or it does not open.
     pub fn open_for(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>) -> Result<Self, GpuError> {
+        Self::request(instance, surface, false)
+    }
+
+    fn request(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>, software: bool) -> Result<Self, GpuError> {
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
-            force_fallback_adapter: false,
+            force_fallback_adapter: software,
             compatible_surface: surface,
             apply_limit_buckets: false,
         };

@@ -1,15 +1,18 @@
 //! Recording of passes.
 
 use super::device::Gpu;
+use crate::view::looks::Look;
 use crate::view::mesh::Mesh;
 use crate::view::scene::Instance;
+use std::ops::Range;
 use wgpu::util::DeviceExt;
 
-/// A mesh on the device.
+/// A mesh on the device; the triangles of one look lie together.
 pub struct Solid {
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     count: u32,
+    runs: Vec<(Look, Range<u32>)>,
 }
 
 /// Copies of a mesh.
@@ -26,10 +29,15 @@ pub fn upload(gpu: &Gpu, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffe
 impl Solid {
     /// Uploads a mesh; `None` for an empty one.
     pub fn new(gpu: &Gpu, mesh: &Mesh) -> Option<Self> {
-        (!mesh.indices.is_empty()).then(|| Self {
+        if mesh.indices.is_empty() {
+            return None;
+        }
+        let (indices, runs) = sorted(mesh);
+        Some(Self {
             vertices: upload(gpu, bytemuck::cast_slice(&mesh.vertices), wgpu::BufferUsages::VERTEX),
-            indices: upload(gpu, bytemuck::cast_slice(&mesh.indices), wgpu::BufferUsages::INDEX),
-            count: mesh.indices.len() as u32,
+            indices: upload(gpu, bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
+            count: indices.len() as u32,
+            runs,
         })
     }
 
@@ -45,13 +53,39 @@ impl Solid {
         pass.draw_indexed(0..self.count, 0, 0..1);
     }
 
-    /// Draws its copies.
+    /// Draws its copies, whatever they look like: for depth alone.
     pub fn draw(&self, pass: &mut wgpu::RenderPass, copies: &Copies) {
+        self.draw_range(pass, copies, 0..self.count);
+    }
+
+    /// Draws what has one look and returns how many triangles of each copy that are; `None`: nothing has it.
+    pub fn draw_look(&self, pass: &mut wgpu::RenderPass, copies: &Copies, look: Look) -> Option<u32> {
+        let (_, run) = self.runs.iter().find(|run| run.0 == look)?;
+        self.draw_range(pass, copies, run.clone());
+        Some(run.len() as u32 / 3)
+    }
+
+    fn draw_range(&self, pass: &mut wgpu::RenderPass, copies: &Copies, range: Range<u32>) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_vertex_buffer(1, copies.buffer.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..self.count, 0, 0..copies.count);
+        pass.draw_indexed(range, 0, 0..copies.count);
     }
+}
+
+/// Triangles by their look, and where each look's begin and end.
+fn sorted(mesh: &Mesh) -> (Vec<u32>, Vec<(Look, Range<u32>)>) {
+    let look = |corner: u32| mesh.vertices.get(corner as usize).map_or(Look::Simple, |vertex| Look::of(vertex.material));
+    let mut indices: Vec<u32> = Vec::with_capacity(mesh.indices.len());
+    let mut runs = Vec::new();
+    for of in Look::ALL {
+        let from = indices.len() as u32;
+        indices.extend(mesh.indices.chunks_exact(3).filter(|corners| look(corners[0]) == of).flatten());
+        if indices.len() as u32 > from {
+            runs.push((of, from..indices.len() as u32));
+        }
+    }
+    (indices, runs)
 }
 
 impl Copies {

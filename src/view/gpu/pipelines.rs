@@ -1,6 +1,8 @@
 //! How each kind of thing is drawn.
 
 use super::device::Gpu;
+use crate::site::catalogue;
+use crate::view::looks::Look;
 use crate::view::mesh::Vertex;
 use crate::view::quality::Quality;
 use crate::view::scene::{Instance, Patch};
@@ -30,14 +32,14 @@ pub struct Pipelines {
     pub tiled: wgpu::Sampler,
     /// Compares with a shadow map.
     pub compare: wgpu::Sampler,
-    /// Solids.
-    pub surface: wgpu::RenderPipeline,
-    /// Solids, mirrored.
-    pub surface_mirrored: wgpu::RenderPipeline,
+    /// Solids, by their look.
+    pub surfaces: Vec<(Look, wgpu::RenderPipeline)>,
+    /// Solids, mirrored, by their look.
+    pub surfaces_mirrored: Vec<(Look, wgpu::RenderPipeline)>,
     /// What shines through.
     pub sheer: wgpu::RenderPipeline,
-    /// Defects.
-    pub defect: wgpu::RenderPipeline,
+    /// Defects, by their AASHTO code.
+    pub defects: Vec<(u32, wgpu::RenderPipeline)>,
     /// The lake.
     pub water: wgpu::RenderPipeline,
     /// The sky.
@@ -116,6 +118,8 @@ struct Kind<'a> {
     cull: Option<wgpu::Face>,
     front: wgpu::FrontFace,
     samples: u32,
+    /// What the shader's overrides are.
+    constants: &'a [(&'a str, f64)],
 }
 
 fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
@@ -124,6 +128,7 @@ fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
         bind_group_layouts: kind.layouts,
         immediate_size: 0,
     });
+    let constants = wgpu::PipelineCompilationOptions { constants: kind.constants, ..Default::default() };
     let targets =
         [kind.target.map(|format| wgpu::ColorTargetState { format, blend: kind.blend, write_mask: wgpu::ColorWrites::ALL })];
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -132,7 +137,7 @@ fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
         vertex: wgpu::VertexState {
             module: kind.module,
             entry_point: Some("vs"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: constants.clone(),
             buffers: kind.buffers,
         },
         primitive: wgpu::PrimitiveState { cull_mode: kind.cull, front_face: kind.front, ..Default::default() },
@@ -147,7 +152,7 @@ fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
         fragment: kind.target.map(|_| wgpu::FragmentState {
             module: kind.module,
             entry_point: Some("fs"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: constants,
             targets: &targets,
         }),
         multiview_mask: None,
@@ -209,16 +214,43 @@ impl Layouts {
     }
 }
 
-fn sampler(gpu: &Gpu, address: wgpu::AddressMode, compare: Option<wgpu::CompareFunction>) -> wgpu::Sampler {
+fn sampler(gpu: &Gpu, address: wgpu::AddressMode, compare: Option<wgpu::CompareFunction>, between: bool) -> wgpu::Sampler {
+    let mipmap_filter = if between { wgpu::MipmapFilterMode::Linear } else { wgpu::MipmapFilterMode::Nearest };
     gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         address_mode_u: address,
         address_mode_v: address,
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
-        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        mipmap_filter,
         compare,
         ..Default::default()
     })
+}
+
+/// What a preset costs, for the shaders' overrides (common.wgsl).
+fn costs(quality: &Quality) -> [(&'static str, f64); 5] {
+    [
+        ("CASCADES", f64::from(quality.cascades)),
+        ("TAPS", f64::from(quality.shadow_taps)),
+        ("LAMP_CASTS", f64::from(u8::from(quality.lamp_shadow))),
+        ("MIRROR", f64::from(u8::from(quality.reflection > 0.0))),
+        ("DETAIL", f64::from(u8::from(quality.smooth_noise))),
+    ]
+}
+
+/// A pipeline with more overrides.
+fn special(gpu: &Gpu, kind: &Kind, more: &[(&str, f64)]) -> wgpu::RenderPipeline {
+    let constants = [kind.constants, more].concat();
+    build(gpu, &Kind { constants: &constants, ..*kind })
+}
+
+/// One pipeline for each look.
+fn surfaces(gpu: &Gpu, kind: &Kind, mirrored: f64) -> Vec<(Look, wgpu::RenderPipeline)> {
+    let of = |look: Look| {
+        let glossy = f64::from(u8::from(look.shines()));
+        (look, special(gpu, kind, &[("LOOK", f64::from(look as u32)), ("GLOSSY", glossy), ("MIRRORED", mirrored)]))
+    };
+    Look::ALL.into_iter().map(of).collect()
 }
 
 /// Nearer is greater; what is as near as before is drawn over.
@@ -241,6 +273,7 @@ impl Pipelines {
             ([Some(corners()), Some(copies())], [Some(patches())], [Some(corners())]);
         let (lake_layouts, map_layouts, develop_layouts) =
             ([Some(&layouts.globals), Some(&layouts.water)], [Some(&layouts.map)], [Some(&layouts.develop)]);
+        let costs = costs(quality);
         let solid = Kind {
             module: &surface,
             layouts: &globals,
@@ -252,15 +285,27 @@ impl Pipelines {
             cull: Some(wgpu::Face::Back),
             front,
             samples: quality.samples,
+            constants: &costs,
         };
         let shown = Some((false, NEARER));
+        let mirrored = Kind { front: wgpu::FrontFace::Cw, samples: 1, ..solid };
         let back = Kind { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
-        let sheer = Kind { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, ..solid };
+        let see_through = [costs.as_slice(), &[("LOOK", f64::from(Look::Simple as u32))]].concat();
+        let sheer = Kind { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
         // Towards the eye: in front of the faces that they lie in.
         let flat = Kind { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
         let lake = Kind { module: &water, layouts: &lake_layouts, buffers: &water_buffers, blend: over, cull: None, ..solid };
         // Away from the sun.
-        let dark = Kind { module: &shadow, layouts: &map_layouts, target: None, bias: -2, cull: None, samples: 1, ..solid };
+        let dark = Kind {
+            module: &shadow,
+            layouts: &map_layouts,
+            target: None,
+            bias: -2,
+            cull: None,
+            samples: 1,
+            constants: &[],
+            ..solid
+        };
         let film = Kind {
             module: &develop,
             layouts: &develop_layouts,
@@ -269,21 +314,22 @@ impl Pipelines {
             depth: None,
             cull: None,
             samples: 1,
+            constants: &[],
             ..solid
         };
         Self {
-            surface: build(gpu, &solid),
-            surface_mirrored: build(gpu, &Kind { front: wgpu::FrontFace::Cw, samples: 1, ..solid }),
+            surfaces: surfaces(gpu, &solid, 0.0),
+            surfaces_mirrored: surfaces(gpu, &mirrored, 1.0),
             sheer: build(gpu, &sheer),
-            defect: build(gpu, &flat),
+            defects: catalogue::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect(),
             water: build(gpu, &lake),
             sky_mirrored: build(gpu, &Kind { samples: 1, ..back }),
             sky: build(gpu, &back),
             shadow: build(gpu, &dark),
             develop: build(gpu, &film),
-            smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None),
-            tiled: sampler(gpu, wgpu::AddressMode::Repeat, None),
-            compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(NEARER)),
+            smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None, false),
+            tiled: sampler(gpu, wgpu::AddressMode::Repeat, None, quality.smooth_noise),
+            compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(NEARER), false),
             globals_layout: layouts.globals,
             water_layout: layouts.water,
             develop_layout: layouts.develop,

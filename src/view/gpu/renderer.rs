@@ -7,13 +7,18 @@ use super::pipelines::{DEPTH, PICTURE, Pipelines};
 use super::targets::{Targets, noise_texture};
 use super::uniforms::{Develop, Globals, MAPS, Maps};
 use crate::base::frames::{Enu, Vec3};
+use crate::site::catalogue;
+use crate::view::cells::{self, Ball, Frustum};
 use crate::view::hud::Item;
+use crate::view::looks::Look;
+use crate::view::matrix::Matrix;
 use crate::view::picture::Picture;
 use crate::view::quality::Quality;
-use crate::view::scene::{Instance, Model, Scene};
+use crate::view::scene::{Instance, Model, Patch, Scene};
 use crate::view::shadows::{self, Map};
 use crate::view::shot::Shot;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The sun's map over the whole site is drawn anew when the sun has moved so far (cosine of a quarter of a degree).
 const SUN_MOVED: f64 = 0.999_990_5;
@@ -29,10 +34,18 @@ pub struct Counts {
     pub draws: u32,
 }
 
+impl Counts {
+    fn and(self, other: Self) -> Self {
+        Self { triangles: self.triangles + other.triangles, draws: self.draws + other.draws }
+    }
+}
+
+/// What stands in one cell.
 struct Fixed {
-    solid: Solid,
+    solid: Arc<Solid>,
     copies: Copies,
     casts: bool,
+    ball: Ball,
 }
 
 /// A scene on the device, and how it is drawn.
@@ -41,8 +54,8 @@ pub struct Renderer {
     pipelines: Pipelines,
     fixed: Vec<Fixed>,
     models: Vec<Option<Solid>>,
-    water: Option<Solid>,
-    patches: Option<(wgpu::Buffer, u32)>,
+    water: Vec<(Solid, Ball)>,
+    patches: Vec<(u32, wgpu::Buffer, u32)>,
     bounds_m: (Vec3<Enu>, f64),
     water_m: f64,
     globals: wgpu::Buffer,
@@ -85,11 +98,8 @@ impl Renderer {
         Self {
             fixed: fixed(gpu, scene),
             models: scene.models.iter().map(|mesh| Solid::new(gpu, mesh)).collect(),
-            water: Solid::new(gpu, &scene.water),
-            patches: (!scene.patches.is_empty()).then(|| {
-                let bytes = bytemuck::cast_slice(&scene.patches);
-                (upload(gpu, bytes, wgpu::BufferUsages::VERTEX), scene.patches.len() as u32)
-            }),
+            water: cells::cut(&scene.water).iter().filter_map(|cell| Some((Solid::new(gpu, cell)?, Ball::of(cell)))).collect(),
+            patches: patches(gpu, &scene.patches),
             bounds_m: scene.bounds_m,
             water_m: scene.water_m(),
             bound,
@@ -111,6 +121,11 @@ impl Renderer {
         self.counts
     }
 
+    /// Replaces the scene's defects.
+    pub fn set_patches(&mut self, gpu: &Gpu, all: &[Patch]) {
+        self.patches = patches(gpu, all);
+    }
+
     /// Draws a shot into `target` (a texture of [`wgpu::TextureFormat::Rgba8Unorm`] of the shot's size).
     pub fn draw(&mut self, gpu: &Gpu, shot: &Shot, target: &wgpu::TextureView) {
         self.counts = Counts::default();
@@ -121,7 +136,7 @@ impl Renderer {
             .map(|beam| shadows::lamp_map(&beam, self.quality.shadow_px));
         let maps = Maps { sun: &sun_maps, lamp: lamp_map.as_ref() };
         for (buffer, mirrored) in [(&self.globals, false), (&self.globals_mirrored, true)] {
-            let globals = Globals::new(shot, &self.quality, self.water_m, &maps, mirrored);
+            let globals = Globals::new(shot, self.water_m, &maps, mirrored);
             gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(&globals));
         }
         let moving = self.moving(gpu, &shot.moving);
@@ -129,10 +144,13 @@ impl Renderer {
         self.draw_maps(gpu, &mut encoder, shot, (&sun_maps, lamp_map.as_ref()), &moving);
         let targets =
             self.targets.remove(&shot.size_px).unwrap_or_else(|| Targets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
+        let projection = shot.eye.view_projection(shot.aspect());
         if self.quality.reflection > 0.0 {
-            self.draw_mirror(&mut encoder, &targets, &moving);
+            let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &projection);
+            self.counts = self.counts.and(mirrored);
         }
-        self.draw_light(&mut encoder, &targets, &moving);
+        let lit = self.draw_light(&mut encoder, &targets, &moving, &projection);
+        self.counts = self.counts.and(lit);
         let develop = Develop::new(shot, &self.quality);
         gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
         {
@@ -198,13 +216,16 @@ impl Renderer {
             let mut pass = begin_depth(encoder, view);
             pass.set_pipeline(&self.pipelines.shadow);
             pass.set_bind_group(0, group, &[]);
-            for fixed in self.fixed.iter().filter(|f| f.casts) {
-                count(&mut self.counts, &fixed.solid, &fixed.copies);
+            let lit = Frustum::of(&map.projection);
+            for fixed in self.fixed.iter().filter(|fixed| fixed.casts && lit.may_show(&fixed.ball)) {
+                count(&mut self.counts, fixed.solid.triangles(), &fixed.copies);
                 fixed.solid.draw(&mut pass, &fixed.copies);
             }
             if !(of_sun && whole) {
-                let solids = moving.iter().filter(|(model, _)| *model != Model::Disc);
-                draw_models(&mut pass, &self.models, solids, &mut self.counts);
+                for (solid, copies) in solids(&self.models, moving) {
+                    count(&mut self.counts, solid.triangles(), copies);
+                    solid.draw(&mut pass, copies);
+                }
             }
         }
         if whole && shot.sky.direct_lux > 0.0 {
@@ -212,49 +233,98 @@ impl Renderer {
         }
     }
 
-    fn draw_mirror(&mut self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, moving: &[(Model, Copies)]) {
+    fn draw_mirror(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        moving: &[(Model, Copies)],
+        projection: &Matrix,
+    ) -> Counts {
+        let shown = Frustum::of(&projection.after(&Matrix::mirror(self.water_m)));
+        let mut counts = Counts::default();
         let mut pass = begin(encoder, &targets.mirror, None, Some(&targets.mirror_depth));
         pass.set_bind_group(0, &self.bound_mirrored, &[]);
-        pass.set_pipeline(&self.pipelines.surface_mirrored);
-        for fixed in &self.fixed {
-            count(&mut self.counts, &fixed.solid, &fixed.copies);
-            fixed.solid.draw(&mut pass, &fixed.copies);
-        }
-        let solids = moving.iter().filter(|(model, _)| *model != Model::Disc);
-        draw_models(&mut pass, &self.models, solids, &mut self.counts);
+        self.draw_solids(&mut pass, &self.pipelines.surfaces_mirrored, (moving, &shown), &mut counts);
         pass.set_pipeline(&self.pipelines.sky_mirrored);
         pass.draw(0..3, 0..1);
+        counts.draws += 1;
+        counts
     }
 
-    fn draw_light(&mut self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, moving: &[(Model, Copies)]) {
+    /// Everything solid, look by look.
+    fn draw_solids(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        pipelines: &[(Look, wgpu::RenderPipeline)],
+        (moving, shown): (&[(Model, Copies)], &Frustum),
+        counts: &mut Counts,
+    ) {
+        let still: Vec<&Fixed> = self.fixed.iter().filter(|fixed| shown.may_show(&fixed.ball)).collect();
+        for (look, pipeline) in pipelines {
+            pass.set_pipeline(pipeline);
+            let still = still.iter().map(|fixed| (&*fixed.solid, &fixed.copies));
+            for (solid, copies) in solids(&self.models, moving).chain(still) {
+                if let Some(triangles) = solid.draw_look(pass, copies, *look) {
+                    count(counts, triangles, copies);
+                }
+            }
+        }
+    }
+
+    fn draw_light(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        moving: &[(Model, Copies)],
+        projection: &Matrix,
+    ) -> Counts {
+        let shown = Frustum::of(projection);
+        let mut counts = Counts::default();
         let mut pass = begin(encoder, &targets.light, targets.resolved.as_ref(), Some(&targets.depth));
         pass.set_bind_group(0, &self.bound, &[]);
-        pass.set_pipeline(&self.pipelines.surface);
-        let solids = moving.iter().filter(|(model, _)| *model != Model::Disc);
-        draw_models(&mut pass, &self.models, solids, &mut self.counts);
-        for fixed in &self.fixed {
-            count(&mut self.counts, &fixed.solid, &fixed.copies);
-            fixed.solid.draw(&mut pass, &fixed.copies);
-        }
-        if let Some((buffer, patches)) = &self.patches {
-            pass.set_pipeline(&self.pipelines.defect);
+        self.draw_solids(&mut pass, &self.pipelines.surfaces, (moving, &shown), &mut counts);
+        for (kind, buffer, patches) in &self.patches {
+            let Some((_, pipeline)) = self.pipelines.defects.iter().find(|of| of.0 == *kind) else { continue };
+            pass.set_pipeline(pipeline);
             pass.set_vertex_buffer(0, buffer.slice(..));
             pass.draw(0..6, 0..*patches);
-            self.counts.draws += 1;
+            counts.draws += 1;
+            counts.triangles += 2 * u64::from(*patches);
         }
         pass.set_pipeline(&self.pipelines.sky);
         pass.draw(0..3, 0..1);
-        if let Some(water) = &self.water {
-            pass.set_pipeline(&self.pipelines.water);
-            pass.set_bind_group(1, &targets.water, &[]);
+        counts.draws += 1;
+        pass.set_pipeline(&self.pipelines.water);
+        pass.set_bind_group(1, &targets.water, &[]);
+        for (water, _) in self.water.iter().filter(|(_, ball)| shown.may_show(ball)) {
             water.draw_alone(&mut pass);
-            self.counts.draws += 1;
-            self.counts.triangles += u64::from(water.triangles());
+            counts.draws += 1;
+            counts.triangles += u64::from(water.triangles());
         }
         pass.set_pipeline(&self.pipelines.sheer);
-        let sheer = moving.iter().filter(|(model, _)| *model == Model::Disc);
-        draw_models(&mut pass, &self.models, sheer, &mut self.counts);
+        for (model, copies) in moving.iter().filter(|(model, _)| *model == Model::Disc) {
+            let Some(Some(solid)) = self.models.get(*model as usize) else { continue };
+            count(&mut counts, solid.triangles(), copies);
+            solid.draw(&mut pass, copies);
+        }
+        counts
     }
+}
+
+/// Defects by kind.
+fn patches(gpu: &Gpu, all: &[Patch]) -> Vec<(u32, wgpu::Buffer, u32)> {
+    let of = |kind: &u32| {
+        let same: Vec<Patch> = all.iter().filter(|patch| patch.centre[3] as u32 == *kind).copied().collect();
+        let buffer = (!same.is_empty()).then(|| upload(gpu, bytemuck::cast_slice(&same), wgpu::BufferUsages::VERTEX))?;
+        Some((*kind, buffer, same.len() as u32))
+    };
+    catalogue::KINDS.iter().filter_map(of).collect()
+}
+
+/// What moves and is solid.
+fn solids<'a>(models: &'a [Option<Solid>], moving: &'a [(Model, Copies)]) -> impl Iterator<Item = (&'a Solid, &'a Copies)> {
+    let of = |(model, copies): &'a (Model, Copies)| Some((models.get(*model as usize)?.as_ref()?, copies));
+    moving.iter().filter(|(model, _)| *model != Model::Disc).filter_map(of)
 }
 
 fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
@@ -298,30 +368,31 @@ fn layer(gpu: &Gpu, pipelines: &Pipelines, maps: &wgpu::Texture, k: u32) -> (wgp
     (view, data, group)
 }
 
+/// Everything that stands still, cell by cell.
 fn fixed(gpu: &Gpu, scene: &Scene) -> Vec<Fixed> {
-    let part = |part: &crate::view::scene::Part| {
-        let (solid, copies) = (Solid::new(gpu, &part.mesh)?, Copies::new(gpu, &part.instances)?);
-        Some(Fixed { solid, copies, casts: part.casts })
-    };
-    scene.parts.iter().filter_map(part).collect()
-}
-
-fn draw_models<'a>(
-    pass: &mut wgpu::RenderPass,
-    models: &[Option<Solid>],
-    moving: impl Iterator<Item = &'a (Model, Copies)>,
-    counts: &mut Counts,
-) {
-    for (model, copies) in moving {
-        let Some(Some(solid)) = models.get(*model as usize) else { continue };
-        count(counts, solid, copies);
-        solid.draw(pass, copies);
+    let mut all = Vec::new();
+    for part in &scene.parts {
+        let mut add = |solid: Arc<Solid>, instances: &[Instance], ball: Ball| {
+            all.extend(Copies::new(gpu, instances).map(|copies| Fixed { solid, copies, casts: part.casts, ball }));
+        };
+        if part.instances == [Instance::HERE] {
+            for cell in cells::cut(&part.mesh) {
+                if let Some(solid) = Solid::new(gpu, &cell) {
+                    add(Arc::new(solid), &part.instances, Ball::of(&cell));
+                }
+            }
+        } else if let Some(solid) = Solid::new(gpu, &part.mesh).map(Arc::new) {
+            for (instances, ball) in cells::grouped(&part.mesh, &part.instances) {
+                add(Arc::clone(&solid), &instances, ball);
+            }
+        }
     }
+    all
 }
 
-fn count(counts: &mut Counts, solid: &Solid, copies: &Copies) {
+fn count(counts: &mut Counts, triangles: u32, copies: &Copies) {
     counts.draws += 1;
-    counts.triangles += u64::from(solid.triangles()) * u64::from(copies.count());
+    counts.triangles += u64::from(triangles) * u64::from(copies.count());
 }
 
 /// A texture for a finished picture that can be read back, and shown in a window.

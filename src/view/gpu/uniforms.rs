@@ -63,7 +63,7 @@ pub struct Maps<'a> {
 
 impl Globals {
     /// For a shot, or for what the water at `water_m` mirrors of it.
-    pub fn new(shot: &Shot, quality: &Quality, water_m: f64, maps: &Maps, mirrored: bool) -> Self {
+    pub fn new(shot: &Shot, water_m: f64, maps: &Maps, mirrored: bool) -> Self {
         let flip = |v: Vec3<Enu>| if mirrored { Vec3::new(v.east(), v.north(), -v.up()) } else { v };
         let eye_m = shot.eye.position_m;
         let eye = if mirrored { Vec3::new(eye_m.east(), eye_m.north(), 2.0 * water_m - eye_m.up()) } else { eye_m };
@@ -99,14 +99,9 @@ impl Globals {
             lamp,
             lamp_dir,
             look: [(1.0 / shot.finish.exposure.white_lux) as f32, wind as f32, towards.0 as f32, towards.1 as f32],
-            shadow: [
-                maps.sun.len() as f32,
-                quality.shadow_taps as f32,
-                f32::from(u8::from(maps.lamp.is_some())),
-                f32::from(u8::from(quality.reflection > 0.0)),
-            ],
+            shadow: [if maps.lamp.is_some() { maps.sun.len() as f32 } else { -1.0 }, 0.0, 0.0, 0.0],
             texel,
-            size: [width as f32, height as f32, f32::from(u8::from(mirrored)), 0.0],
+            size: [width as f32, height as f32, 0.0, 0.0],
             shadow_proj,
         }
     }

@@ -15,6 +15,8 @@ const RINGS: [f64; 14] = [1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.
 const SIDE: usize = 48;
 /// How high mountains rise over the rim, m (estimate: a lake in a pre-alpine valley).
 const PEAKS_M: f64 = 620.0;
+/// The rim is land from this height over the water on, m.
+const SHORE_M: f64 = 45.0;
 /// The lake reaches this far, m.
 const LAKE_M: f64 = 9_000.0;
 /// Depth that is as good as bottomless, m.
@@ -106,13 +108,16 @@ fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
     let ridges = 0.5
         + 0.30 * math::sin(east / 610.0 + 1.7 * math::sin(north / 930.0)) * math::cos(north / 480.0 - 0.8)
         + 0.20 * math::sin(east / 233.0 + 2.0) * math::sin(north / 271.0 + math::cos(east / 350.0));
-    let lake = rim_up_m < 0.0;
-    let from = if lake { 2.2 } else { 1.0 };
-    let beyond = (share - from).max(0.0) / 2.4;
+    // Between lake and land the rim goes over from one to the other, or a wall would stand there.
+    let wet = {
+        let t = ((SHORE_M - rim_up_m) / SHORE_M).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    };
+    let beyond = (share - math::lerp(1.0, 2.2, wet)).max(0.0) / 2.4;
     // It begins gently and steepens, as a valley's end does.
     let climb = 1.0 - math::exp(-beyond * beyond / (0.3 + beyond));
     let far = PEAKS_M * climb * (0.35 + 0.9 * ridges);
-    if lake { rim_up_m + far * 1.1 } else { rim_up_m * (1.0 - 0.4 * climb) + far }
+    rim_up_m * (1.0 - 0.4 * climb * (1.0 - wet)) + far
 }
 
 /// The lake: over the field a corner for each of the ground's with its depth, and far out a frame.

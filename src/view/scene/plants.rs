@@ -63,9 +63,9 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<Part> {
         rocks.push(grown(foot, size, turn));
     }
     vec![
-        Part { name: "spruces", mesh: conifer(0.21, 5), instances: tall, casts: true },
-        Part { name: "firs", mesh: conifer(0.15, 6), instances: slim, casts: true },
-        Part { name: "boulders", mesh: boulder(), instances: rocks, casts: true },
+        Part { name: "spruces", mesh: conifer(0.21, 5, quality.boughs), instances: tall, casts: true },
+        Part { name: "firs", mesh: conifer(0.15, 6, quality.boughs), instances: slim, casts: true },
+        Part { name: "boulders", mesh: boulder(quality.boughs), instances: rocks, casts: true },
     ]
 }
 
@@ -106,8 +106,9 @@ fn grown(foot: Vec3<Enu>, size: f64, turn: f64) -> Instance {
 }
 
 /// A conifer of height 1: whorls of drooping boughs with a ragged rim.
-fn conifer(radius: f64, whorls: u32) -> Mesh {
-    const SIDES: u32 = 11;
+fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
+    // Fewer boughs stand in fewer whorls.
+    let whorls = if boughs < 8 { whorls - 2 } else { whorls };
     let mut mesh = Mesh::default();
     mesh.round((Vec3::new(0.0, 0.0, -0.05), 0.018), (Vec3::new(0.0, 0.0, 0.3), 0.012), 5, BARK);
     for whorl in 0..whorls {
@@ -116,16 +117,18 @@ fn conifer(radius: f64, whorls: u32) -> Mesh {
         let high = (low + 0.34 * (1.0 - 0.45 * share)).min(1.0);
         let wide = radius * (1.0 - 0.82 * share);
         let rim = |k: u32| {
-            let (s, c) = math::sin_cos(math::TAU * (f64::from(k % SIDES) + 0.37 * f64::from(whorl)) / f64::from(SIDES));
+            let (s, c) = math::sin_cos(math::TAU * (f64::from(k % boughs) + 0.37 * f64::from(whorl)) / f64::from(boughs));
             // Boughs stick out by turns.
-            let (ragged, droop) = if (k % SIDES).is_multiple_of(2) { (1.0, -0.035) } else { (0.68, 0.01) };
+            let (ragged, droop) = if (k % boughs).is_multiple_of(2) { (1.0, -0.035) } else { (0.68, 0.01) };
             Vec3::new(wide * ragged * c, wide * ragged * s, low + droop)
         };
         let top = Vec3::new(0.0, 0.0, high);
         let hollow = Vec3::new(0.0, 0.0, low + 0.05);
-        for k in 0..SIDES {
+        for k in 0..boughs {
             mesh.polygon(&[rim(k), rim(k + 1), top], NEEDLES);
-            mesh.polygon(&[rim(k + 1), rim(k), hollow], NEEDLES);
+            if boughs >= 8 {
+                mesh.polygon(&[rim(k + 1), rim(k), hollow], NEEDLES);
+            }
         }
     }
     soften(&mut mesh);
@@ -144,8 +147,8 @@ fn soften(mesh: &mut Mesh) {
     }
 }
 
-fn boulder() -> Mesh {
+fn boulder(sides: u32) -> Mesh {
     let mut mesh = Mesh::default();
-    mesh.ball(Vec3::new(0.0, 0.0, 0.15), [0.62, 0.5, 0.42], 0.35, STONE);
+    mesh.ball_of((sides.min(8), sides + 1), Vec3::new(0.0, 0.0, 0.15), [0.62, 0.5, 0.42], 0.35, STONE);
     mesh
 }

@@ -1,5 +1,15 @@
 // Light is carried as pi times radiance, in lux over the exposure's white: a white matte surface under the white illuminance is 1.
 
+// What a preset decides (pipelines.rs): shadow maps of the sun; texels a side of their filter; the lamp casts shadows; the lake mirrors.
+override CASCADES: u32 = 4u;
+override TAPS: u32 = 3u;
+override LAMP_CASTS: bool = true;
+override MIRROR: bool = true;
+// Small things that cost much: ripples of light, the finest waves.
+override DETAIL: bool = true;
+// What a pipeline draws has highlights and reflections.
+override GLOSSY: bool = true;
+
 struct Globals {
     view_proj: mat4x4<f32>,
     // Eye position; seconds.
@@ -21,7 +31,7 @@ struct Globals {
     lamp_dir: vec4<f32>,
     // 1/white; wind speed; wind direction (towards), east and north.
     look: vec4<f32>,
-    // Number of sun maps; texels a side of their filter; 1 where the lamp has a map; 1 where the water has a reflection.
+    // Layer of the lamp's map, below zero without one.
     shadow: vec4<f32>,
     // Size of a texel in each map, m.
     texel: vec4<f32>,
@@ -101,10 +111,13 @@ fn compared(layer: i32, uv: vec2<f32>, depth: f32) -> f32 {
 fn map_visible(layer: i32, q: vec3<f32>) -> f32 {
     let uv = vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y);
     let s = 1.0 / f32(textureDimensions(shadow_map).x);
-    let a = 0.5 * s * (g.shadow.y - 1.0);
+    let a = 0.5 * s * (f32(TAPS) - 1.0);
+    if TAPS < 2u {
+        return compared(layer, uv, q.z);
+    }
     var sum = compared(layer, uv + vec2<f32>(-a, -a), q.z) + compared(layer, uv + vec2<f32>(a, -a), q.z)
         + compared(layer, uv + vec2<f32>(-a, a), q.z) + compared(layer, uv + vec2<f32>(a, a), q.z);
-    if g.shadow.y < 2.5 {
+    if TAPS < 3u {
         return 0.25 * sum;
     }
     sum += compared(layer, uv + vec2<f32>(-a, 0.0), q.z) + compared(layer, uv + vec2<f32>(a, 0.0), q.z)
@@ -125,20 +138,23 @@ fn sun_visible(p: vec3<f32>, n: vec3<f32>) -> f32 {
     }
     // A step off the surface that grows as the sun grazes it keeps a surface from shading itself.
     let lean = 0.6 + 1.6 * (1.0 - clamp(dot(n, g.sun.xyz), 0.0, 1.0));
-    let count = i32(g.shadow.x);
     var layer = 0;
     var q = in_map(0, p + n * (g.texel.x * lean));
-    if q.w < 0.5 && count > 1 {
-        layer = 1;
-        q = in_map(1, p + n * (g.texel.y * lean));
+    if CASCADES > 1u {
+        if q.w < 0.5 {
+            layer = 1;
+            q = in_map(1, p + n * (g.texel.y * lean));
+        }
+        if q.w < 0.5 {
+            layer = 2;
+            q = in_map(2, p + n * (g.texel.z * lean));
+        }
     }
-    if q.w < 0.5 && count > 2 {
-        layer = 2;
-        q = in_map(2, p + n * (g.texel.z * lean));
-    }
-    if q.w < 0.5 && count > 3 {
-        layer = 3;
-        q = in_map(3, p + n * (g.texel.w * lean));
+    if CASCADES > 3u {
+        if q.w < 0.5 {
+            layer = 3;
+            q = in_map(3, p + n * (g.texel.w * lean));
+        }
     }
     if q.w < 0.5 {
         return 1.0;
@@ -183,11 +199,13 @@ fn lamp_lux(p: vec3<f32>, n: vec3<f32>) -> f32 {
         return 0.0;
     }
     var seen = 1.0;
-    if g.shadow.z > 0.5 {
+    if LAMP_CASTS {
         let layer = i32(g.shadow.x);
-        let q = in_map(layer, p + n * 0.03 - ray * 0.03);
-        if q.w > 0.5 {
-            seen = map_visible(layer, q.xyz);
+        if layer >= 0 {
+            let q = in_map(layer, p + n * 0.03 - ray * 0.03);
+            if q.w > 0.5 {
+                seen = map_visible(layer, q.xyz);
+            }
         }
     }
     return g.lamp_dir.w * beam * seen * max(-dot(ray, n), 0.0) / max(distance * distance, 0.01);
@@ -216,13 +234,18 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
         direct = g.sun.w * facing * sun_visible(p, n);
     }
     var bounce = m.light.y * g.sun.w;
-    if n.z < -0.3 && bounce > 0.0 && p.z < g.scene.y + 60.0 {
-        bounce *= 0.86 + 0.45 * caustics(p);
+    if DETAIL {
+        if n.z < -0.3 && bounce > 0.0 && p.z < g.scene.y + 60.0 {
+            bounce *= 0.86 + 0.45 * caustics(p);
+        }
     }
     let indirect = m.light.x * g.sky_rgb.w * g.sky_rgb.xyz + bounce * g.sun_rgb.xyz;
     let sun = direct * g.sun_rgb.xyz;
     let lamp = lamp_lux(p, n);
     var out = matte * (indirect + sun + lamp);
+    if !GLOSSY {
+        return haze(out, v, distance);
+    }
     if direct > 0.0 && m.roughness < 0.85 {
         out += PI * ggx(n, v, g.sun.xyz, f0, m.roughness) * sun;
     }

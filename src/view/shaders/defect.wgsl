@@ -1,6 +1,9 @@
 // Defects, each a patch on its member, drawn by kind. Lines cover shares of pixels, so that a crack narrower than a pixel
 // fades with its width over the ground sampling distance, as it does on a sensor.
 
+// AASHTO code of what a pipeline draws.
+override KIND: u32 = 0u;
+
 struct Patch {
     // Centre; AASHTO code.
     @location(0) centre: vec4<f32>,
@@ -20,7 +23,6 @@ struct Fragment {
     @builtin(position) clip: vec4<f32>,
     @location(0) p: vec3<f32>,
     @location(1) q: vec2<f32>,
-    @location(2) @interpolate(flat) kind: u32,
     @location(3) @interpolate(flat) normal: vec4<f32>,
     @location(4) @interpolate(flat) along: vec4<f32>,
     @location(5) @interpolate(flat) size: vec4<f32>,
@@ -42,7 +44,6 @@ fn vs(@builtin(vertex_index) k: u32, d: Patch) -> Fragment {
     let shown = out.p + d.normal.xyz * 0.0015;
     out.clip = g.view_proj * vec4<f32>(shown, 1.0);
     out.q = q;
-    out.kind = u32(d.centre.w + 0.5);
     out.normal = d.normal;
     out.along = d.along;
     out.size = d.size;
@@ -144,7 +145,7 @@ fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, loo
 fn rust(q: vec2<f32>, f: f32) -> vec3<f32> {
     let a = fbm(q * 18.0, f * 18.0);
     let b = fbm(q * 70.0 + 9.0, f * 70.0);
-    return mix(vec3<f32>(0.10, 0.035, 0.018), vec3<f32>(0.36, 0.135, 0.04), a) * (0.65 + 0.7 * b);
+    return mix(vec3<f32>(0.085, 0.034, 0.020), vec3<f32>(0.25, 0.105, 0.042), a) * (0.65 + 0.7 * b);
 }
 
 fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
@@ -200,7 +201,8 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     }
     (*look).matter.albedo = colour;
     (*look).matter.roughness = 0.8;
-    let bump = 0.5 * (vec2<f32>(noise(in.q * 55.0), noise(in.q * 55.0 + 19.0)) - 0.5) * (1.0 - smoothstep(0.004, 0.02, f));
+    let turned = vec2<f32>(0.8 * in.q.x - 0.6 * in.q.y, 0.6 * in.q.x + 0.8 * in.q.y);
+    let bump = 0.35 * (vec2<f32>(fbm(turned * 40.0, f * 40.0), fbm(turned * 40.0 + 19.0, f * 40.0)) - 0.5) * (1.0 - smoothstep(0.004, 0.02, f));
     (*look).matter.normal = frame_normal(in, bump);
     (*look).alpha = clamp(body, 0.0, 1.0) * 0.92;
 }
@@ -209,7 +211,9 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
 fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let e = outline(in.q, half, in.normal.w) + 0.35 * (fbm(in.q * 12.0, f * 12.0) - 0.5);
-    let stone = pebbles(in.q * 42.0);
+    // Stones are no discs: their outlines are bent.
+    let bent = in.q + 0.012 * (vec2<f32>(fbm(in.q * 30.0, f * 30.0), fbm(in.q * 30.0 + 40.0, f * 30.0)) - 0.5);
+    let stone = pebbles(bent * vec2<f32>(38.0, 47.0));
     let shown = 1.0 - smoothstep(0.006, 0.025, f);
     let pebble = mix(vec3<f32>(0.16, 0.15, 0.14), vec3<f32>(0.52, 0.47, 0.40), stone.y);
     let paste = vec3<f32>(0.25, 0.235, 0.21);
@@ -286,9 +290,11 @@ fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     let limed = select(0.0, 1.0, fract(in.normal.w * 7.0) > 0.55);
     let rim = limed * exp(-abs(off) / 0.007) * smoothstep(0.45, 0.7, noise(vec2<f32>(in.q.x * 9.0, in.normal.w * 31.0)))
         * (1.0 - smoothstep(0.85 * half, half, abs(in.q.x)));
-    (*look).matter.albedo = mix(vec3<f32>(0.74, 0.73, 0.69), vec3<f32>(0.012, 0.011, 0.010), clamp(line / max(line + 0.6 * rim, 1e-4), 0.0, 1.0));
+    // The gap lies in the lime, not under it.
+    let veil = (1.0 - line) * 0.35 * rim;
+    (*look).matter.albedo = mix(vec3<f32>(0.66, 0.65, 0.62), vec3<f32>(0.012, 0.011, 0.010), line / max(line + veil, 1e-4));
     (*look).matter.roughness = 0.95;
-    (*look).alpha = max(line, 0.55 * rim);
+    (*look).alpha = line + veil;
 }
 
 @fragment
@@ -305,15 +311,22 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     look.matter.albedo = vec3<f32>(0.4);
     look.alpha = 0.0;
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
-    switch in.kind {
-        case 1000u: { corroded(in, f, &look); }
-        case 1010u: { fatigue(in, across, off, &look); }
-        case 1020u: { bolts(in, f, &look); }
-        case 1080u: { broken(in, in.q, half, select(0.018, 0.05, in.size.y > 2.5), f, &look); }
-        case 1090u: { rebar(in, f, &look); }
-        case 1110u, 1130u: { cracked(in, across, off, &look); }
-        case 1120u: { lime(in, f, &look); }
-        default: { worn(in, f, &look); }
+    if KIND == 1000u {
+        corroded(in, f, &look);
+    } else if KIND == 1010u {
+        fatigue(in, across, off, &look);
+    } else if KIND == 1020u {
+        bolts(in, f, &look);
+    } else if KIND == 1080u {
+        broken(in, in.q, half, select(0.018, 0.05, in.size.y > 2.5), f, &look);
+    } else if KIND == 1090u {
+        rebar(in, f, &look);
+    } else if KIND == 1110u || KIND == 1130u {
+        cracked(in, across, off, &look);
+    } else if KIND == 1120u {
+        lime(in, f, &look);
+    } else {
+        worn(in, f, &look);
     }
     if look.alpha <= 0.002 {
         discard;

@@ -1,4 +1,9 @@
-// Everything solid: one shader that switches on the material.
+// Everything solid.
+
+// Which materials a pipeline draws (looks.rs): 0 concrete, 1 road, 2 steel, 3 what is simple, 4 ground.
+override LOOK: u32 = 3u;
+// It draws what the lake mirrors.
+override MIRRORED: bool = false;
 
 struct Corner {
     @location(0) position: vec3<f32>,
@@ -55,10 +60,12 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     // Boards lie along the member, 0.16 m wide, each with a tone of its own.
     let board = floor(uv.y / 0.16);
     let board_tone = hash2(vec2<i32>(i32(board), i32(floor(uv.x / 2.4 + 0.37 * (board - 2.0 * floor(0.5 * board))))));
-    tone += 0.11 * (board_tone - 0.5) * (1.0 - smoothstep(0.05, 0.2, fp.y));
-    let seams = lines(uv.y, 0.16, 0.004, fp.y);
-    let joints = lines(uv.x + 0.6, 4.8, 0.012, fp.x) + 0.6 * lines(uv.x + 0.2, 2.4, 0.004, fp.x);
-    tone *= 1.0 - 0.38 * seams - 0.35 * joints;
+    tone += 0.07 * (board_tone - 0.5) * (1.0 - smoothstep(0.05, 0.2, fp.y));
+    // Weather has worn most of the lines between boards away: what is left is fainter than any crack, and straight.
+    let kept = smoothstep(0.45, 0.7, fbm(vec2<f32>(uv.x * 0.9, board * 3.7), fp.x * 0.9));
+    let seams = lines(uv.y, 0.16, 0.003, fp.y) * kept;
+    let joints = lines(uv.x + 0.6, 4.8, 0.010, fp.x) + 0.3 * lines(uv.x + 0.2, 2.4, 0.004, fp.x);
+    tone *= 1.0 - 0.16 * seams - 0.30 * joints;
     // Holes of form ties, 25 mm wide.
     let cell = vec2<f32>(1.2, 0.8);
     let tie = length((fract(uv / cell + vec2<f32>(0.5, 0.25)) - 0.5) * cell);
@@ -80,7 +87,7 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     if lucky > 0.93 {
         let centre = (spot + 0.3 + 0.4 * vec2<f32>(hash2(vec2<i32>(spot)), hash2(vec2<i32>(spot) + 5))) * 1.7;
         let d = length((uv - centre) * vec2<f32>(1.0, mix(1.0, 0.45, wall)));
-        let splash = 0.035 * noise(uv * 38.0) + 0.02 * noise(uv * 130.0);
+        let splash = 0.055 * fbm(uv * 38.0, 0.0);
         colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * (1.0 - smoothstep(splash - 0.5 * f, splash + 0.5 * f + 0.004, d)));
     }
     // Splash zone: algae and a wet foot.
@@ -143,15 +150,21 @@ fn steel(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
 }
 
 fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
-    // Slopes show their height, too, so that nothing is drawn out on them.
-    let at = in.p.xy + in.p.z * vec2<f32>(0.71, -0.53);
+    let at = in.p.xy;
     let over = in.aux;
     let broad = fbm(at * 0.03, f * 0.03);
     let near = fbm(at * 0.5 + 17.0, f * 0.5);
     let fine = fbm(at * 4.0 + 3.0, f * 4.0);
     let blades = fbm(at * 19.0 + 7.0, f * 19.0);
     let meadow = mix(vec3<f32>(0.085, 0.105, 0.032), vec3<f32>(0.17, 0.15, 0.065), smoothstep(0.35, 0.7, broad * 0.6 + near * 0.4));
-    let rock = mix(vec3<f32>(0.18, 0.165, 0.145), vec3<f32>(0.33, 0.31, 0.28), near) * (0.5 + 0.6 * fine + 0.4 * blades);
+    // Rock stands upright: its pattern lies in the plane that it faces most, or it would be drawn out down the slope.
+    let east = abs(n.x) + 0.3 * (near - 0.5) > abs(n.y);
+    let wall = vec2<f32>(select(in.p.x, in.p.y, east), in.p.z);
+    let bed = fbm(vec2<f32>(wall.x * 0.12, wall.y * 0.7 + wall.x * 0.13 + 1.5 * near), f * 0.7);
+    let block = fbm(wall * 0.8 + 9.0, f * 0.8);
+    let chip = fbm(wall * 6.0 + 3.0, f * 6.0);
+    let rock = mix(vec3<f32>(0.17, 0.158, 0.14), vec3<f32>(0.30, 0.28, 0.255), smoothstep(0.25, 0.75, 0.35 * bed + 0.65 * block))
+        * (0.6 + 0.8 * chip) * (0.9 + 0.2 * smoothstep(0.40, 0.55, bed + 0.3 * (chip - 0.5)));
     let gravel = mix(vec3<f32>(0.21, 0.195, 0.17), vec3<f32>(0.34, 0.32, 0.28), fine);
     let steep = smoothstep(0.22, 0.42, 1.0 - n.z + 0.18 * (near - 0.5));
     var colour = meadow * (0.55 + 0.55 * fine + 0.35 * blades);
@@ -214,27 +227,35 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let f = max(length(dpdx(in.p)), length(dpdy(in.p)));
     let n = normalize(in.normal);
     // In the lake's mirror only what stands over the water shows.
-    if g.size.z > 0.5 && in.p.z < g.scene.y {
-        discard;
-    }
-    if in.material == 12u {
-        return exposed(in.tint.rgb * in.aux);
+    if MIRRORED {
+        if in.p.z < g.scene.y {
+            discard;
+        }
     }
     var m: Matter;
     m.normal = n;
     m.metal = 0.0;
     m.roughness = 0.9;
     m.light = in.light;
-    switch in.material {
-        case 0u: { concrete(in, n, fp, &m); }
-        case 1u: { deck(in, fp, &m); }
-        case 2u: { steel(in, n, fp, &m); }
-        case 4u: { ground(in, n, f, &m); }
-        default: { simple(in, n, f, &m); }
+    if LOOK == 0u {
+        concrete(in, n, fp, &m);
+    } else if LOOK == 1u {
+        deck(in, fp, &m);
+    } else if LOOK == 2u {
+        steel(in, n, fp, &m);
+    } else if LOOK == 4u {
+        ground(in, n, f, &m);
+    } else if LOOK == 3u {
+        simple(in, n, f, &m);
     }
     let lit = exposed(shade(m, in.p));
-    if in.material == 14u {
-        return vec4<f32>(lit.rgb, in.tint.a);
+    if LOOK == 3u {
+        if in.material == 12u {
+            return exposed(in.tint.rgb * in.aux);
+        }
+        if in.material == 14u {
+            return vec4<f32>(lit.rgb, in.tint.a);
+        }
     }
     return lit;
 }

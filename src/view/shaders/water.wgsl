@@ -48,7 +48,7 @@ fn slope(at: vec2<f32>, footprint: f32) -> vec2<f32> {
     s += train(bent, normalize(wind + 0.35 * side), 0.41, strength, footprint);
     let t = g.eye.w;
     let fine = 1.0 - smoothstep(0.05, 0.3, footprint);
-    if fine > 0.0 {
+    if DETAIL {
         let q = bent * 4.3 - wind * t * 0.9;
         s += fine * strength * 1.6 * (vec2<f32>(noise(q), noise(q + 31.7)) - 0.5);
     }
@@ -72,7 +72,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     var r = reflect(-v, n);
     r.z = abs(r.z) + 0.3 * rough;
     var seen = sky_radiance(normalize(r)) * clamp(in.light.x * 1.15, 0.25, 1.0);
-    if g.shadow.w > 0.5 {
+    if MIRROR {
         let screen = in.clip.xy / g.size.xy;
         let bend = s * vec2<f32>(0.9, 0.9) / (1.0 + 0.02 * distance);
         let shift = vec2<f32>(dot(bend, g.right.xy / max(length(g.right.xy), 1e-4)), -abs(dot(bend, vec2<f32>(v.x, v.y))) * 1.2);
@@ -83,7 +83,9 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let spread = max(rough * 1.4, 0.045);
     let glint = PI * ggx(n, v, g.sun.xyz, vec3<f32>(0.02), sqrt(spread)) * g.sun.w * max(g.sun.z, 0.0) * sun_seen;
     // What comes back out of the water: green-blue, brighter in the sun.
-    let lux = in.light.x * g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * sun_seen * g.sun_rgb.xyz;
+    // Light that entered beside a shadow scatters under it: from above its edges are hardly seen.
+    let within = mix(0.65, 1.0, sun_seen);
+    let lux = in.light.x * g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * within * g.sun_rgb.xyz;
     let lamp = lamp_lux(in.p, vec3<f32>(0.0, 0.0, 1.0));
     let body = vec3<f32>(0.012, 0.030, 0.032) * (lux + lamp);
     let path = max(in.depth, 0.0) * (1.0 + 0.6 / max(v.z, 0.12));

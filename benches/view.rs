@@ -1,0 +1,141 @@
+//! What both views of a flight cost: frame time, triangles and draw calls of a frame, start-up. Drawn by software, as on a machine without a
+//! graphics card; `SPANDREL_BENCH_DEVICE=best` takes the best device there is and higher presets.
+
+#[path = "../tests/support/studio.rs"]
+mod studio;
+
+use spandrel::base::frames::{Enu, Vec3};
+use spandrel::base::time::SimTime;
+use spandrel::view::gpu::{Counts, Gpu, Renderer, picture_texture};
+use spandrel::view::shot::Shot;
+use std::time::{Duration, Instant};
+use studio::{Studio, at, two_bridges};
+
+/// Frames a second of both views at 640 x 360 with the preset `low` on two cores: the target.
+const TARGET_HZ: f64 = 15.0;
+/// And the bench fails where a frame takes more processor time than this, s: twice what the slowest places took when it was set. Processor
+/// time, because it hardly changes with what else the machine does.
+const CEILING_CPU_S: f64 = 0.6;
+/// Frames at each place, after one that warms the caches up.
+const FRAMES: usize = 4;
+
+/// Places of a flight: from where, towards what.
+fn places() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
+    vec![
+        ("take-off", at(-112.0, 78.0, 12.0), at(-40.0, 20.0, 25.0)),
+        ("slab", at(-30.0, -9.0, 33.0), at(-30.0, 0.0, 32.5)),
+        ("arch bottom", at(-20.0, 0.0, 21.5), at(-14.0, 0.4, 33.0)),
+        ("interlayer", at(14.0, 0.3, 30.8), at(0.0, 0.0, 31.5)),
+        ("pier", at(-72.0, 139.0, 3.5), at(-72.0, 150.0, 3.0)),
+        ("over the lake", at(0.0, 70.0, 30.0), at(0.0, 150.0, 10.0)),
+    ]
+}
+
+struct Cost {
+    frame: Duration,
+    counts: Counts,
+}
+
+#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+fn now() -> Instant {
+    Instant::now()
+}
+
+/// Draws shots and waits until they are there.
+fn drawn(gpu: &Gpu, renderer: &mut Renderer, shots: &[Shot]) -> Counts {
+    let mut counts = Counts::default();
+    for shot in shots {
+        let texture = picture_texture(gpu, shot.size_px);
+        renderer.draw(gpu, shot, &texture.create_view(&wgpu::TextureViewDescriptor::default()));
+        let of = renderer.counts();
+        counts = Counts { triangles: counts.triangles + of.triangles, draws: counts.draws + of.draws };
+    }
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
+    counts
+}
+
+/// One frame: both views, worked out and drawn.
+fn frame(studio: &mut Studio, (from, look): (Vec3<Enu>, Vec3<Enu>), size_px: (u32, u32)) -> Cost {
+    let start = now();
+    let moment = studio.moment(from, look, false, at(1.0, 0.5, 0.0));
+    let shots = [studio.stage().inspector(&moment, size_px), studio.stage().camera(&moment, size_px)];
+    let (gpu, renderer) = studio.renderer();
+    let counts = drawn(gpu, renderer, &shots);
+    Cost { frame: start.elapsed(), counts }
+}
+
+/// Processor time of this process so far, s; `None` where the system does not tell (only Linux does, in hundredths).
+fn cpu_s() -> Option<f64> {
+    const TICKS_PER_S: f64 = 100.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // User and system time are the 12th and 13th numbers behind the name in brackets.
+    let mut numbers = stat.rsplit(')').next()?.split_whitespace().skip(11);
+    let mut ticks = || numbers.next()?.parse::<f64>().ok();
+    Some((ticks()? + ticks()?) / TICKS_PER_S)
+}
+
+fn median(mut times: Vec<Duration>) -> Duration {
+    times.sort();
+    times[times.len() / 2]
+}
+
+/// Draws all places; processor time of a frame, s, where the system tells.
+fn measured(studio: &mut Studio, size_px: (u32, u32), preset: &str) -> Option<f64> {
+    let (mut medians, mut cpu) = (Vec::new(), Some(0.0));
+    for (name, from, look) in places() {
+        frame(studio, (from, look), size_px);
+        let before = cpu_s();
+        let costs: Vec<Cost> = (0..FRAMES).map(|_| frame(studio, (from, look), size_px)).collect();
+        let spent = cpu_s().zip(before).map(|(after, before)| (after - before) / FRAMES as f64);
+        cpu = cpu.zip(spent).map(|(sum, spent)| sum + spent / places().len() as f64);
+        let (counts, time) = (costs[0].counts, median(costs.into_iter().map(|cost| cost.frame).collect()));
+        println!(
+            "  {name}: {:.0} ms, {:.0} ms of processor time, {} triangles, {} draw calls",
+            1e3 * time.as_secs_f64(),
+            1e3 * spent.unwrap_or(f64::NAN),
+            counts.triangles,
+            counts.draws
+        );
+        medians.push(time);
+    }
+    let whole = median(medians).as_secs_f64();
+    println!(
+        "2 x {} x {}, {preset}: {:.0} ms ({:.1} frames/s), {:.0} ms of processor time",
+        size_px.0,
+        size_px.1,
+        1e3 * whole,
+        1.0 / whole,
+        1e3 * cpu.unwrap_or(f64::NAN)
+    );
+    cpu
+}
+
+fn main() {
+    let best = std::env::var("SPANDREL_BENCH_DEVICE").is_ok_and(|device| device == "best");
+    let presets = if best { ["low", "high"] } else { ["low", "low"] };
+    let start = now();
+    let gpu = if best { Gpu::open() } else { Gpu::open_software() }.expect("a device");
+    println!("device: {}", gpu.name);
+    let mut studio = Studio::on(gpu, two_bridges(), 7, presets[0], SimTime::ZERO);
+    let built = start.elapsed();
+    let (_, from, look) = places()[1];
+    let first = frame(&mut studio, (from, look), (640, 360));
+    println!(
+        "start-up: {:.1} s until the scene and its light are built, {:.1} s more for the first frame (shaders are compiled in it)",
+        built.as_secs_f64(),
+        first.frame.as_secs_f64()
+    );
+    let small = measured(&mut studio, (640, 360), presets[0]);
+    if presets[1] != presets[0] {
+        studio = Studio::on(studio.gpu, two_bridges(), 7, presets[1], SimTime::ZERO);
+    }
+    measured(&mut studio, (1920, 1080), presets[1]);
+    let kept = small.is_none_or(|cpu| best || cpu <= CEILING_CPU_S);
+    println!(
+        "2 x 640 x 360: target {TARGET_HZ:.0} frames/s; ceiling {CEILING_CPU_S} s of processor time: {}",
+        if kept { "kept" } else { "EXCEEDED" }
+    );
+    if !kept {
+        std::process::exit(1);
+    }
+}

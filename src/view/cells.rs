@@ -1,0 +1,178 @@
+//! What is drawn is cut into squares of ground, so that a picture sends only those that it can show.
+
+use super::matrix::Matrix;
+use super::mesh::{Mesh, Vertex};
+use super::scene::Instance;
+use crate::base::frames::{Enu, Vec3};
+use std::collections::BTreeMap;
+
+/// Side of a square, m (estimate: some squares lie in every picture, most do not).
+const CELL_M: f64 = 80.0;
+/// What lies farther from the origin than this is backdrop, in squares ten times as large, m.
+const BACKDROP_M: f64 = 500.0;
+
+/// A ball around everything in a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball {
+    /// Centre, m.
+    pub centre_m: Vec3<Enu>,
+    /// Radius, m.
+    pub radius_m: f64,
+}
+
+impl Ball {
+    /// Around points, each with room of its own.
+    #[must_use]
+    pub fn around(points: &[(Vec3<Enu>, f64)]) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for (p, _) in points {
+            for (k, x) in p.array().into_iter().enumerate() {
+                low[k] = low[k].min(x);
+                high[k] = high[k].max(x);
+            }
+        }
+        let [x, y, z] = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
+        let centre_m = Vec3::new(x, y, z);
+        let radius_m = points.iter().map(|(p, room)| (*p - centre_m).norm() + room).fold(0.0, f64::max);
+        Self { centre_m, radius_m }
+    }
+
+    /// Around a mesh.
+    #[must_use]
+    pub fn of(mesh: &Mesh) -> Self {
+        Self::around(&mesh.vertices.iter().map(|v| (position(v), 0.0)).collect::<Vec<_>>())
+    }
+}
+
+fn position(v: &Vertex) -> Vec3<Enu> {
+    let [x, y, z] = v.position.map(f64::from);
+    Vec3::new(x, y, z)
+}
+
+/// Number of a cell; true for the backdrop's.
+type Cell = (bool, i64, i64);
+
+fn cell(p: Vec3<Enu>) -> Cell {
+    let far = p.east().abs().max(p.north().abs()) > BACKDROP_M;
+    let side_m = if far { 10.0 * CELL_M } else { CELL_M };
+    (far, (p.east() / side_m).floor() as i64, (p.north() / side_m).floor() as i64)
+}
+
+/// Numbers of corners in a cell by those in the whole.
+type Numbers = BTreeMap<u32, u32>;
+
+/// A mesh's triangles by cell.
+#[must_use]
+pub fn cut(mesh: &Mesh) -> Vec<Mesh> {
+    let mut cells: BTreeMap<Cell, (Mesh, Numbers)> = BTreeMap::new();
+    for triangle in mesh.indices.chunks_exact(3) {
+        let Some(first) = mesh.vertices.get(triangle[0] as usize) else { continue };
+        let (part, known) = cells.entry(cell(position(first))).or_default();
+        for k in triangle {
+            let Some(vertex) = mesh.vertices.get(*k as usize) else { continue };
+            let index = *known.entry(*k).or_insert_with(|| {
+                part.vertices.push(*vertex);
+                part.vertices.len() as u32 - 1
+            });
+            part.indices.push(index);
+        }
+    }
+    cells.into_values().map(|(part, _)| part).collect()
+}
+
+/// Copies of a mesh by cell, each with the ball around them.
+#[must_use]
+pub fn grouped(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, Ball)> {
+    let reach_m = mesh.vertices.iter().map(|v| position(v).norm()).fold(0.0, f64::max);
+    let origin = |i: &Instance| Vec3::new(f64::from(i.rows[0][3]), f64::from(i.rows[1][3]), f64::from(i.rows[2][3]));
+    let size = |i: &Instance| {
+        let column = |k: usize| i.rows.iter().map(|row| f64::from(row[k]) * f64::from(row[k])).sum::<f64>().sqrt();
+        column(0).max(column(1)).max(column(2))
+    };
+    let mut cells: BTreeMap<Cell, Vec<Instance>> = BTreeMap::new();
+    for instance in instances {
+        cells.entry(cell(origin(instance))).or_default().push(*instance);
+    }
+    let balled = |all: Vec<Instance>| {
+        let points: Vec<_> = all.iter().map(|i| (origin(i), reach_m * size(i))).collect();
+        let ball = Ball::around(&points);
+        (all, ball)
+    };
+    cells.into_values().map(balled).collect()
+}
+
+/// The planes within which a projection shows anything.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frustum([[f64; 4]; 6]);
+
+impl Frustum {
+    /// Of a projection to clip space.
+    #[must_use]
+    pub fn of(projection: &Matrix) -> Self {
+        let [x, y, z, w] = projection.0;
+        let sum = |a: [f64; 4], b: [f64; 4], sign: f64| [0, 1, 2, 3].map(|k| a[k] + sign * b[k]);
+        Self([sum(w, x, 1.0), sum(w, x, -1.0), sum(w, y, 1.0), sum(w, y, -1.0), sum(w, z, -1.0), z])
+    }
+
+    /// False where a ball is certainly outside.
+    #[must_use]
+    pub fn may_show(&self, ball: &Ball) -> bool {
+        let [x, y, z] = ball.centre_m.array();
+        self.0.iter().all(|[a, b, c, d]| {
+            let length = (a * a + b * b + c * c).sqrt();
+            // An endless view has no far plane.
+            length < 1e-12 || a * x + b * y + c * z + d >= -ball.radius_m * length
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::camera::Eye;
+    use super::super::mesh::{Finish, Material};
+    use super::*;
+
+    #[test]
+    fn exact_nothing_is_lost_in_cutting() {
+        let mut mesh = Mesh::default();
+        mesh.block([-300.0, -5.0, 0.0], [-20.0, 5.0, 2.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
+        mesh.block([100.0, 100.0, 0.0], [101.0, 101.0, 2.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
+        let parts = cut(&mesh);
+        assert!(parts.len() > 2);
+        assert_eq!(parts.iter().map(Mesh::triangles).sum::<usize>(), mesh.triangles());
+        for part in &parts {
+            let ball = Ball::of(part);
+            assert!(part.vertices.iter().all(|v| (position(v) - ball.centre_m).norm() <= ball.radius_m + 1e-6));
+        }
+    }
+
+    #[test]
+    fn exact_what_is_behind_or_beside_is_left_out_and_what_is_seen_is_not() {
+        let eye = Eye::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
+        let frustum = Frustum::of(&eye.view_projection(1.5));
+        let ball = |east: f64, north: f64| Ball { centre_m: Vec3::new(east, north, 10.0), radius_m: 5.0 };
+        assert!(
+            frustum.may_show(&ball(0.0, 50.0)) && frustum.may_show(&ball(0.0, 9_000.0)) && frustum.may_show(&ball(0.0, -4.0))
+        );
+        assert!(!frustum.may_show(&ball(0.0, -20.0)) && !frustum.may_show(&ball(100.0, 50.0)));
+        // In the lake's mirror what is above shows below.
+        let mirrored = Frustum::of(&eye.view_projection(1.5).after(&Matrix::mirror(0.0)));
+        let high = Ball { centre_m: Vec3::new(0.0, 40.0, 60.0), radius_m: 5.0 };
+        assert!(!frustum.may_show(&high) && !mirrored.may_show(&high));
+        let low = Ball { centre_m: Vec3::new(0.0, 40.0, 6.0), radius_m: 1.0 };
+        assert!(frustum.may_show(&low) && mirrored.may_show(&low));
+    }
+
+    #[test]
+    fn exact_copies_lie_in_the_balls_of_their_cells() {
+        let mut mesh = Mesh::default();
+        mesh.ball(Vec3::zero(), [1.0; 3], 0.0, Finish::new(Material::Rock, [9, 9, 9]));
+        let at = |east: f64| {
+            let axes = [Vec3::new(3.0, 0.0, 0.0), Vec3::new(0.0, 3.0, 0.0), Vec3::new(0.0, 0.0, 3.0)];
+            Instance::placed(Vec3::new(east, 0.0, 0.0), axes, [1.0; 4])
+        };
+        let groups = grouped(&mesh, &[at(1.0), at(5.0), at(500.0)]);
+        assert_eq!(groups.iter().map(|(all, _)| all.len()).collect::<Vec<_>>(), [2, 1]);
+        assert!((groups[0].1.radius_m - 5.0).abs() < 1e-5, "half the distance and three metres: {}", groups[0].1.radius_m);
+    }
+}

@@ -1,0 +1,61 @@
+//! Materials and defects that share a pipeline. Software renderers run both sides of every branch, so a shader that switches on the material
+//! costs each pixel all of them; a pipeline of its own for each look costs it one.
+
+use super::mesh::Material;
+
+/// Materials that are drawn by the same pipeline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
+pub enum Look {
+    /// Cast concrete.
+    Concrete = 0,
+    /// The road.
+    Deck = 1,
+    /// Painted steel.
+    Steel = 2,
+    /// Everything that is cheap.
+    Simple = 3,
+    /// Ground.
+    Ground = 4,
+}
+
+impl Look {
+    /// In the order of drawing: the ground hides little and is hidden by much.
+    pub const ALL: [Self; 5] = [Self::Concrete, Self::Deck, Self::Steel, Self::Simple, Self::Ground];
+
+    /// It reflects light in a direction, not only in all.
+    #[must_use]
+    pub const fn shines(self) -> bool {
+        matches!(self, Self::Steel | Self::Simple)
+    }
+
+    /// The look of a vertex's material number.
+    #[must_use]
+    pub const fn of(material: u32) -> Self {
+        const CONCRETE: u32 = Material::Concrete as u32;
+        const DECK: u32 = Material::Deck as u32;
+        const STEEL: u32 = Material::Steel as u32;
+        const GROUND: u32 = Material::Ground as u32;
+        match material {
+            CONCRETE => Self::Concrete,
+            DECK => Self::Deck,
+            STEEL => Self::Steel,
+            GROUND => Self::Ground,
+            _ => Self::Simple,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_look_has_materials_and_the_shader_knows_it() {
+        let shader = super::super::shaders::source("surface");
+        for look in Look::ALL {
+            assert!((0..16).any(|material| Look::of(material) == look), "{look:?}");
+            assert!(shader.contains(&format!("LOOK == {}u", look as u32)), "{look:?}");
+        }
+    }
+}
