@@ -1,5 +1,5 @@
-//! The live picture: the vehicle draws none itself. Whoever draws and sends it (`spandrel view --stream`) tells by VIDEO_STREAM_STATUS, and the
-//! camera announces that stream for as long as it is told of.
+//! The live picture: the vehicle draws none itself. Whoever draws and sends it tells by VIDEO_STREAM_STATUS, and the camera announces that stream
+//! for as long as it is told of.
 
 use super::super::Endpoint;
 use super::super::arrival::Arrival;

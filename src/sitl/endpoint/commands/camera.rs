@@ -62,7 +62,7 @@ pub(super) const ROWS: &[Row] = &[
         if v.camera.stream.is_some() {
             return told(p, &[VIDEO_STREAM_STATUS_DATA::ID]);
         }
-        p.news.warn("Camera: no video stream: start spandrel view --stream");
+        p.news.warn("Camera: nobody sends a video stream");
         FAILED
     }),
     // Who sends it sends it to whoever is there: nobody is drawn to it, and nobody is sent away.

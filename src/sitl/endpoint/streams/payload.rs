@@ -125,7 +125,7 @@ pub(super) fn capture_status(v: &View) -> Option<MavMessage> {
     }))
 }
 
-/// What is told of a stream that does not run: what `spandrel view --stream` sends unless it is told otherwise.
+/// What is told of a stream that does not run (estimate: what wireless networks carry).
 const STREAM: Stream = Stream { width_px: 1280, height_px: 720, rate_hz: 25.0, bits_s: 3_000_000 };
 /// Where ground stations listen for RTP (mavlink.md 1.7).
 const STREAM_PORT: &str = "5600";
