@@ -6,6 +6,8 @@ use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::mcap::{self, Recording};
 use super::progress::Progress;
+use super::records::read_session;
+use super::report;
 use super::session_folder::Stored;
 use crate::base::foxglove;
 use crate::base::geodesy::LocalPlane;
@@ -18,7 +20,9 @@ use crate::pilot::job::Map;
 use crate::site::Site;
 use crate::site::gltf;
 use crate::telemetry::Timeline;
-use std::io::Cursor;
+use crate::training::xapi;
+use std::collections::BTreeMap;
+use std::io::{Cursor, Write};
 use std::path::Path;
 
 /// Write frames, scenario, flight plan, geometry or a recording for other programs
@@ -27,7 +31,7 @@ use std::path::Path;
 /// geometry that collides (binary glTF, every member named with its element number) work for a session or a scenario. A recording (MCAP,
 /// for Foxglove) needs a session, or a recording that broke off, which is recovered up to its last whole chunk.
 #[derive(Debug, clap::Args)]
-#[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb", "plan", "mcap"])))]
+#[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb", "plan", "mcap", "parquet", "xapi", "scorm"])))]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel export sessions/20260801T... --frames frames.csv
@@ -35,6 +39,7 @@ Examples:
   spandrel export two-bridges --plan tasks.plan              open it in QGroundControl, upload, start
   spandrel export two-bridges --glb bridges.glb              open it in any 3D viewer
   spandrel export sessions/20260801T... --mcap flight.mcap   open it in Foxglove
+  spandrel export sessions/20260801T... --parquet frames.parquet --xapi statements.jsonl --scorm result.zip
   spandrel export broken.mcap --mcap whole.mcap              recover a recording that broke off
 
 {EXIT_CODES}"))]
@@ -61,6 +66,15 @@ pub struct Args {
     /// The flight as MCAP: drone, camera and site, battery, clearance, contacts; '-' for standard output
     #[arg(long, value_name = "FILE")]
     mcap: Option<String>,
+    /// Frames as Parquet, with the columns of --frames; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    parquet: Option<String>,
+    /// The session as xAPI statements, one JSON object a line; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    xapi: Option<String>,
+    /// The result as a SCORM 1.2 package for a learning-management system; '-' for standard output
+    #[arg(long, value_name = "FILE")]
+    scorm: Option<String>,
     /// Seed that places the defects of a scenario without a seed of its own
     #[arg(long, value_name = "N", value_parser = args::seed)]
     seed: Option<u64>,
@@ -94,6 +108,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         };
         files::write(target, &recorded(stored)?)?;
     }
+    exchanged(args, stored.as_ref())?;
     if args.scenario.is_none() && args.glb.is_none() && args.plan.is_none() {
         return Ok(());
     }
@@ -127,6 +142,44 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         files::write(target, &gltf::glb(&site))?;
     }
     Ok(())
+}
+
+/// What other systems take of a session.
+fn exchanged(args: &Args, stored: Option<&Stored>) -> Result<(), AppError> {
+    let needed =
+        |flag: &str| stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, and '{}' is none", args.from)));
+    if let Some(target) = &args.parquet {
+        let stored = needed("--parquet")?;
+        let graded = assess::grade(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle)?;
+        files::write(target, &super::parquet::frames(&graded.frames)?)?;
+    }
+    if let Some(target) = &args.xapi {
+        needed("--xapi")?;
+        let record = read_session(Path::new(&args.from), &BTreeMap::new())?;
+        let record = record.ok_or_else(|| AppError::failed("the session has no record"))?;
+        files::write(target, xapi::lines(&xapi::statements(&record, xapi::HOME)).as_bytes())?;
+    }
+    if let Some(target) = &args.scorm {
+        needed("--scorm")?;
+        files::write(target, &zipped(&report::package(Path::new(&args.from))?)?)?;
+    }
+    Ok(())
+}
+
+/// Files as a ZIP archive, the same for the same files.
+fn zipped(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
+    let write = || {
+        let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        let options = zip::write::SimpleFileOptions::default()
+            .compression_method(zip::CompressionMethod::Stored)
+            .last_modified_time(zip::DateTime::default());
+        for (name, text) in files {
+            archive.start_file(*name, options)?;
+            archive.write_all(text.as_bytes())?;
+        }
+        archive.finish().map(Cursor::into_inner)
+    };
+    write().map_err(|error: zip::result::ZipError| AppError::failed(format!("the package cannot be made: {error}")))
 }
 
 /// A session's flight as a recording.

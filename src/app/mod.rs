@@ -21,6 +21,7 @@ mod monitor;
 mod net;
 mod pace;
 mod params;
+mod parquet;
 mod pilot;
 mod plan;
 mod ports;

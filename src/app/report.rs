@@ -7,7 +7,7 @@ use super::progress::Progress;
 use super::session_folder::{Stored, replace};
 use crate::monitor::AssessError;
 use crate::monitor::folder::{REPORT, SNAPSHOTS, sha256_hex};
-use crate::report::{About, Jpeg, Review, page};
+use crate::report::{About, Jpeg, Review, page, scorm};
 use std::path::{Path, PathBuf};
 
 /// A photograph larger than this is left beside the page, bytes.
@@ -68,6 +68,15 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// As [`run`].
 pub fn write(session: &Path) -> Result<(), AppError> {
     replace(&session.join(REPORT), page::session(&review(session)?).as_bytes())
+}
+
+/// Names and contents of a session's SCORM package.
+///
+/// # Errors
+/// As [`run`].
+pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> {
+    let review = review(session)?;
+    Ok(scorm::files(&review, &page::session(&review)))
 }
 
 /// The page that compares two sessions.

@@ -12,6 +12,7 @@ pub mod outline;
 pub mod page;
 pub mod pictures;
 pub mod plots;
+pub mod scorm;
 pub mod sketch;
 pub mod table;
 pub mod track;

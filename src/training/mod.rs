@@ -7,6 +7,7 @@ pub mod questionnaire;
 pub mod record;
 pub mod statistics;
 pub mod trainee;
+pub mod xapi;
 
 #[cfg(test)]
 pub mod testing;

@@ -5,6 +5,7 @@ mod accounts;
 mod database;
 mod import;
 mod people;
+mod push;
 #[cfg(test)]
 mod tests;
 
@@ -43,6 +44,7 @@ Examples:
   spandrel records trainee anna --age-band 25-34 --drone-experience none --gaming-experience some
   spandrel records export --trainee anna --out anna.json    everything that is kept of her
   spandrel records export --out all.jsonl                   all records, one a line, for spandrel cohort --records
+  spandrel records push https://lrs.example/xapi            xAPI statements to a learning record store
   spandrel records erase --trainee anna                     says what would go; with --yes it goes, folders too
   spandrel records retention --days 730                     the same for everything older than two years
   spandrel records rebuild                                  makes the database again from the folders
@@ -119,6 +121,8 @@ enum What {
         #[arg(long)]
         yes: bool,
     },
+    /// Send sessions as xAPI statements to a learning record store; what it has already is not sent twice
+    Push(push::PushArgs),
     /// Show or set what is known of a trainee
     Trainee(PersonArgs),
 }
@@ -143,6 +147,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         },
         What::Erase { trainee, yes } => people::erase(place, trainee.as_str(), *yes),
         What::Retention { days, yes } => retention(place, days.unsigned_abs(), *yes),
+        What::Push(args) => push::push(place, &place.open()?, args),
         What::Trainee(person) => people::set(&place.open()?, person),
     }
 }
