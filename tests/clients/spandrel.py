@@ -10,15 +10,17 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("SPANDREL", str(ROOT / "target" / "release" / "spandrel"))
+# The program with windows and pictures: tools/test builds the debug one with every feature, the release one as a headless machine would.
+COCKPIT = os.environ.get("SPANDREL_COCKPIT", str(ROOT / "target" / "debug" / "spandrel"))
 # Wall seconds for one whole flight at the speed below, on a busy two-core machine, ten times over.
 FLIGHT_LIMIT_S = 600
 # Vehicle time runs this much faster than the clock on the wall. Clients keep their own wall clocks, so it stays small.
 SPEED = 4
 
 
-def run(*args):
+def run(*args, program=PROGRAM):
     """Runs the program to its end and returns what it printed."""
-    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=FLIGHT_LIMIT_S, check=False)
+    done = subprocess.run([program, *args], capture_output=True, text=True, timeout=FLIGHT_LIMIT_S, check=False)
     assert done.returncode == 0, f"{args}: exit {done.returncode}\n{done.stderr}"
     return done.stdout
 

@@ -37,7 +37,7 @@ def degrees(parts, reference):
 @pytest.mark.timeout(900)
 def test_val_photographs_tell_where_and_how_they_were_taken(session):
     """Pillow reads EXIF and XMP; the report shows the photographs."""
-    spandrel.run("render", str(session), "--snapshots", "--quality", "low", "--size", f"{SIZE[0]}x{SIZE[1]}")
+    spandrel.run("render", str(session), "--snapshots", "--quality", "low", "--size", f"{SIZE[0]}x{SIZE[1]}", program=spandrel.COCKPIT)
     taken = json.loads((session / "assessment.json").read_text(encoding="utf-8"))["snapshots"]["taken"]
     photographs = sorted((session / "snapshots").glob("[0-9][0-9][0-9][0-9].jpg"))
     assert taken > 0 and len(photographs) >= taken, (taken, photographs)
@@ -69,7 +69,8 @@ def test_val_photographs_tell_where_and_how_they_were_taken(session):
 def test_val_a_film_has_every_picture_and_its_chapters(session, tmp_path):
     """Length and number of pictures by the file's own index; a chapter for each photograph of the span."""
     film = tmp_path / "flight.mp4"
-    spandrel.run("render", str(session), "--video", str(film), "--quality", "low", "--size", "320x240", "--fps", "2", "--span", "30,60")
+    options = ["--quality", "low", "--size", "320x240", "--fps", "2", "--span", "30,60"]
+    spandrel.run("render", str(session), "--video", str(film), *options, program=spandrel.COCKPIT)
     data = film.read_bytes()
     assert data[4:8] == b"ftyp"
     at = data.index(b"stts")

@@ -31,7 +31,7 @@ def open_view(screen, tmp_path, *args):
     log = open(tmp_path / "view.txt", "w", encoding="utf-8")
     size = f"{screen.size[0]}x{screen.size[1]}"
     process = subprocess.Popen(
-        [spandrel.PROGRAM, "view", "--scenario", "drill-hover", "--seed", "7", "--size", size, "--announce", *args],
+        [spandrel.COCKPIT, "view", "--scenario", "drill-hover", "--seed", "7", "--size", size, "--announce", *args],
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=log, text=True, env=screen.environment(),
     )
     said = process.stdout.readline()
@@ -115,7 +115,7 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
 
     def view(environment, *args):
         return subprocess.run(
-            [spandrel.PROGRAM, "view", "--scenario", "drill-hover", *args], env=environment, capture_output=True, text=True,
+            [spandrel.COCKPIT, "view", "--scenario", "drill-hover", *args], env=environment, capture_output=True, text=True,
             timeout=DRAW_LIMIT_S, check=False, stdin=subprocess.DEVNULL,
         )
 
@@ -136,7 +136,7 @@ def test_wire_training_goes_on_without_a_display(tmp_path):
     blind = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET")}
     log = open(tmp_path / "train.txt", "w", encoding="utf-8")
     training = subprocess.Popen(
-        [spandrel.PROGRAM, "train", "--scenario", "drill-hover", "--ports", "ephemeral", "--sessions", str(tmp_path / "sessions")],
+        [spandrel.COCKPIT, "train", "--scenario", "drill-hover", "--ports", "ephemeral", "--sessions", str(tmp_path / "sessions")],
         env=blind, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
     )
     try:
