@@ -18,13 +18,13 @@ TIMES = int(LIMIT_S / AGAIN_S)
 class Again:
     """Says a thing at once, and again and again until nobody asks any more."""
 
-    def __init__(self, say):
-        self.say, self.at = say, 0.0
+    def __init__(self, say, again_s=AGAIN_S):
+        self.say, self.again_s, self.at = say, again_s, 0.0
 
     def if_due(self):
         """Says it when it is time."""
         if time.monotonic() > self.at:
-            self.at = time.monotonic() + AGAIN_S
+            self.at = time.monotonic() + self.again_s
             self.say()
 
 

@@ -16,6 +16,8 @@ import spandrel
 GREEN, YELLOW, WHITE = (0, 190, 130), (240, 228, 66), (245, 245, 245)
 # Wall seconds for a software driver on a busy machine to compile its shaders and to draw, ten times over.
 DRAW_LIMIT_S = 400
+# Wall seconds after which a key without an effect is pressed again; a frame takes one at the worst.
+PRESS_AGAIN_S = 20.0
 
 
 @pytest.fixture
@@ -71,8 +73,14 @@ def test_wire_the_window_shows_both_views_and_flies_by_its_keys(screen, tmp_path
         assert os.getpriority(os.PRIO_PROCESS, window.pid) > os.getpriority(os.PRIO_PROCESS, sim.pid), "the simulator comes first"
 
         screen.focus()
-        screen.tap("m")
-        spandrel.wait_for("the map is hidden", lambda: len(display.pixels_of(screen.photograph(), YELLOW)) == 0, DRAW_LIMIT_S)
+        # A key may come before the window knows that the keys are its: as a person does, press again when nothing happens.
+        again = asking.Again(lambda: screen.tap("m"), again_s=PRESS_AGAIN_S)
+
+        def hidden():
+            again.if_due()
+            return len(display.pixels_of(screen.photograph(), YELLOW)) == 0
+
+        spandrel.wait_for("the map is hidden", hidden, DRAW_LIMIT_S)
         beside = len(display.pixels_of(screen.photograph(), GREEN))
         screen.tap("Tab")
         spandrel.wait_for("the camera's view is large", lambda: bigger(screen, beside), DRAW_LIMIT_S)
