@@ -19,6 +19,7 @@ use std::path::PathBuf;
 Examples:
   spandrel view                                          what the simulator on this machine flies
   spandrel view --fly 127.0.0.1:18570                    and fly it with the keys: W S A D, arrows, 1 arms, T takes off
+  spandrel view --stream 127.0.0.1:5600                  the camera's view in QGroundControl, too
   spandrel view --connect 192.168.1.20:14280 --quality low
   spandrel view --screenshot moment.png --after 10       a picture of the window after 10 s, then the end
 
@@ -53,6 +54,10 @@ pub struct Args {
     /// Without the map of the reference paths, for an assessment: M does not bring it back
     #[arg(long)]
     pub(super) no_map: bool,
+    /// Send the camera's view as H.264 over RTP there; the vehicle then announces the stream, and ground stations show it (QGroundControl
+    /// listens at UDP 5600)
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
+    pub(super) stream: Option<SocketAddr>,
     /// Keep a picture of the window (PNG), then end
     #[arg(long, value_name = "FILE", requires = "after")]
     pub(super) screenshot: Option<PathBuf>,

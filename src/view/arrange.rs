@@ -65,11 +65,12 @@ impl Arrangement {
     }
 }
 
-/// Size, px, in which a view of that size on the screen is drawn, when no more than `most` pixels can be afforded. Its shape is kept.
+/// Size, px, in which a view of that size on the screen is drawn, when no more than `most` pixels can be afforded. Its shape is kept, to even
+/// numbers of pixels, which video needs.
 #[must_use]
 pub fn drawn_px((width, height): (f64, f64), most: Option<f64>) -> (u32, u32) {
     let shrink = most.map_or(1.0, |most| (most / (width * height).max(1.0)).sqrt().min(1.0));
-    let side = |px: f64| (px * shrink).round().max(16.0) as u32;
+    let side = |px: f64| 2 * (0.5 * px * shrink).round().max(8.0) as u32;
     (side(width), side(height))
 }
 

@@ -5,6 +5,7 @@ mod listener;
 mod panes;
 mod pilot;
 mod screen;
+mod stream;
 mod window;
 
 use super::Args;
@@ -16,6 +17,7 @@ use crate::app::stop::Stop;
 use listener::Listener;
 use pilot::Pilot;
 use std::time::Duration;
+use stream::Stream;
 use window::Cockpit;
 
 /// Longest time to the picture that can be asked for, s.
@@ -38,7 +40,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     be_nice();
     let listener = Listener::dial(args.listen, args.connect, &scenario)?;
     let pilot = args.fly.map(|vehicle| Pilot::start(args, vehicle, keys.clone())).transpose()?;
-    Cockpit::new(plan, (scenario, vehicle), keys, listener, pilot, stop).run()
+    let stream = args.stream.map(|to| Stream::open(args.listen, to)).transpose()?;
+    Cockpit::new(plan, (scenario, vehicle), keys, (listener, pilot, stream), stop).run()
 }
 
 fn picture(args: &Args) -> Result<Option<window::Picture>, AppError> {

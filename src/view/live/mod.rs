@@ -13,7 +13,9 @@ use super::stage::{LIFT_OFF_M, Moment, Told};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Encoder, Received};
-use crate::mav::dialect::{HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavType};
+use crate::mav::dialect::{
+    HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavType, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags,
+};
 use crate::mav::station;
 use crate::scenario::Scenario;
 use crate::site::CameraPose;
@@ -60,6 +62,35 @@ pub struct Live {
     heard: Option<SimTime>,
     head: Playhead,
     state: State,
+    video: Option<Video>,
+}
+
+/// A stream of the camera's view that runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Video {
+    /// Width, px.
+    pub width_px: u32,
+    /// Height, px.
+    pub height_px: u32,
+    /// Pictures a second.
+    pub rate_hz: f64,
+    /// Bits a second.
+    pub bits_s: u32,
+}
+
+impl Video {
+    fn status(&self) -> MavMessage {
+        let side = |px: u32| u16::try_from(px).unwrap_or(u16::MAX);
+        MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
+            framerate: self.rate_hz as f32,
+            bitrate: self.bits_s,
+            flags: VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING,
+            resolution_h: side(self.width_px),
+            resolution_v: side(self.height_px),
+            stream_id: 1,
+            ..VIDEO_STREAM_STATUS_DATA::default()
+        })
+    }
 }
 
 /// What begins anew with the simulator.
@@ -106,6 +137,7 @@ impl Live {
             heard: None,
             head: Playhead::default(),
             state: State::default(),
+            video: None,
         }
     }
 
@@ -222,6 +254,11 @@ impl Live {
         self.state = State::default();
     }
 
+    /// The camera's view is streamed; the vehicle hears of it every second, and announces it.
+    pub fn streams(&mut self, video: Video) {
+        self.video = Some(video);
+    }
+
     /// Queues what is due to be said: a heartbeat, so that the vehicle knows its listener, and questions to one that says no truth.
     pub fn handle_timeout(&mut self, wall: SimTime) {
         if wall >= self.next_beat {
@@ -232,6 +269,9 @@ impl Live {
                 mavlink_version: 3,
                 ..HEARTBEAT_DATA::default()
             }));
+            if let Some(video) = self.video {
+                self.say(&video.status());
+            }
         }
         if let (Some(system), false, Some(due)) = (self.system, self.spoken, self.next_ask)
             && wall >= due

@@ -1,6 +1,7 @@
 //! The two views as textures of the window.
 
 use super::screen::Screen;
+use crate::app::errors::AppError;
 use crate::base::time::SimTime;
 use crate::scenario::Scenario;
 use crate::site::Site;
@@ -8,9 +9,10 @@ use crate::vehicle::Vehicle;
 use crate::view::arrange::{Place, Which, drawn_px};
 use crate::view::feed::Feed;
 use crate::view::gaze::Gaze;
-use crate::view::gpu::{Renderer, picture_texture};
+use crate::view::gpu::{Renderer, picture_texture, read};
 use crate::view::hud::{self, Item};
 use crate::view::live::Now;
+use crate::view::picture::Picture;
 use crate::view::quality::Quality;
 use crate::view::scene::Scene;
 use crate::view::stage::{self, Stage};
@@ -44,6 +46,7 @@ impl Job {
 
 /// A view's picture.
 struct Pane {
+    whole: wgpu::Texture,
     texture: wgpu::TextureView,
     id: egui::TextureId,
     size_px: (u32, u32),
@@ -83,6 +86,11 @@ impl Panes {
         places.iter().map(|place| self.draw_one(screen, place, now, feed, gaze, map)).collect()
     }
 
+    /// The camera's view as it was drawn last, without its display.
+    pub fn camera(&self, screen: &Screen) -> Result<Option<Picture>, AppError> {
+        Ok(self.panes.get(&(Which::Camera as u8)).map(|pane| read(&screen.gpu, &pane.whole)).transpose()?)
+    }
+
     fn draw_one(&mut self, screen: &mut Screen, place: &Place, now: &Now, feed: &Feed, gaze: &Gaze, map: bool) -> Shown {
         let window = screen.window.inner_size();
         let on_screen = (place.width * f64::from(window.width), place.height * f64::from(window.height));
@@ -114,9 +122,10 @@ fn pane<'a>(panes: &'a mut BTreeMap<u8, Pane>, screen: &mut Screen, which: Which
         if let Some(old) = panes.remove(&key) {
             screen.painter.free_texture(&old.id);
         }
-        let texture = picture_texture(&screen.gpu, size_px).create_view(&wgpu::TextureViewDescriptor::default());
+        let whole = picture_texture(&screen.gpu, size_px);
+        let texture = whole.create_view(&wgpu::TextureViewDescriptor::default());
         let id = screen.painter.register_native_texture(&screen.gpu.device, &texture, wgpu::FilterMode::Linear);
-        panes.insert(key, Pane { texture, id, size_px });
+        panes.insert(key, Pane { whole, texture, id, size_px });
     }
     &panes[&key]
 }

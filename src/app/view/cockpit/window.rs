@@ -5,6 +5,7 @@ use super::listener::Listener;
 use super::panes::{Job, Panes, Shown};
 use super::pilot::{Pilot, Press};
 use super::screen::Screen;
+use super::stream::Stream;
 use crate::app::clock::Stopwatch;
 use crate::app::errors::AppError;
 use crate::app::render::png;
@@ -88,6 +89,7 @@ pub struct Cockpit {
     keys: Keys,
     listener: Listener,
     pilot: Option<Pilot>,
+    stream: Option<Stream>,
     stop: Stop,
     screen: Option<Screen>,
     scene: Scene,
@@ -108,7 +110,13 @@ pub struct Cockpit {
 
 impl Cockpit {
     /// Nothing is open yet.
-    pub fn new(plan: Plan, job: (Scenario, Vehicle), keys: Keys, listener: Listener, pilot: Option<Pilot>, stop: Stop) -> Self {
+    pub fn new(
+        plan: Plan,
+        job: (Scenario, Vehicle),
+        keys: Keys,
+        (listener, pilot, stream): (Listener, Option<Pilot>, Option<Stream>),
+        stop: Stop,
+    ) -> Self {
         Self {
             map: plan.map,
             plan,
@@ -116,6 +124,7 @@ impl Cockpit {
             keys,
             listener,
             pilot,
+            stream,
             stop,
             screen: None,
             scene: Scene::Waiting,
@@ -221,6 +230,11 @@ impl Cockpit {
             return Ok(());
         }
         self.drawn += 1;
+        if let (Some(stream), Scene::Drawn(panes), Some(screen)) = (&mut self.stream, &self.scene, &self.screen)
+            && let Some(picture) = panes.camera(screen)?
+        {
+            self.listener.live().streams(stream.push(picture));
+        }
         if self.first_drawn.is_none() {
             self.first_drawn = Some(self.watch.elapsed());
             self.announce();
