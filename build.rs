@@ -12,8 +12,10 @@ fn main() {
         println!("cargo::rerun-if-changed={folder}");
         let _ = writeln!(code, "/// Shipped files of `{folder}`: stem and text.\npub const {name}: &[(&str, &str)] = &[");
         for path in toml_files(&Path::new(&root).join(folder)) {
-            let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
-            let _ = writeln!(code, "    ({stem:?}, include_str!({:?})),", path.display().to_string());
+            let text = |part: Option<&std::ffi::OsStr>| part.and_then(|part| part.to_str()).unwrap_or_default().to_owned();
+            // Relative to the manifest, so that a folder that was moved builds as it is.
+            let (stem, file) = (text(path.file_stem()), format!("/{folder}/{}", text(path.file_name())));
+            let _ = writeln!(code, "    ({stem:?}, include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), {file:?}))),");
         }
         code.push_str("];\n");
     }

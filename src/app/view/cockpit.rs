@@ -40,7 +40,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     be_nice();
     let listener = Listener::dial(args.listen, args.connect, &scenario)?;
     let pilot = args.fly.map(|vehicle| Pilot::start(args, vehicle, keys.clone())).transpose()?;
-    let stream = args.stream.map(|to| Stream::open(args.listen, to)).transpose()?;
+    let stream = args.stream.map(Stream::open).transpose()?;
     Cockpit::new(plan, (scenario, vehicle), keys, (listener, pilot, stream), stop).run()
 }
 

@@ -231,6 +231,7 @@ impl Cockpit {
         }
         self.drawn += 1;
         if let (Some(stream), Scene::Drawn(panes), Some(screen)) = (&mut self.stream, &self.scene, &self.screen)
+            && stream.is_due()
             && let Some(picture) = panes.camera(screen)?
         {
             self.listener.live().streams(stream.push(picture));
