@@ -42,10 +42,10 @@ class Server:
         self.log.close()
 
 
-def set_password(sessions, name, role, password=PASSWORD):
+def set_password(sessions, name, role, *more, password=PASSWORD):
     """Sets a password as an administrator does at the command line."""
     done = subprocess.run(
-        [spandrel.PROGRAM, "serve", "--sessions", str(sessions), "--set-password", name, "--role", role],
+        [spandrel.PROGRAM, "serve", "--sessions", str(sessions), "--set-password", name, "--role", role, *more],
         input=password + "\n", capture_output=True, text=True, timeout=PATIENCE_S, check=False,
     )
     assert done.returncode == 0, done.stderr

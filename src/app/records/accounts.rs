@@ -1,8 +1,8 @@
-//! What `spandrel serve` asks of the database besides: who may log in, single sessions, how many there are.
+//! Who may log in to `spandrel serve`.
 
-use super::database::{Database, set, trainee};
+use super::database::Database;
+use super::trainees::{set, trainee};
 use crate::app::errors::AppError;
-use crate::training::record::Record;
 use crate::training::trainee::Trainee;
 use sqlx::Row;
 
@@ -68,33 +68,5 @@ impl Database {
             let rows = sqlx::query("SELECT pseudonym FROM passwords ORDER BY pseudonym").fetch_all(&self.pool).await?;
             rows.iter().map(|row| row.try_get(0)).collect()
         })
-    }
-
-    /// One session's record.
-    ///
-    /// # Errors
-    /// When the database refuses or holds what is no record.
-    pub fn record(&self, id: &str) -> Result<Option<Record>, AppError> {
-        let text: Option<String> = self.run(async {
-            let query = sqlx::query("SELECT record FROM sessions WHERE id = $1").bind(id.to_owned());
-            query.fetch_optional(&self.pool).await?.map(|row| row.try_get(0)).transpose()
-        })?;
-        let wrong = |error| AppError::failed(format!("{}: session {id}: {error}", self.name()));
-        text.map(|text| serde_json::from_str(&text).map_err(wrong)).transpose()
-    }
-
-    /// How many sessions there are: all, or one trainee's.
-    ///
-    /// # Errors
-    /// When the database refuses.
-    pub fn count(&self, trainee: Option<&str>) -> Result<u64, AppError> {
-        let counted: i64 = self.run(async {
-            let query = match trainee {
-                Some(trainee) => sqlx::query("SELECT COUNT(*) FROM sessions WHERE trainee = $1").bind(trainee.to_owned()),
-                None => sqlx::query("SELECT COUNT(*) FROM sessions"),
-            };
-            query.fetch_one(&self.pool).await?.try_get(0)
-        })?;
-        Ok(u64::try_from(counted).unwrap_or_default())
     }
 }

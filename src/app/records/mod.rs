@@ -2,12 +2,16 @@
 //! again from them at any time (all but what trainees told of themselves).
 
 mod accounts;
+mod address;
 mod database;
 mod import;
+mod migrate;
 mod people;
 mod push;
+mod sessions;
 #[cfg(test)]
 mod tests;
+mod trainees;
 
 pub use database::Database;
 pub use import::{id as session_id, read as read_session, session_folders};
@@ -40,6 +44,7 @@ const PARCEL: usize = 64;
 Examples:
   spandrel records import                                   all new or changed sessions of ./sessions
   spandrel records import --database postgres://spandrel@db/training
+  spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem'
   spandrel records list
   spandrel records trainee anna --age-band 25-34 --drone-experience none --gaming-experience some
   spandrel records export --trainee anna --out anna.json    everything that is kept of her
@@ -64,6 +69,11 @@ pub struct Place {
     #[arg(long, global = true, value_name = "DIR", default_value = "sessions")]
     pub sessions: Vec<PathBuf>,
     /// Database: a file, or postgres://USER@HOST/NAME [default: records.sqlite in the first folder of sessions]
+    ///
+    /// A URL of PostgreSQL says after a '?' how the line is kept secret: sslmode=disable, prefer (without it: TLS where the server has it,
+    /// whoever it is), require (TLS, whoever it is) or verify-full (signed by a known authority for this host's name: what a network
+    /// wants). Known are the authorities of this machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE show a certificate of
+    /// our own. All files are PEM.
     #[arg(long, global = true, value_name = "FILE|URL")]
     pub database: Option<String>,
 }

@@ -1,21 +1,20 @@
-//! The same tests on SQLite and on a real PostgreSQL, which is started here as an unprivileged user in a folder of its own and listens
-//! on a socket in it, so that no port is taken.
+//! The same tests on SQLite and on a real PostgreSQL.
+
+mod server;
+mod tls;
 
 use super::database::Database;
 use crate::training::questionnaire::Tlx;
 use crate::training::record::Record;
 use crate::training::testing::faultless;
 use crate::training::trainee::{Role, Trainee};
-use std::os::unix::fs::{PermissionsExt, chown};
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use server::Server;
+use std::path::PathBuf;
 
 /// Stations that write at once.
 const STATIONS: usize = 20;
 /// Sessions of each.
 const EACH: usize = 8;
-/// Debian's `nobody` and `nogroup`: PostgreSQL refuses to run as root.
-const NOBODY: u32 = 65_534;
 
 /// A made-up session.
 fn record(trainee: &str, number: usize) -> Record {
@@ -33,7 +32,10 @@ fn record(trainee: &str, number: usize) -> Record {
 fn every_behaviour(target: &str) {
     takes_in_once_and_gives_back_the_same(target);
     keeps_people_and_erases_them(target);
+    lets_people_in_and_forgets_them(target);
+    counts_and_finds_sessions(target);
     replaces_all_or_nothing(target);
+    takes_strangers_in_any_order(target);
     loses_nothing_when_stations_write_at_once(target);
 }
 
@@ -80,6 +82,61 @@ fn keeps_people_and_erases_them(target: &str) {
     assert_eq!(database.erase("anna"), Ok((false, 0)));
     assert_eq!(database.trainees().unwrap(), [Trainee::new("o'brien")]);
     assert_eq!(database.records(None).unwrap().len(), 1);
+}
+
+fn lets_people_in_and_forgets_them(target: &str) {
+    let database = Database::open(target).unwrap();
+    assert_eq!(database.account("nobody").unwrap(), None);
+    let ada = Trainee { role: Role::Administrator, ..Trainee::new("ada") };
+    database.set_account(&ada, "first").unwrap();
+    database.set_account(&ada, "second").unwrap();
+    database.set_account(&Trainee::new("o'brien"), "'; DELETE FROM passwords; --").unwrap();
+    // What another process sees.
+    let again = Database::open(target).unwrap();
+    assert_eq!(again.with_password().unwrap(), ["ada", "o'brien"]);
+    let account = again.account("ada").unwrap().unwrap();
+    assert_eq!((account.person, account.hash.as_deref()), (ada, Some("second")));
+    assert_eq!(again.drop_password("ada"), Ok(true));
+    assert_eq!(again.drop_password("ada"), Ok(false));
+    assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "she is known and logs in no more");
+    // Who is erased logs in no more, under the same name neither.
+    assert_eq!(database.erase("o'brien"), Ok((true, 1)));
+    assert_eq!((database.with_password().unwrap(), database.account("o'brien").unwrap()), (vec![], None));
+    database.set_trainee(&Trainee::new("o'brien")).unwrap();
+    assert_eq!(database.account("o'brien").unwrap().unwrap().hash, None);
+    assert_eq!((database.erase("o'brien"), database.erase("ada")), (Ok((true, 0)), Ok((true, 0))));
+}
+
+fn counts_and_finds_sessions(target: &str) {
+    let database = Database::open(target).unwrap();
+    database.put(&[record("cleo", 1), record("cleo", 2), record("dan", 3)]).unwrap();
+    let counts = [None, Some("cleo"), Some("dan"), Some("nobody"), Some("' OR 1 = 1 --")].map(|who| database.count(who).unwrap());
+    assert_eq!(counts, [3, 2, 1, 0, 0]);
+    assert_eq!(database.record("session-cleo-002").unwrap(), Some(record("cleo", 2)));
+    assert_eq!(database.record("session-cleo-003").unwrap(), None);
+    assert_eq!(database.erase("cleo"), Ok((true, 2)));
+    assert_eq!((database.count(None), database.record("session-cleo-002")), (Ok(1), Ok(None)));
+}
+
+/// Two stations that take in the same new people in opposite orders do not wait for each other for ever.
+fn takes_strangers_in_any_order(target: &str) {
+    let people: Vec<Record> = (0..STATIONS).map(|k| record(&format!("new{k}"), k)).collect();
+    let backwards: Vec<Record> = people.iter().rev().cloned().collect();
+    std::thread::scope(|scope| {
+        for order in [&people, &backwards] {
+            scope.spawn(|| {
+                let database = Database::open(target).unwrap();
+                for _ in 0..EACH {
+                    database.put(order).unwrap();
+                }
+            });
+        }
+    });
+    let database = Database::open(target).unwrap();
+    assert_eq!(
+        people.iter().map(|one| database.erase(&one.trainee).unwrap()).filter(|gone| *gone == (true, 1)).count(),
+        STATIONS
+    );
 }
 
 fn replaces_all_or_nothing(target: &str) {
@@ -132,16 +189,25 @@ fn exact_twenty_stations_may_make_the_same_new_file_at_once() {
     loses_nothing_when_stations_write_at_once(&folder.path().join("new.sqlite").display().to_string());
 }
 
+fn readers_do_not_wait_for_a_writer(target: &str) {
+    let writer = Database::open(target).unwrap();
+    writer.replace_all(&[record("anna", 1)]).unwrap();
+    writer.keep_writing().unwrap();
+    let reader = Database::open(target).unwrap();
+    assert_eq!(reader.records(None).unwrap().len(), 1);
+    assert_eq!(reader.list(None, 10, 0).unwrap().len(), 1);
+}
+
+fn a_newer_version_is_refused(target: &str) {
+    Database::open(target).unwrap().pretend_version(99).unwrap();
+    let error = Database::open(target).unwrap_err().to_string();
+    assert!(error.contains("version 99") && error.contains("newer"), "{error}");
+}
+
 #[test]
 fn exact_readers_do_not_wait_for_a_writer() {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("records.sqlite").display().to_string();
-    let writer = Database::open(&file).unwrap();
-    writer.put(&[record("anna", 1)]).unwrap();
-    writer.keep_writing().unwrap();
-    let reader = Database::open(&file).unwrap();
-    assert_eq!(reader.records(None).unwrap().len(), 1);
-    assert_eq!(reader.list(None, 10, 0).unwrap().len(), 1);
+    readers_do_not_wait_for_a_writer(&folder.path().join("records.sqlite").display().to_string());
 }
 
 #[test]
@@ -159,10 +225,7 @@ fn exact_what_is_erased_is_gone_from_the_file() {
 #[test]
 fn exact_a_database_of_a_newer_version_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("records.sqlite").display().to_string();
-    Database::open(&file).unwrap().pretend_version(99).unwrap();
-    let error = Database::open(&file).unwrap_err().to_string();
-    assert!(error.contains("version 99") && error.contains("newer"), "{error}");
+    a_newer_version_is_refused(&folder.path().join("records.sqlite").display().to_string());
 }
 
 #[test]
@@ -171,90 +234,11 @@ fn exact_no_message_shows_a_password() {
     assert!(error.contains("postgres://spandrel@127.0.0.1:1/none") && !error.contains("secret"), "{error}");
 }
 
-/// A PostgreSQL of our own.
-struct Server {
-    process: Child,
-    folder: tempfile::TempDir,
-}
-
-impl Server {
-    fn start() -> Self {
-        let programs = programs();
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o755)).unwrap();
-        let (home, data) = (folder.path().join("run"), folder.path().join("run/data"));
-        std::fs::create_dir(&home).unwrap();
-        if is_root() {
-            chown(&home, Some(NOBODY), Some(NOBODY)).unwrap();
-        }
-        let at = |path: &Path| path.display().to_string();
-        let made = unprivileged(&programs.join("initdb"))
-            .args(["-D", &at(&data), "-U", "spandrel", "-A", "trust", "-E", "UTF8", "--no-locale", "--no-sync"])
-            .current_dir(&home)
-            .output()
-            .unwrap();
-        assert!(made.status.success(), "initdb: {}", String::from_utf8_lossy(&made.stderr));
-        let log = std::fs::File::create(folder.path().join("log.txt")).unwrap();
-        let process = unprivileged(&programs.join("postgres"))
-            .args(["-D", &at(&data), "-k", &at(&home), "-c", "listen_addresses=", "-c", "fsync=off", "-c", "max_connections=60"])
-            .current_dir(&home)
-            .stdout(Stdio::null())
-            .stderr(log)
-            .spawn()
-            .unwrap();
-        let server = Self { process, folder };
-        // pg_isready asks the server itself and waits for its answer.
-        let ready = || Command::new(programs.join("pg_isready")).args(["-h", &at(&home), "-t", "1"]).output().unwrap().status;
-        while !ready().success() {
-            std::thread::yield_now();
-        }
-        server
-    }
-
-    fn url(&self) -> String {
-        format!("postgres://spandrel@localhost/postgres?host={}", self.folder.path().join("run").display())
-    }
-}
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        // PostgreSQL ends its children before itself when its own program asks; killed, it would leave them.
-        let data = self.folder.path().join("run/data").display().to_string();
-        let stopped =
-            unprivileged(&programs().join("pg_ctl")).args(["stop", "-D", &data, "-m", "fast", "-s"]).current_dir("/").status();
-        if !stopped.is_ok_and(|status| status.success()) {
-            let _ = self.process.kill();
-        }
-        let _ = self.process.wait();
-    }
-}
-
-/// Where Debian, or the path, has PostgreSQL's programs.
-fn programs() -> PathBuf {
-    let versions = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten().flatten();
-    let mut found: Vec<PathBuf> =
-        versions.map(|entry| entry.path().join("bin")).filter(|bin| bin.join("postgres").is_file()).collect();
-    found.sort();
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    found.extend(std::env::split_paths(&path).filter(|bin| bin.join("initdb").is_file()));
-    found.into_iter().next().expect("PostgreSQL is not installed; tools/test installs it (Debian: apt-get install postgresql)")
-}
-
-fn is_root() -> bool {
-    Command::new("id").arg("-u").output().is_ok_and(|told| told.stdout == b"0\n")
-}
-
-fn unprivileged(program: &Path) -> Command {
-    if !is_root() {
-        return Command::new(program);
-    }
-    let mut command = Command::new("setpriv");
-    command.args(["--reuid", &NOBODY.to_string(), "--regid", &NOBODY.to_string(), "--clear-groups", "--"]).arg(program);
-    command
-}
-
 #[test]
 fn val_records_live_in_postgresql() {
     let server = Server::start();
-    every_behaviour(&server.url());
+    let url = server.url();
+    every_behaviour(&url);
+    readers_do_not_wait_for_a_writer(&url);
+    a_newer_version_is_refused(&url);
 }

@@ -1,0 +1,116 @@
+//! A real PostgreSQL, started as an unprivileged user in a folder of its own; it listens on a socket in it, so that no port is taken
+//! unless a test asks for one.
+
+use std::os::unix::fs::{PermissionsExt, chown};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+
+/// Debian's `nobody` and `nogroup`: PostgreSQL refuses to run as root.
+const NOBODY: u32 = 65_534;
+
+/// PostgreSQL names its socket by this, unless told otherwise.
+const DEFAULT_PORT: u16 = 5432;
+
+/// A PostgreSQL of our own.
+pub struct Server {
+    process: Child,
+    folder: tempfile::TempDir,
+}
+
+impl Server {
+    /// Starts one that no port leads to.
+    pub fn start() -> Self {
+        Self::with(DEFAULT_PORT, &["listen_addresses=".to_owned()])
+    }
+
+    /// Starts one on a port of this machine, with more settings (`name=value`).
+    pub fn on_port(port: u16, settings: &[String]) -> Self {
+        let here = ["listen_addresses=127.0.0.1".to_owned(), format!("port={port}")];
+        Self::with(port, &[&here, settings].concat())
+    }
+
+    fn with(port: u16, settings: &[String]) -> Self {
+        let programs = programs();
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o755)).unwrap();
+        let (home, data) = (folder.path().join("run"), folder.path().join("run/data"));
+        std::fs::create_dir(&home).unwrap();
+        if is_root() {
+            chown(&home, Some(NOBODY), Some(NOBODY)).unwrap();
+        }
+        let at = |path: &Path| path.display().to_string();
+        let made = unprivileged(&programs.join("initdb"))
+            .args(["-D", &at(&data), "-U", "spandrel", "-A", "trust", "-E", "UTF8", "--no-locale", "--no-sync"])
+            .current_dir(&home)
+            .output()
+            .unwrap();
+        assert!(made.status.success(), "initdb: {}", String::from_utf8_lossy(&made.stderr));
+        let log = std::fs::File::create(folder.path().join("log.txt")).unwrap();
+        let process = unprivileged(&programs.join("postgres"))
+            .args(["-D", &at(&data), "-k", &at(&home), "-c", "fsync=off", "-c", "max_connections=60"])
+            .args(settings.iter().flat_map(|setting| ["-c", setting.as_str()]))
+            .current_dir(&home)
+            .stdout(Stdio::null())
+            .stderr(log)
+            .spawn()
+            .unwrap();
+        let server = Self { process, folder };
+        // pg_isready asks the server itself and waits for its answer.
+        let place = ["-h".to_owned(), at(&home), "-p".to_owned(), port.to_string()];
+        let ready = || Command::new(programs.join("pg_isready")).args(&place).args(["-t", "1"]).output().unwrap().status;
+        while !ready().success() {
+            std::thread::yield_now();
+        }
+        server
+    }
+
+    /// Its address by the socket in its folder.
+    pub fn url(&self) -> String {
+        format!("postgres://spandrel@localhost/postgres?host={}", self.folder.path().join("run").display())
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        // PostgreSQL ends its children before itself when its own program asks; killed, it would leave them.
+        let data = self.folder.path().join("run/data").display().to_string();
+        let stopped =
+            unprivileged(&programs().join("pg_ctl")).args(["stop", "-D", &data, "-m", "fast", "-s"]).current_dir("/").status();
+        if !stopped.is_ok_and(|status| status.success()) {
+            let _ = self.process.kill();
+        }
+        let _ = self.process.wait();
+    }
+}
+
+/// Where Debian, or the path, has PostgreSQL's programs.
+fn programs() -> PathBuf {
+    let versions = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten().flatten();
+    let mut found: Vec<PathBuf> =
+        versions.map(|entry| entry.path().join("bin")).filter(|bin| bin.join("postgres").is_file()).collect();
+    found.sort();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    found.extend(std::env::split_paths(&path).filter(|bin| bin.join("initdb").is_file()));
+    found.into_iter().next().expect("PostgreSQL is not installed; tools/test installs it (Debian: apt-get install postgresql)")
+}
+
+fn is_root() -> bool {
+    Command::new("id").arg("-u").output().is_ok_and(|told| told.stdout == b"0\n")
+}
+
+fn unprivileged(program: &Path) -> Command {
+    if !is_root() {
+        return Command::new(program);
+    }
+    let mut command = Command::new("setpriv");
+    command.args(["--reuid", &NOBODY.to_string(), "--regid", &NOBODY.to_string(), "--clear-groups", "--"]).arg(program);
+    command
+}
+
+/// Gives a file to the user that PostgreSQL runs as, for his eyes only: it takes no other private key.
+pub fn hand_over(file: &Path) {
+    std::fs::set_permissions(file, std::fs::Permissions::from_mode(0o600)).unwrap();
+    if is_root() {
+        chown(file, Some(NOBODY), Some(NOBODY)).unwrap();
+    }
+}

@@ -1,0 +1,109 @@
+"""`spandrel serve` over PostgreSQL, as a training centre runs it: several programs, one database."""
+
+import json
+import subprocess
+
+import pytest
+
+import postgres
+import spandrel
+import webserver
+
+
+@pytest.fixture(scope="module")
+def database(tmp_path_factory):
+    """One PostgreSQL for all of these tests."""
+    database = postgres.Postgres(tmp_path_factory.mktemp("centre") / "postgres")
+    yield database
+    database.stop()
+
+
+@pytest.fixture(scope="module")
+def sessions(tmp_path_factory, database):
+    """Anna and Ben flew, Ida teaches."""
+    folder = tmp_path_factory.mktemp("stations") / "sessions"
+    webserver.flown(folder, "anna", "ben")
+    spandrel.run("records", "import", "--sessions", str(folder), "--database", database.url)
+    for name, role in [("anna", "trainee"), ("ida", "instructor"), ("ada", "administrator")]:
+        webserver.set_password(folder, name, role, "--database", database.url)
+    return folder
+
+
+def serve(sessions, database):
+    return webserver.Server(sessions, "--database", database.url)
+
+
+def listed(browser):
+    status, _, text = browser.ask("/sessions")
+    assert status == 200, text
+    return {name for name in ("anna", "ben", "carl") if f"/trainees/{name}" in text}
+
+
+def test_people_log_in_and_see_what_is_theirs(sessions, database):
+    server = serve(sessions, database)
+    try:
+        wrong = webserver.Browser(server.address)
+        assert wrong.ask("/login", {"token": wrong.token("/login"), "name": "anna", "password": "not hers at all"})[0] == 403
+        anna, ida = webserver.Browser(server.address), webserver.Browser(server.address)
+        assert anna.log_in("anna") == 303 and ida.log_in("ida") == 303
+        hers = next(path.name for path in sessions.iterdir() if "-anna-" in path.name)
+        his = next(path.name for path in sessions.iterdir() if "-ben-" in path.name)
+        assert anna.ask(f"/sessions/{hers}")[0] == 200 and anna.ask(f"/sessions/{his}")[0] == 404
+        assert ida.ask(f"/sessions/{his}")[0] == 200
+        assert listed(ida) == {"anna", "ben"}
+        assert not (sessions / "records.sqlite").exists(), "nothing is kept beside PostgreSQL"
+    finally:
+        server.close()
+
+
+def test_two_servers_and_a_station_share_one_database(sessions, database, tmp_path):
+    """Another room's server knows the people and sees what a third program took in."""
+    elsewhere = tmp_path / "sessions"
+    elsewhere.mkdir()
+    first, second = serve(sessions, database), serve(elsewhere, database)
+    try:
+        here, there = webserver.Browser(first.address), webserver.Browser(second.address)
+        assert here.log_in("ada") == 303 and there.log_in("ada") == 303
+        station = tmp_path / "station"
+        webserver.flown(station, "carl")
+        spandrel.run("records", "import", "--sessions", str(station), "--database", database.url)
+        assert listed(here) == listed(there) == {"anna", "ben", "carl"}
+        status, _, _ = there.post("/trainees/carl", "/trainees/carl/erase", {"again": "carl"})
+        assert status == 303 and listed(here) == {"anna", "ben"}
+        records = json.loads(spandrel.run("records", "list", "--json", "--sessions", str(station), "--database", database.url))
+        assert {record["trainee"] for record in records} == {"anna", "ben"}
+    finally:
+        first.close()
+        second.close()
+
+
+def test_a_database_that_goes_away_is_told_and_found_again(sessions, database):
+    server = serve(sessions, database)
+    try:
+        ida = webserver.Browser(server.address)
+        assert ida.log_in("ida") == 303
+        database.stop()
+        try:
+            status, _, text = ida.ask("/sessions")
+            assert status == 500 and "spandrel@" not in text, (status, text)
+        finally:
+            database.start()
+        assert listed(ida) >= {"anna", "ben"}, "the visit has outlived it"
+    finally:
+        server.close()
+
+
+def test_what_is_wrong_about_a_database_is_said(tmp_path):
+    def refused(url):
+        done = subprocess.run(
+            [spandrel.PROGRAM, "serve", "--sessions", str(tmp_path), "--listen", "127.0.0.1:0", "--vehicle", "none", "--database", url],
+            stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=webserver.PATIENCE_S, check=False,
+        )
+        return done.returncode, done.stderr
+
+    code, said = refused("postgres://ada:secret@127.0.0.1:1/none?sslmode=sometimes")
+    assert code == 2 and "sslmode = 'sometimes' (allowed: disable" in said and "secret" not in said, said
+    code, said = refused("postgres://ada:secret@127.0.0.1:1/none?sslmode=verify-full&sslrootcert=/none.pem")
+    assert code == 2 and "sslrootcert = '/none.pem'" in said, said
+    code, said = refused("postgres://ada:secret@127.0.0.1:1/none")
+    assert code == 1 and "cannot be opened" in said and "secret" not in said, said
