@@ -20,6 +20,7 @@ pub mod words;
 
 use crate::base::geodesy::LocalPlane;
 use crate::monitor::assessment::{Assessment, identified_flight};
+use crate::monitor::measures::attention;
 use crate::monitor::measures::crash::{self, Crash};
 use crate::monitor::measures::on_path::{OnPath, Paths};
 use crate::monitor::{AssessError, Graded, Job, assess};
@@ -107,7 +108,7 @@ impl Review {
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log);
         let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
-        let site = Site::build(scenario, seed);
+        let site = Site::build(scenario, seed).with_gates(attention::gates(&flight));
         let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: &site })?;
         let paths = Paths::new(scenario);
         let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));

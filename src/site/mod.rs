@@ -16,6 +16,7 @@ pub mod turbulence;
 pub mod wind;
 
 pub mod convex;
+pub mod gates;
 pub mod geometry;
 pub mod gltf;
 pub mod heights;
@@ -29,7 +30,9 @@ use crate::scenario::bridges::{Lane, Member};
 use crate::scenario::{PlacedDefect, Scenario};
 use crate::vehicle::{Camera, Lamp};
 use dynamics::{Dynamics, StaticQueries};
+use gates::Gates;
 use geometry::Geometry;
+use std::sync::Arc;
 
 /// What something is made of for contact, clearance and the wire's `contact` code (design.md: 0 none, 1 bridge, 2 terrain,
 /// 3 water, 4 vehicle, 5 person, 6 other).
@@ -187,9 +190,9 @@ pub struct DefectView {
 }
 
 /// The job's site: immutable once built; what moves is a function of time.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Site {
-    geometry: Geometry,
+    geometry: Arc<Geometry>,
     lanes: Vec<Lane>,
     plane: LocalPlane,
     dynamics: Dynamics,
@@ -200,7 +203,7 @@ impl Site {
     #[must_use]
     pub fn build(scenario: &Scenario, seed: u64) -> Self {
         let lanes: Vec<Lane> = scenario.bridges.iter().enumerate().flat_map(|(k, bridge)| bridge.lanes(k)).collect();
-        let geometry = Geometry::new(scenario);
+        let geometry = Arc::new(Geometry::new(scenario));
         let cast = |origin, direction, max_m| geometry.ray(origin, direction, max_m);
         let nearest = |position, max_m| geometry.nearest(position, max_m);
         let still = StaticQueries { cast: &cast, nearest: &nearest };
@@ -242,6 +245,14 @@ impl Site {
     #[must_use]
     pub fn traffic(&self) -> &traffic::TrafficPlan {
         &self.dynamics.traffic
+    }
+
+    /// The same site whose traffic was stopped and let go so; what stands still is shared.
+    #[must_use]
+    pub fn with_gates(&self, gates: Gates) -> Self {
+        let mut other = self.clone();
+        other.dynamics.traffic.set_gates(gates);
+        other
     }
 
     /// The defects of this session.

@@ -3,6 +3,7 @@
 //! lane: objects come and go beyond the bridge's ends.
 
 use super::boxes::{OrientedBox, bounding_ball};
+use super::gates::Gates;
 use super::movers::{Kind, Placed, boxes};
 use super::tracks::{Track, arc_lengths, simplified};
 use super::{Contact, Nearest, ObjectId, Probe, RayHit, Surface};
@@ -50,6 +51,7 @@ pub struct TrafficPlan {
     tracks: Vec<Track>,
     movers: Vec<Mover>,
     crew: Vec<(ObjectId, Surface, OrientedBox)>,
+    gates: Gates,
 }
 
 impl TrafficPlan {
@@ -57,7 +59,7 @@ impl TrafficPlan {
     #[must_use]
     pub fn new(lanes: &[Lane], settings: &TrafficSettings, team: &GroundTeam, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "site.traffic");
-        let mut plan = Self { tracks: Vec::new(), movers: Vec::new(), crew: crew(team) };
+        let mut plan = Self { tracks: Vec::new(), movers: Vec::new(), crew: crew(team), gates: Gates::default() };
         let roads: Vec<&Lane> = lanes.iter().filter(|l| !l.walkway && l.points_m.len() >= 2).collect();
         let walkways: Vec<&Lane> = lanes.iter().filter(|l| l.walkway && l.points_m.len() >= 2).collect();
         let mut vehicles = vec![Kind::Car; settings.cars];
@@ -108,19 +110,32 @@ impl TrafficPlan {
         self.tracks.push(Track { band_m, points_m, arc_m, length_m, loop_m, speed_m_s, first, count: kinds.len(), reach_m });
     }
 
+    /// Traffic was stopped and let go so.
+    pub fn set_gates(&mut self, gates: Gates) {
+        self.gates = gates;
+    }
+
+    /// When it was stopped and let go.
+    #[must_use]
+    pub fn gates(&self) -> &Gates {
+        &self.gates
+    }
+
     /// The objects on the decks.
     #[must_use]
     pub fn movers(&self) -> &[Mover] {
         &self.movers
     }
 
-    /// Where a mover is; `None` while it is beyond the bridge's ends.
+    /// Where a mover is; `None` while it is beyond the bridge's ends, and on a round that it could not begin because the bridge was closed.
     #[must_use]
     pub fn place(&self, mover: &Mover, at: SimTime) -> Option<Placed> {
         let track = &self.tracks[mover.track];
         let half = mover.kind.half_length_m();
-        let s = (mover.phase_m + track.speed_m_s * at.s()).rem_euclid(track.loop_m) - half;
-        (s <= track.length_m + half).then(|| track.at(s))
+        let driven_m = (mover.phase_m + track.speed_m_s * at.s()).rem_euclid(track.loop_m);
+        let s = driven_m - half;
+        let entered = s <= track.length_m + half && self.gates.are_open_at(at.s() - driven_m / track.speed_m_s);
+        entered.then(|| track.at(s))
     }
 
     /// Solids of everything there is at an instant, for drawing and tests.
@@ -329,6 +344,41 @@ mod tests {
                 assert!((-half..=200.0 + half).contains(&p.position_m.east()), "{mover:?} {p:?}");
             }
         }
+    }
+
+    #[test]
+    fn prop_who_has_entered_drives_on_and_nobody_enters_a_closed_bridge() {
+        let open = plan(3);
+        let (closed_s, opened_s) = (40.0, 130.0);
+        let mut gated = open.clone();
+        gated.set_gates(Gates::from_codes([-40_000, 130_000]));
+        // The slowest walker needs so long for 200 m, and then the decks are empty; half a lane later they are full again.
+        let (mut least, mut shown) = (usize::MAX, [None; 17]);
+        for tenth in 0..4_000 {
+            let t_s = 0.1 * f64::from(tenth);
+            let at = SimTime::from_s(t_s);
+            let mut vehicles = 0;
+            for (k, mover) in open.movers().iter().enumerate() {
+                let (free, held) = (open.place(mover, at), gated.place(mover, at));
+                // A gate moves nobody: who is there is where he would be.
+                assert!(held.is_none() || held == free, "{mover:?} at {t_s} s");
+                if t_s < closed_s {
+                    assert_eq!(held, free);
+                }
+                let entered = held.is_some() && shown[k] == Some(false);
+                assert!(!entered || !(closed_s + 0.1..opened_s).contains(&t_s), "{mover:?} enters at {t_s} s");
+                let vanished = held.is_none() && shown[k] == Some(true);
+                assert!(!vanished || free.is_none(), "{mover:?} vanishes at {t_s} s");
+                shown[k] = Some(held.is_some());
+                vehicles += usize::from(held.is_some() && mover.kind != Kind::Pedestrian);
+            }
+            if (closed_s..opened_s).contains(&t_s) {
+                least = least.min(vehicles);
+            }
+        }
+        assert_eq!(least, 0, "the roads run empty");
+        let late = SimTime::from_s(399.0);
+        assert_eq!(gated.solids(late), open.solids(late), "and are as full as ever in the end");
     }
 
     #[test]

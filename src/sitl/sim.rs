@@ -21,6 +21,7 @@ use crate::base::frames::{Ned, Vec3};
 use crate::base::time::{Schedule, SimTime};
 use crate::scenario::Scenario;
 use crate::site::Site;
+use crate::site::gates::Gates;
 use crate::site::wind::WindField;
 use crate::vehicle::Vehicle;
 use inbox::Inbox;
@@ -107,6 +108,8 @@ pub struct Sim {
     radio: Radio,
     faults: Faults,
     world: World,
+    /// When traffic was stopped and let go.
+    gates: Gates,
     /// Changes of parameters that the world has followed.
     heeded: u64,
     events: VecDeque<SimEvent>,
@@ -200,7 +203,8 @@ impl Sim {
             radio: Radio::new(seed),
             faults: Faults::new(seed),
             heeded: 0,
-            world: World { wind: None, loss: 0.0, delay: SimTime::ZERO },
+            world: World { wind: None, loss: 0.0, delay: SimTime::ZERO, open: true },
+            gates: Gates::default(),
             events: VecDeque::new(),
             digest: Sha256::new(),
             recorder: Recorder::default(),

@@ -115,6 +115,8 @@ pub enum Said {
     Hits(i32),
     /// How often the drone was put back.
     Respawns(i32),
+    /// When traffic was stopped (negative) or let go, ms since simulation start, as the wire says it.
+    Traffic(i32),
     /// The session's seed.
     Seed(u64),
     /// CRC of the scenario that the simulator runs.
@@ -330,6 +332,7 @@ fn named_int(named: &NAMED_VALUE_INT_DATA) -> Option<(Option<SimTime>, Said)> {
         "contact" => Said::Contact(Contact::from_wire(named.value)),
         "hits" => Said::Hits(named.value),
         "respawns" => Said::Respawns(named.value),
+        "traffic" => Said::Traffic(named.value),
         // A 32-bit field carries the seed; as unsigned, so that the upper half survives too.
         "seed" => Said::Seed(u64::from(named.value as u32)),
         "scn_crc" => Said::ScenarioCrc(named.value as u32),

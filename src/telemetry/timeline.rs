@@ -303,6 +303,8 @@ pub struct Flight {
     pub hits: Signal<i32>,
     /// Cumulative respawns.
     pub respawns: Signal<i32>,
+    /// When traffic was stopped and let go, as the wire says it.
+    pub traffic: Signal<i32>,
     /// Nearest surface, m.
     pub clearance: Signal<f64>,
     /// Gimbal pitch, rad.
@@ -336,6 +338,7 @@ impl Flight {
             Said::Contact(v) => self.contact.push(time, order, v),
             Said::Hits(v) => self.hits.push(time, order, v),
             Said::Respawns(v) => self.respawns.push(time, order, v),
+            Said::Traffic(v) => self.traffic.push(time, order, v),
             Said::Seed(v) => self.seeds.push(time, order, v),
             Said::ScenarioCrc(v) => self.scenario_crcs.push(time, order, v),
             Said::Clearance(v) => self.clearance.push(time, order, v),
@@ -364,6 +367,7 @@ impl Flight {
         self.contact.sort();
         self.hits.sort();
         self.respawns.sort();
+        self.traffic.sort();
         self.clearance.sort();
         self.gimbal.sort();
         self.field_of_view.sort();

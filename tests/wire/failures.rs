@@ -1,7 +1,10 @@
 //! What an instructor breaks, and what the vehicle makes of it.
 
-use super::station::Station;
+use super::station::{Station, scenario};
 use spandrel::mav::dialect::*;
+use spandrel::site::gates::Gates;
+use spandrel::site::traffic::CREW_TRUCK;
+use spandrel::site::{Site, Surface};
 
 const OFF: f32 = 1.0;
 const OK: f32 = 0.0;
@@ -242,6 +245,46 @@ fn flight_the_wind_that_an_instructor_sets_blows() {
     });
     let east = mean.sum::<f64>() / 50.0;
     assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "a west wind blows to the east at {east} m/s");
+}
+
+#[test]
+fn wire_closed_bridges_run_empty_and_telemetry_alone_tells_it() {
+    let mut station = Station::new("two-bridges", 7);
+    let codes = |s: &Station| -> Vec<i32> {
+        let said = s.heard.iter().filter_map(|frame| frame.message.as_ref());
+        said.filter_map(|m| {
+            if let MavMessage::NAMED_VALUE_INT(v) = m { (v.name.to_str() == Ok("traffic")).then_some(v.value) } else { None }
+        })
+        .collect()
+    };
+    station.run_ms(11_000);
+    assert!(codes(&station).is_empty(), "what was never touched is not spoken of");
+    assert!(station.sim.site().traffic().gates().are_untouched());
+    for (open, wait_ms) in [(0, 90_000), (1, 90_000)] {
+        set_whole(&mut station, "SIM_TRAFFIC", open);
+        station.run_ms(wait_ms);
+        let heard = Gates::from_codes(codes(&station));
+        assert_eq!(station.sim.site().traffic().gates(), &heard);
+        // Who knows scenario, seed and telemetry sees the same cars.
+        let theirs = Site::build(&scenario("two-bridges"), 7).with_gates(heard);
+        let now = station.sim.now();
+        let (here, there) = (station.sim.site().traffic().solids(now), theirs.traffic().solids(now));
+        assert_eq!(here, there);
+        let driving = here.iter().filter(|(object, surface, _)| *surface == Surface::Vehicle && *object != CREW_TRUCK).count();
+        assert_eq!(driving > 0, open == 1, "{driving} parts of vehicles after 90 s");
+    }
+}
+
+#[test]
+fn exact_closing_the_bridges_at_the_same_tick_gives_the_same_bits() {
+    let flown = || {
+        let mut station = Station::new("two-bridges", 7);
+        station.run_ms(3_000);
+        set_whole(&mut station, "SIM_TRAFFIC", 0);
+        station.run_ms(5_000);
+        (station.sim.digest(), station.sim.site().traffic().gates().clone())
+    };
+    assert_eq!(flown(), flown());
 }
 
 #[test]

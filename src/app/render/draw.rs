@@ -10,6 +10,7 @@ use crate::base::frames::{Enu, Vec3};
 use crate::base::time::SimTime;
 use crate::scenario::Scenario;
 use crate::site::Site;
+use crate::site::gates::Gates;
 use crate::vehicle::{Camera, Vehicle};
 use crate::view::camera::Eye;
 use crate::view::gpu::{Gpu, GpuError, Overlay, Renderer};
@@ -115,7 +116,7 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
     let (first, last) = recorded.span();
     let at = instant(args.at.unwrap_or(0.5 * (first.s() + last.s())))?;
     let moment = recorded.moment(at)?;
-    let drawing = Drawing::new(scenario, vehicle, recorded.seed(), quality, at)?;
+    let drawing = Drawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_gates(recorded.gates());
     let stage = drawing.stage(scenario, vehicle);
     let mut views = Vec::new();
     if args.view != "camera" {
@@ -155,6 +156,11 @@ impl Drawing {
         let scene = Scene::build(scenario, &site, vehicle, &quality, at);
         progress.end();
         Ok(Self { gpu, site, scene, quality })
+    }
+
+    /// The same where traffic was stopped and let go so.
+    pub fn with_gates(self, gates: Gates) -> Self {
+        Self { site: self.site.with_gates(gates), ..self }
     }
 
     /// What does not change during a session.

@@ -9,6 +9,7 @@ use crate::monitor::assessment::scored_flight;
 use crate::monitor::folder::EVENTS;
 use crate::monitor::measures::attention;
 use crate::scenario::Scenario;
+use crate::site::gates::Gates;
 use crate::telemetry::sample::{Header, truth_time};
 use crate::telemetry::{Flight, Timeline, tlog};
 use crate::vehicle::Vehicle;
@@ -62,6 +63,11 @@ impl Recorded {
     /// The seed that placed defects and traffic.
     pub fn seed(&self) -> u64 {
         self.scenario().seed.or(self.flight.seeds.all().first().map(|said| said.2)).unwrap_or_default()
+    }
+
+    /// When traffic was stopped and let go.
+    pub fn gates(&self) -> Gates {
+        attention::gates(&self.flight)
     }
 
     /// Where everything was.

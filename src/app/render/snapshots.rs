@@ -36,6 +36,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         return Ok(());
     }
     let drawing = Drawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
+    let drawing = drawing.with_gates(recorded.gates());
     let camera = &recorded.vehicle().camera;
     let most = drawing.gpu.software.then_some(SOFTWARE_PX);
     let size_px =

@@ -39,6 +39,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     let recorded = Recorded::read(Path::new(&args.what))?;
     let (from, to) = span(args, &recorded)?;
     let drawing = Drawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
+    let drawing = drawing.with_gates(recorded.gates());
     let bits_s = BITS_PX * f64::from(size_px.0) * f64::from(size_px.1) * args.fps;
     let mut encoder = Encoder::new(size_px, args.fps, bits_s as u32, (KEY_EVERY_S * args.fps).ceil() as u32)?;
     let (mut film, head) = Mp4::new(size_px, args.fps)?;

@@ -3,11 +3,13 @@
 use crate::base::frames::{Enu, Vec3};
 use crate::base::time::SimTime;
 use crate::scenario::PlacedDefect;
+use crate::site::gates::Gates;
 use crate::site::{CameraPose, DefectView, Site};
 use crate::telemetry::{Flight, Frame};
 use crate::vehicle::{Camera, Lamp, Vehicle};
 use serde::Serialize;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// What the scorer asks of the site; the site itself answers, and tests answer with what they have built.
 pub trait Survey: std::fmt::Debug + Send + Sync {
@@ -17,6 +19,23 @@ pub trait Survey: std::fmt::Debug + Send + Sync {
     fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
     /// Name of the nearest thing within `max_m`, for messages.
     fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
+    /// The same where traffic was stopped and let go so; `None` where none moves.
+    fn with_gates(&self, _: Gates) -> Option<Arc<dyn Survey>> {
+        None
+    }
+}
+
+/// A survey that knows when traffic was stopped and let go in a flight.
+#[must_use]
+pub fn gated(survey: Arc<dyn Survey>, flight: &Flight) -> Arc<dyn Survey> {
+    let gates = gates(flight);
+    if gates.are_untouched() { survey } else { survey.with_gates(gates).unwrap_or(survey) }
+}
+
+/// When traffic was stopped and let go in a flight.
+#[must_use]
+pub fn gates(flight: &Flight) -> Gates {
+    Gates::from_codes(flight.traffic.all().iter().map(|said| said.2))
 }
 
 impl Survey for Site {
@@ -28,6 +47,9 @@ impl Survey for Site {
     }
     fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String> {
         self.nearest(position_m, max_m, at).map(|nearest| self.object_name(nearest.object))
+    }
+    fn with_gates(&self, gates: Gates) -> Option<Arc<dyn Survey>> {
+        Some(Arc::new(Self::with_gates(self, gates)))
     }
 }
 

@@ -8,6 +8,7 @@ use crate::mav::dialect::MavSeverity;
 use crate::mav::note;
 use crate::monitor::assessment::{self, AssessError, Graded, Job};
 use crate::monitor::feedback::{Feedback, texts::Texts};
+use crate::monitor::measures::attention;
 use crate::monitor::measures::crash::may_touch_pad;
 use crate::monitor::session::{EndReason, Moment as EndMoment, lift_off_height_m};
 use crate::telemetry::frame::GAP_AFTER;
@@ -65,6 +66,7 @@ impl Monitor {
             Said::Battery(pct) => self.live.battery_pct = Some(pct),
             Said::Contact(contact) => self.contact(contact),
             Said::Respawns(count) => self.respawns(count),
+            Said::Traffic(code) => self.traffic(code),
             Said::Seed(seed) => self.seed_heard(seed),
             Said::ScenarioCrc(crc) => {
                 if let Err(error) = assessment::check_scenario(&self.config.scenario, crc) {
@@ -90,7 +92,8 @@ impl Monitor {
         }
         self.seed = Some(seed);
         if self.survey.is_none() {
-            self.survey = Some((self.config.build)(&self.config.scenario, seed));
+            let survey = (self.config.build)(&self.config.scenario, seed);
+            self.survey = Some(survey.with_gates(self.live.gates.clone()).unwrap_or(survey));
             self.event("seed", json!({ "seed": seed }));
         }
     }
@@ -102,6 +105,17 @@ impl Monitor {
             self.refused = Some(error.clone());
             self.outcome = Some(Err(error));
         }
+    }
+
+    /// Traffic was stopped or let go: what stands near is asked about under the same traffic as the simulator's.
+    fn traffic(&mut self, code: i32) {
+        let before = self.live.gates.clone();
+        self.live.gates.hear(code);
+        if self.live.gates == before {
+            return;
+        }
+        self.event("traffic", json!({ "open": code > 0 }));
+        self.survey = self.survey.take().map(|survey| survey.with_gates(self.live.gates.clone()).unwrap_or(survey));
     }
 
     fn respawns(&mut self, count: i32) {
@@ -225,6 +239,7 @@ impl Monitor {
         let flight = assessment::scored_flight(timeline, &config.scenario, &config.vehicle);
         let seed = assessment::check_identity(&flight, &config.scenario, self.seed)?;
         let survey = survey.get_or_insert_with(|| (config.build)(&config.scenario, seed)).clone();
+        let survey = attention::gated(survey, &flight);
         let job = Job { scenario: &config.scenario, vehicle: &config.vehicle, survey: survey.as_ref() };
         let (assessment, frames) = assessment::assess(&flight, &job)?;
         Ok(Graded { assessment, frames, seed })

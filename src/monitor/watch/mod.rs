@@ -17,6 +17,7 @@ use crate::monitor::measures::on_path::Paths;
 use crate::monitor::session::{EndReason, EndRule};
 use crate::scenario::Scenario;
 use crate::site::Site;
+use crate::site::gates::Gates;
 use crate::telemetry::timeline::LinkCounts;
 use crate::telemetry::{Contact, Hand, Timeline, Truth, tlog};
 use crate::vehicle::Vehicle;
@@ -101,6 +102,7 @@ struct Live {
     cues: i32,
     cues_sent: Option<SimTime>,
     respawns: Option<i32>,
+    gates: Gates,
 }
 
 /// The sidecar.
@@ -331,6 +333,7 @@ impl Live {
             cues: 0,
             cues_sent: None,
             respawns: None,
+            gates: Gates::default(),
         }
     }
 }

@@ -23,7 +23,8 @@ impl TruthRates {
 }
 
 impl Endpoint {
-    /// Named values for the scoring: contact on change and at 10 Hz, hits and respawns on change and with the slow ones.
+    /// Named values for the scoring: contact on change and at 10 Hz, hits, respawns and traffic on change and with the slow
+    /// ones.
     pub(super) fn truth(&mut self, view: &View) {
         let s = view.scoring;
         let rates = &mut self.truth_rates;
@@ -36,6 +37,10 @@ impl Endpoint {
             if slow || value != known {
                 out.push(truth::named_int(view, name, value));
             }
+        }
+        // Traffic that was never stopped is not spoken of.
+        if slow || s.traffic != self.sent.traffic {
+            out.extend(s.traffic.iter().filter(|code| **code != 0).map(|code| truth::named_int(view, "traffic", *code)));
         }
         if slow {
             out.push(truth::named_int(view, "seed", s.seed));

@@ -141,6 +141,8 @@ pub struct Scoring {
     pub hits: i32,
     /// Times put back.
     pub respawns: i32,
+    /// The last two times that traffic was stopped or let go, as the wire says them; 0 for never.
+    pub traffic: [i32; 2],
     /// The session's seed.
     pub seed: i32,
     /// CRC of the scenario.

@@ -2,6 +2,7 @@
 
 use super::Sim;
 use crate::mav::signing::Key;
+use crate::site::Site;
 use crate::sitl::backend::Backend;
 use crate::sitl::endpoint::files::job::{Done, FileError, Job};
 use crate::sitl::endpoint::logs::Logs;
@@ -10,6 +11,12 @@ use crate::sitl::endpoint::{LinkKind, Wish};
 use crate::sitl::log;
 
 impl Sim {
+    /// What stands and moves around the vehicle.
+    #[must_use]
+    pub fn site(&self) -> &Site {
+        &self.site
+    }
+
     /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
     /// trusted; `stamp` is the signing timestamp of now.
     pub fn demand_signatures(&mut self, key: Key, stamp: u64, trusted: &[LinkKind]) {

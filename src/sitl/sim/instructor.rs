@@ -2,8 +2,10 @@
 
 use super::Sim;
 use crate::base::time::SimTime;
+use crate::site::gates::Gates;
 use crate::sitl::endpoint::{Injection, LinkId, LinkKind};
 use crate::sitl::faults::{Faults, Unit};
+use std::sync::Arc;
 
 /// A wind that an instructor changes has changed within this.
 const WIND_CHANGES_IN: SimTime = SimTime::from_ms(5_000);
@@ -36,6 +38,11 @@ impl Sim {
             let own = &self.config.scenario.wind;
             let (speed_m_s, from_deg) = world.wind.unwrap_or((own.speed_m_s, own.from_deg));
             self.wind.change(self.now, WIND_CHANGES_IN, speed_m_s, from_deg);
+        }
+        if world.open != self.world.open {
+            self.gates.hear(Gates::code(self.now, world.open));
+            self.site = Arc::new(self.site.with_gates(self.gates.clone()));
+            self.scoring.traffic = self.gates.last_codes();
         }
         self.world = world;
     }

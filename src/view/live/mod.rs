@@ -19,6 +19,7 @@ use crate::mav::dialect::{
 use crate::mav::station;
 use crate::scenario::Scenario;
 use crate::site::CameraPose;
+use crate::site::gates::Gates;
 use crate::telemetry::Truth;
 use crate::telemetry::sample::{self, Said, Sample};
 use crate::vehicle::{Camera, Vehicle};
@@ -105,6 +106,7 @@ struct State {
     begun: Option<SimTime>,
     pictures: BTreeSet<(i32, Option<SimTime>)>,
     taken: Option<SimTime>,
+    gates: Gates,
 }
 
 /// What is drawn at one instant.
@@ -114,6 +116,8 @@ pub struct Now {
     pub moment: Moment,
     /// What the display tells besides.
     pub told: Told,
+    /// When traffic was stopped and let go.
+    pub gates: Gates,
 }
 
 impl Live {
@@ -226,6 +230,7 @@ impl Live {
                     state.taken = Some(sample.own_time.unwrap_or(now));
                 }
             }
+            Said::Traffic(code) => state.gates.hear(code),
             Said::Seed(seed) => self.seed = Some(seed),
             Said::ScenarioCrc(crc) => self.scenario_crc = Some(crc),
             Said::Sticks(_) | Said::Contact(_) | Said::Hits(_) | Said::Respawns(_) | Said::Clearance(_) | Said::OnGround(_) => {}
@@ -316,7 +321,7 @@ impl Live {
             pictures: state.pictures.len(),
             taken: state.taken,
         };
-        Some(Now { moment, told })
+        Some(Now { moment, told, gates: state.gates.clone() })
     }
 }
 

@@ -114,6 +114,8 @@ pub struct World {
     pub loss: f64,
     /// How late the others are, each way.
     pub delay: SimTime,
+    /// The bridges are open to traffic.
+    pub open: bool,
 }
 
 /// What happens when a second sender moves sticks while the first is there.
@@ -333,6 +335,7 @@ impl Params {
             wind: wind_m_s.map(|speed| (speed, self.number("SIM_WIND_DIR"))),
             loss: self.number("SIM_LINK_LOSS") / 100.0,
             delay: SimTime::from_ms(self.number("SIM_LINK_DELAY") as i64),
+            open: self.whole("SIM_TRAFFIC") != Some(0),
         }
     }
 

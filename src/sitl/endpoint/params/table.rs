@@ -237,6 +237,15 @@ pub const ROWS: &[Row] = &[
         "Share of datagrams of ground stations and SDKs that is lost, each way",
     ),
     row(
+        "SIM_TRAFFIC",
+        Int(1),
+        (0.0, 1.0),
+        "",
+        SIMULATION,
+        "Bridges are open to traffic; closed, who is on them goes on, nobody enters",
+    )
+    .values(&[(0, "Closed"), (1, "Open")]),
+    row(
         "SIM_WIND_DIR",
         Real(0.0),
         (0.0, 360.0),
