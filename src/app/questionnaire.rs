@@ -6,7 +6,7 @@ use super::session_folder::{self, Stored};
 use crate::monitor::export::json_text;
 use crate::scenario::Scenario;
 use crate::training::questionnaire::{
-    ANSWERS, Answers, ENGLISH, Item, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx, Wording, read_answers,
+    ANSWERS, Answers, Form, Item, Languages, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx, Wording, read_answers,
     read_wording,
 };
 use std::io::{BufRead, Write};
@@ -22,6 +22,7 @@ Examples:
   spandrel questionnaire sessions/20260801T...             asks what is still open
   spandrel questionnaire sessions/20260801T... --tlx       and the six scales of NASA-TLX
   spandrel questionnaire sessions/20260801T... --again     asks everything once more; Enter keeps an answer
+  spandrel questionnaire sessions/20260801T... --language de    in German (en, de, es)
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -34,9 +35,12 @@ pub struct Args {
     /// Ask what is already answered, too
     #[arg(long)]
     again: bool,
-    /// Wording in another language (a copy of the shipped one with other texts)
-    #[arg(long, value_name = "FILE")]
+    /// Wording of your own (a copy of a shipped one with other texts)
+    #[arg(long, value_name = "FILE", conflicts_with = "language")]
     wording: Option<PathBuf>,
+    /// Language to ask in: en, de or es [default: that of the answers so far, else the terminal's, else en]
+    #[arg(long, value_name = "TAG")]
+    language: Option<String>,
 }
 
 /// One thing to ask.
@@ -62,17 +66,18 @@ enum Typed {
 /// When the session or a file is wrong, or answers cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = Stored::scenario_of(&args.session)?.scenario;
-    let wording = wording(args.wording.as_deref())?;
     let mut answers = stored(&args.session, &scenario)?.unwrap_or_default();
+    let languages = languages(args.wording.as_slice())?;
+    let wording = chosen(args, &languages, &answers)?;
     answers.language.clone_from(&wording.language);
     let questions = questions(args, &scenario, &answers);
     let (mut input, mut output) = (std::io::stdin().lock(), std::io::stdout().lock());
     let mut save = |answers: &Answers| session_folder::replace(&args.session.join(ANSWERS), json_text(answers).as_bytes());
-    ask(&questions, &wording, &scenario, &mut answers, (&mut input, &mut output), &mut save)?;
+    ask(&questions, wording, &scenario, &mut answers, (&mut input, &mut output), &mut save)?;
     let tasks = task_ids(&scenario);
     let (all, open) = (Item::all(&tasks).len(), answers.open(&tasks).len());
-    let again = if open > 0 { "; the same command goes on where you were" } else { "" };
-    let _ = writeln!(output, "\n{} of {all} questions answered{again}", all - open);
+    let again = if open > 0 { format!("; {}", wording.form.later) } else { String::new() };
+    let _ = writeln!(output, "\n{}{again}", wording.form.answered(all - open, all));
     Ok(())
 }
 
@@ -93,15 +98,32 @@ pub fn task_ids(scenario: &Scenario) -> Vec<u32> {
     scenario.tasks.iter().map(|task| task.id).collect()
 }
 
-/// The shipped words, or those of a file.
+/// A site's own wordings and the shipped ones.
 ///
 /// # Errors
-/// When the file cannot be read or is wrong.
-pub fn wording(file: Option<&Path>) -> Result<Wording, AppError> {
-    match file {
-        Some(path) => Ok(read_wording(&path.display().to_string(), &files::read(path)?)?),
-        None => Ok(read_wording("en.toml", ENGLISH)?),
+/// When a file cannot be read or is wrong.
+pub fn languages(own: &[PathBuf]) -> Result<Languages, AppError> {
+    let read = |path: &PathBuf| Ok(read_wording(&path.display().to_string(), &files::read(path)?)?);
+    Ok(Languages::with(own.iter().map(read).collect::<Result<Vec<_>, AppError>>()?)?)
+}
+
+/// The language that is asked for, that of the file, that of the answers so far, or that of the terminal.
+fn chosen<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
+    if let Some(tag) = &args.language {
+        let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();
+        let none = || AppError::wrong(format!("--language {tag}: not there (allowed: {})", names.join(", ")));
+        return languages.of(tag).ok_or_else(none);
     }
+    let begun = || languages.of(&answers.language).filter(|_| !answers.language.is_empty());
+    let first = &languages.all()[0];
+    Ok(if args.wording.is_some() { first } else { begun().or_else(|| languages.of(&of_terminal()?)).unwrap_or(first) })
+}
+
+/// The language of the terminal: `de_CH.UTF-8` is de-CH.
+fn of_terminal() -> Option<String> {
+    let set = |name: &&str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let value = ["LC_ALL", "LC_MESSAGES", "LANG"].iter().find_map(set)?;
+    Some(value.split(['.', '@']).next().unwrap_or_default().replace('_', "-"))
 }
 
 fn questions(args: &Args, scenario: &Scenario, answers: &Answers) -> Vec<Question> {
@@ -144,7 +166,7 @@ fn ask(
             Typed::Keep => at += 1,
             Typed::Back => at = at.saturating_sub(1),
             Typed::Leave => return Ok(()),
-            Typed::Nonsense => writeln!(output, "{}", allowed(*question)).map_err(told)?,
+            Typed::Nonsense => writeln!(output, "{}", allowed(*question, &wording.form)).map_err(told)?,
         }
     }
     Ok(())
@@ -152,7 +174,7 @@ fn ask(
 
 fn help(wording: &Wording) -> String {
     let scale: Vec<String> = wording.scale.iter().enumerate().map(|(k, word)| format!("{} {word}", k + 1)).collect();
-    format!("{}\nEnter: leave it open or as it is. b: one back. q: go on later.", scale.join("   "))
+    format!("{}\n{}", scale.join("   "), wording.form.keys)
 }
 
 fn asked(question: Question, wording: &Wording, scenario: &Scenario, answers: &Answers) -> String {
@@ -171,10 +193,10 @@ fn asked(question: Question, wording: &Wording, scenario: &Scenario, answers: &A
     }
 }
 
-fn allowed(question: Question) -> String {
+fn allowed(question: Question, form: &Form) -> String {
     match question {
-        Question::Likert(_) => format!("Please a whole number from {STRONGLY_AGREE} to {STRONGLY_DISAGREE}, Enter, b or q."),
-        Question::Tlx(_) => format!("Please 0 to {TLX_MAX} in steps of {TLX_STEP}, Enter, b or q."),
+        Question::Likert(_) => form.please_whole(),
+        Question::Tlx(_) => form.please_steps(),
     }
 }
 
@@ -204,7 +226,8 @@ mod tests {
             saved += 1;
             Ok(())
         };
-        ask(questions, &wording(None).unwrap(), &scenario, answers, (&mut lines.as_bytes(), &mut shown), &mut save).unwrap();
+        ask(questions, &languages(&[]).unwrap().all()[0], &scenario, answers, (&mut lines.as_bytes(), &mut shown), &mut save)
+            .unwrap();
         (String::from_utf8(shown).unwrap(), saved)
     }
 

@@ -9,7 +9,7 @@ use super::ports::PortArgs;
 use super::records::Place;
 use super::stop::Stop;
 use super::table;
-use super::web::{ListenArgs, Server, Setup};
+use super::web::{ListenArgs, Server, Setup, Watched};
 use std::io::IsTerminal;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
@@ -108,15 +108,21 @@ fn pages(args: &Args, ports: &serde_json::Value) -> Option<Server> {
     let args::Port::Number(port) = args.web else { return None };
     let payload = ports["payload_port"].as_u64().and_then(|port| u16::try_from(port).ok());
     let here = if args.ports.listen.is_unspecified() { Ipv4Addr::LOCALHOST.into() } else { args.ports.listen };
-    let vehicle = payload.map(|port| SocketAddr::new(here, port));
+    let watched = payload.map(|port| Watched { vehicle: SocketAddr::new(here, port), picture: Some(camera(args)) });
     let place = Place { sessions: vec![args.sessions.clone()], database: None };
-    match Server::start(&ListenArgs::local(port), Setup { place, scenarios: None, vehicle }) {
+    let setup = Setup { place, scenarios: None, watched: watched.into_iter().collect(), wordings: Vec::new() };
+    match Server::start(&ListenArgs::local(port), setup) {
         Ok(server) => Some(server),
         Err(error) => {
             tracing::warn!("no web pages: {error}");
             None
         }
     }
+}
+
+/// Where the window keeps the camera's view for the live page: a place that nobody else can write to, one for each process.
+fn camera(args: &Args) -> PathBuf {
+    args.sessions.join(format!(".camera-{}.jpg", std::process::id()))
 }
 
 /// Keeps the pages for whoever sits at the terminal: the questionnaire comes after the flight.
@@ -206,6 +212,7 @@ fn view_args(args: &Args, log: tracing::Level, ports: &serde_json::Value) -> Opt
     if let Some(gcs) = local("gcs_port") {
         out.extend(["--fly".to_owned(), gcs]);
     }
+    out.extend(["--picture".to_owned(), camera(args).display().to_string()]);
     if let Some(keys) = &args.keys {
         out.extend(["--keys".to_owned(), keys.display().to_string()]);
     }

@@ -64,6 +64,9 @@ pub struct Args {
     /// Seconds of wall time from the first drawn view to the picture
     #[arg(long, value_name = "S", requires = "screenshot")]
     pub(super) after: Option<f64>,
+    /// Keep the camera's view in this file (JPEG), about once a second, for the live page of `spandrel serve --picture FILE`
+    #[arg(long, value_name = "FILE")]
+    pub(super) picture: Option<PathBuf>,
     /// Print one JSON line {"device", "quality", "width", "height"} on standard output once both views are drawn
     #[arg(long)]
     pub(super) announce: bool,

@@ -7,8 +7,12 @@ use sha2::{Digest, Sha256};
 
 /// Style of our pages.
 pub const STYLE: &str = include_str!("assets/report.css");
-/// Script of our pages.
+/// What the scripts of our pages share.
+pub const COMMON: &str = include_str!("assets/common.js");
+/// Script of a session's page.
 pub const SCRIPT: &str = include_str!("assets/report.js");
+/// Script of the page that compares two sessions.
+pub const COMPARE: &str = include_str!("assets/compare.js");
 /// uPlot 1.6.32 (MIT, assets/uPlot.LICENSE): `dist/uPlot.iife.min.js` of the npm package `uplot`.
 pub const UPLOT: &str = include_str!("assets/uPlot.iife.min.js");
 /// Its style, `dist/uPlot.min.css`.
@@ -44,7 +48,7 @@ pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
 /// Policy of the pages that this version writes.
 #[must_use]
 pub fn page_policy() -> String {
-    policy(&[UPLOT, SCRIPT], &[STYLE, UPLOT_STYLE])
+    policy(&[UPLOT, COMMON, SCRIPT, COMPARE], &[STYLE, UPLOT_STYLE])
 }
 
 #[cfg(test)]
@@ -69,7 +73,7 @@ mod tests {
 
     #[test]
     fn exact_nothing_in_the_assets_ends_its_element() {
-        for text in [SCRIPT, UPLOT, THREE_CORE, THREE] {
+        for text in [COMMON, SCRIPT, COMPARE, UPLOT, THREE_CORE, THREE] {
             assert!(!text.contains("</script") && !text.contains("<!--"));
         }
         for text in [STYLE, UPLOT_STYLE] {

@@ -3,7 +3,7 @@
 
 use super::access::Visitor;
 use super::assets;
-use super::frame::{message, scripted, token};
+use super::frame::{in_language, message, token};
 use crate::training::questionnaire::{
     Answers, Aspect, Item, Overall, Phase, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx, Wording,
 };
@@ -21,6 +21,8 @@ pub struct Asked<'a> {
     pub tasks: &'a [(u32, String)],
     /// Words.
     pub wording: &'a Wording,
+    /// All languages that one can choose.
+    pub languages: &'a [Wording],
     /// Answers so far.
     pub answers: &'a Answers,
     /// Something was just saved.
@@ -76,24 +78,44 @@ pub fn page(visitor: &Visitor, asked: &Asked<'_>) -> Markup {
     let tasks: Vec<u32> = asked.tasks.iter().map(|(id, _)| *id).collect();
     let (all, open) = (Item::all(&tasks).len(), asked.answers.open(&tasks).len());
     let overall: Vec<Item> = Overall::ALL.map(Item::Overall).to_vec();
+    let words = &asked.wording.form;
     let body = html! {
+        (switch(asked))
         p.lead { (asked.wording.introduction) }
-        @if asked.saved { (message("good", "Saved.")) }
-        form.questions method="post" action={ "/sessions/" (asked.id) "/questions" } data-save data-all=(all) lang=(asked.wording.language) {
+        @if asked.saved { (message("good", &words.saved)) }
+        form.questions method="post" action={ "/sessions/" (asked.id) "/questions" } data-save data-answered=(words.answered) data-not-saved=(words.not_saved) {
             (token(visitor))
-            p.status { span role="status" data-status { (all - open) " of " (all) " answered" } " · every answer is saved at once; leave and come back as you like" }
+            input type="hidden" name="language" value=(asked.wording.language);
+            p.status { span role="status" data-status { (words.answered(all - open, all)) } " · " (words.at_once) }
             (group(&asked.wording.overall_heading, &overall, asked))
             @for phase in Phase::all(&tasks) {
                 (group(&phase_name(asked, phase), &Aspect::ALL.map(|aspect| Item::Phase(phase, aspect)), asked))
             }
             (workload(asked))
             p.tools {
-                button type="submit" { "Save" }
-                a href={ "/sessions/" (asked.id) } { "Back to the session" }
+                button type="submit" { (words.save) }
+                a href={ "/sessions/" (asked.id) } { (words.back) }
             }
         }
     };
-    scripted(visitor, "/sessions", &asked.wording.title, Some(assets::FORM_NAME), &body)
+    in_language(visitor, "/sessions", &asked.wording.title, (&asked.wording.language, Some(assets::FORM_NAME)), &body)
+}
+
+/// The choice of languages, each in its own words. Answers are saved at once: another language loses none.
+fn switch(asked: &Asked<'_>) -> Markup {
+    let words = &asked.wording.form;
+    html! {
+        form.inline.languages method="get" action={ "/sessions/" (asked.id) "/questions" } {
+            label { (words.choose_language) " "
+                select name="language" {
+                    @for one in asked.languages {
+                        option value=(one.language) lang=(one.language) selected[one.language == asked.wording.language] { (one.language_name) }
+                    }
+                }
+            }
+            button type="submit" { (words.change_language) }
+        }
+    }
 }
 
 fn phase_name(asked: &Asked<'_>, phase: Phase) -> String {
@@ -153,7 +175,7 @@ fn workload(asked: &Asked<'_>) -> Markup {
 mod tests {
     use super::super::frame::tests::{EVIL, administrator, check};
     use super::*;
-    use crate::training::questionnaire::{ENGLISH, read_wording};
+    use crate::training::questionnaire::Languages;
 
     fn fields(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
         pairs.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect()
@@ -182,15 +204,18 @@ mod tests {
 
     #[test]
     fn exact_the_form_shows_what_was_answered_and_escapes_names() {
-        let wording = read_wording("en.toml", ENGLISH).unwrap();
+        let languages = Languages::with(Vec::new()).unwrap();
+        let wording = languages.of("de").unwrap();
         let mut answers = Answers::default();
         answers.given.insert(Item::Overall(Overall::Feedback), 5);
         let tasks = [(1, EVIL.to_owned())];
-        let text = page(&administrator(), &Asked { id: "s", tasks: &tasks, wording: &wording, answers: &answers, saved: true })
-            .into_string();
+        let asked = Asked { id: "s", tasks: &tasks, wording, languages: languages.all(), answers: &answers, saved: true };
+        let text = page(&administrator(), &asked).into_string();
         check(&text);
         assert!(text.contains("name=\"feedback\" value=\"5\" checked"), "{text}");
         assert_eq!(text.matches(" checked").count(), 1);
+        assert!(text.contains("<html lang=\"de\">") && text.contains("<header class=\"bar\" lang=\"en\">"), "{text}");
+        assert!(text.contains("Gespeichert.") && text.contains("lang=\"es\">Español"), "{text}");
         assert_eq!(text.matches("<fieldset").count(), Item::all(&[1]).len());
     }
 }

@@ -24,9 +24,15 @@ pub fn page(visitor: &Visitor, at: &str, title: &str, body: &Markup) -> Markup {
 /// A whole page with a script of ours.
 #[must_use]
 pub fn scripted(visitor: &Visitor, at: &str, title: &str, script: Option<&str>, body: &Markup) -> Markup {
+    in_language(visitor, at, title, ("en", script), body)
+}
+
+/// A whole page whose body is in this language; the bar around it stays English, and says so.
+#[must_use]
+pub fn in_language(visitor: &Visitor, at: &str, title: &str, (language, script): (&str, Option<&str>), body: &Markup) -> Markup {
     html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(language) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
@@ -37,7 +43,7 @@ pub fn scripted(visitor: &Visitor, at: &str, title: &str, script: Option<&str>, 
                 @if let Some(script) = script { script src=(assets::address(script)) defer {} }
             }
             body.web {
-                a.skip href="#main" { "Skip to the page" }
+                a.skip href="#main" lang="en" { "Skip to the page" }
                 (bar(visitor, at))
                 main id="main" { h1 { (title) } (body) }
             }
@@ -47,7 +53,7 @@ pub fn scripted(visitor: &Visitor, at: &str, title: &str, script: Option<&str>, 
 
 fn bar(visitor: &Visitor, at: &str) -> Markup {
     html! {
-        header.bar {
+        header.bar lang="en" {
             a.brand href="/" { "Spandrel" }
             nav aria-label="Main" {
                 @for (address, words, needs) in PLACES {

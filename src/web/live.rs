@@ -29,15 +29,31 @@ pub struct Drawn {
     pub drawings: Vec<(String, String)>,
 }
 
+/// Which of the vehicles is watched on a page.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Choice {
+    /// Addresses of all.
+    pub vehicles: Vec<String>,
+    /// The number of the one that is watched, from 1.
+    pub number: usize,
+}
+
+impl Choice {
+    fn address(&self) -> &str {
+        self.number.checked_sub(1).and_then(|k| self.vehicles.get(k)).map_or("none (--vehicle)", String::as_str)
+    }
+}
+
 /// The page.
 #[must_use]
-pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, vehicle: &str) -> Markup {
+pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, choice: &Choice) -> Markup {
     let body = html! {
-        div.live-page data-live data-job=(drawn.map_or("", |drawn| drawn.key.as_str())) {
+        (others(choice))
+        div.live-page data-live[!choice.vehicles.is_empty()] data-vehicle=(choice.number) data-job=(drawn.map_or("", |drawn| drawn.key.as_str())) {
             p.lead {
                 @match drawn {
                     Some(drawn) => b { (drawn.title) },
-                    None => span { "Waiting for a flight at " code { (vehicle) } ". This page follows as soon as one begins." },
+                    None => span { "Waiting for a flight at " code { (choice.address()) } ". This page follows as soon as one begins." },
                 }
                 " " span.state role="status" data-state { "not connected" }
             }
@@ -45,7 +61,7 @@ pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, vehicle: &str) -> Markup {
             @if let Some(drawn) = drawn {
                 section aria-label="Now" {
                     dl.readout {
-                        @for (key, words) in [("task", "Task"), ("time", "Time"), ("speed", "Speed"), ("height", "Height"), ("clearance", "Clearance"), ("battery", "Battery"), ("contact", "Touches")] {
+                        @for (key, words) in [("task", "Task"), ("time", "Time"), ("speed", "Speed"), ("height", "Height"), ("clearance", "Clearance"), ("battery", "Battery"), ("contact", "Touches"), ("traffic", "Traffic")] {
                             div { dt { (words) } dd data-now=(key) { "–" } }
                         }
                     }
@@ -58,7 +74,11 @@ pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, vehicle: &str) -> Markup {
                         }
                     }
                     div {
-                        (section("act", "Act in this flight", &actions(visitor)))
+                        figure.camera data-camera hidden {
+                            figcaption { "What the camera shows, about once a second" }
+                            img alt="The camera's view now" data-picture="";
+                        }
+                        (section("act", "Act in this flight", &actions(visitor, choice.number)))
                         (section("said", "What is said", &html! { ol.said data-said tabindex="0" aria-label="Texts of the vehicle and the monitor, the newest first" {} }))
                     }
                 }
@@ -68,21 +88,43 @@ pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, vehicle: &str) -> Markup {
     scripted(visitor, "/live", "Live flight", Some(assets::LIVE_NAME), &body)
 }
 
-fn actions(visitor: &Visitor) -> Markup {
+/// Links to the other vehicles.
+fn others(choice: &Choice) -> Markup {
+    html! {
+        @if choice.vehicles.len() > 1 {
+            nav.pages aria-label="Vehicles" {
+                @for (number, address) in (1..).zip(&choice.vehicles) {
+                    a href={ "/live?vehicle=" (number) } aria-current=[(number == choice.number).then_some("page")] { "Vehicle " (number) " · " (address) }
+                }
+            }
+        }
+    }
+}
+
+fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
+    let hidden = |act: &str| html! { (token(visitor)) input type="hidden" name="act" value=(act); input type="hidden" name="vehicle" value=(vehicle); };
     html! {
         form.stacked method="post" action="/live/act" data-act {
-            (token(visitor)) input type="hidden" name="act" value="note";
+            (hidden("note"))
             label { "Note at this moment" input name="text" required maxlength=(NOTE_MOST) autocomplete="off"; }
             button type="submit" { "Note" }
         }
         form.stacked method="post" action="/live/act" data-act {
-            (token(visitor)) input type="hidden" name="act" value="wind";
+            (hidden("wind"))
             label { "Wind, m/s" input type="number" name="speed" required min="0" max=(WIND_MOST_M_S) step="0.5" value="6"; }
             label { "From, degrees" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
             button type="submit" { "Set the wind" }
         }
         form.stacked method="post" action="/live/act" data-act {
-            (token(visitor)) input type="hidden" name="act" value="failure";
+            (hidden("traffic"))
+            p.note { "Closed, who is on a bridge goes on, and nobody enters any more." }
+            div.row {
+                button type="submit" name="open" value="no" { "Close the bridges" }
+                button type="submit" name="open" value="yes" { "Open them" }
+            }
+        }
+        form.stacked method="post" action="/live/act" data-act {
+            (hidden("failure"))
             label { "What" select name="unit" { @for (key, words, _) in UNITS { option value=(key) { (words) } } } }
             div.row {
                 button type="submit" name="fails" value="yes" { "Let it fail" }
@@ -99,12 +141,17 @@ mod tests {
 
     #[test]
     fn exact_without_a_flight_there_is_nothing_to_act_in() {
-        let text = live(&administrator(), None, "127.0.0.1:14280").into_string();
+        let choice = Choice { vehicles: vec!["127.0.0.1:14280".into(), EVIL.into()], number: 2 };
+        let text = live(&administrator(), None, &choice).into_string();
         check(&text);
         assert!(!text.contains("/live/act") && text.contains("Waiting for a flight"));
         let drawn = Drawn { key: "k".into(), title: EVIL.into(), drawings: vec![(EVIL.into(), "<svg></svg>".into())] };
-        let text = live(&administrator(), Some(&drawn), "x").into_string();
+        let text = live(&administrator(), Some(&drawn), &choice).into_string();
         check(&text);
-        assert_eq!(text.matches("action=\"/live/act\"").count(), 3);
+        assert_eq!(text.matches("action=\"/live/act\"").count(), 4);
+        assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 4);
+        assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
+        let text = live(&administrator(), None, &Choice::default()).into_string();
+        assert!(!text.contains("data-live") && text.contains("none (--vehicle)"), "nothing to listen to: {text}");
     }
 }

@@ -7,6 +7,7 @@ use crate::mav::dialect::{MavAutopilot, MavMessage, MavSeverity};
 use crate::monitor::feedback::cue;
 use crate::monitor::measures::on_path::Paths;
 use crate::scenario::Scenario;
+use crate::site::gates::Gates;
 use crate::telemetry::sample::{Said, Sample};
 use crate::telemetry::{Contact, Truth, sample};
 use serde_json::{Value, json};
@@ -57,6 +58,7 @@ pub struct Watch {
     clearance_m: Option<f64>,
     contact: Contact,
     armed: bool,
+    gates: Gates,
     cues: i32,
     words: VecDeque<(u64, f64, &'static str, String)>,
     said: u64,
@@ -86,6 +88,7 @@ impl Watch {
             clearance_m: None,
             contact: Contact::None,
             armed: false,
+            gates: Gates::default(),
             cues: 0,
             words: VecDeque::new(),
             said: 0,
@@ -152,6 +155,7 @@ impl Watch {
             Said::Contact(contact) => self.contact = contact,
             Said::Clearance(metres) => self.clearance_m = Some(metres),
             Said::Beat { armed, .. } => self.armed = armed,
+            Said::Traffic(code) => self.gates.hear(code),
             Said::Seed(seed) => self.seed = Some(seed),
             Said::ScenarioCrc(crc) => self.crc = Some(crc),
             Said::Snapshot(index) => self.say("info", format!("picture {index}")),
@@ -163,7 +167,7 @@ impl Watch {
         let Some(job) = &self.job else { return };
         // A clock that goes back is another flight; what was said in the one before stays readable.
         if self.truth.is_some_and(|before| truth.time < before.time) {
-            (self.on, self.cues) = (None, 0);
+            (self.on, self.cues, self.gates) = (None, 0, Gates::default());
         }
         self.on = job.paths.on(truth.position_m, self.on).map(|(task, _)| task);
         self.truth = Some(truth);
@@ -194,8 +198,10 @@ impl Watch {
             .iter()
             .map(|(id, t_s, kind, words)| json!({ "id": id, "t_s": t_s, "kind": kind, "words": words }))
             .collect();
+        let open = self.gates.are_open_at(self.truth.map_or(f64::INFINITY, |truth| truth.time.s()));
         json!({
             "heard": heard,
+            "traffic": if open { "open" } else { "closed" },
             "job": key,
             "t_s": self.truth.map(|truth| truth.time.s()),
             "place": place,
@@ -252,7 +258,10 @@ mod tests {
             }),
         );
         number(&mut watch, "cues", cue::TOO_CLOSE | cue::SPEEDING);
+        assert_eq!(watch.moment(true)["traffic"], json!("open"));
+        number(&mut watch, "traffic", -1_500);
         let moment = watch.moment(true);
+        assert_eq!(moment["traffic"], json!("closed"));
         // degE7 is a centimetre, the wire's height a millimetre.
         let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
         assert!(place[0].abs() < 0.02 && place[1].abs() < 0.02 && (place[2] - 12.0).abs() < 0.02, "{moment}");

@@ -58,9 +58,11 @@ def ids(sessions, trainee):
 class Person:
     """Somebody at a browser, with everything that went wrong on the pages."""
 
-    def __init__(self, browser, server, name=None, size="desktop", scheme="light"):
+    def __init__(self, browser, server, name=None, size="desktop", scheme="light", locale="en-GB"):
         width, height = SIZES[size]
-        self.context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme, accept_downloads=True)
+        self.context = browser.new_context(
+            viewport={"width": width, "height": height}, color_scheme=scheme, accept_downloads=True, locale=locale
+        )
         self.context.set_default_timeout(PATIENCE_MS)
         self.page = self.context.new_page()
         self.wrong = []
@@ -164,6 +166,62 @@ def test_answers_without_script(browser, server, sessions):
     assert list(json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"].values()) == [5]
 
 
+def test_the_questionnaire_speaks_the_language_of_the_browser_and_of_ones_choice(browser, sessions, tmp_path):
+    """German by Accept-Language, Spanish by choice, a site's own Swiss wording; what was answered stays through all of them."""
+    swiss = (spandrel.ROOT / "src/training/questionnaire/de.toml").read_text(encoding="utf-8")
+    swiss = swiss.replace('language = "de"', 'language = "de-CH"').replace('"Deutsch"', '"Schwiizerdütsch"').replace("Gespeichert.", "Gspeicheret.")
+    (tmp_path / "ch.toml").write_text(swiss, encoding="utf-8")
+    server = webserver.Server(sessions, "--wording", str(tmp_path / "ch.toml"))
+    try:
+        session = sessions / ids(sessions, "anna")[1]
+        given = lambda: json.loads((session / "answers.json").read_text(encoding="utf-8"))
+        person = Person(browser, server, locale="es-MX")
+        person.log_in("anna")
+        page = person.page
+        person.go(f"/sessions/{session.name}/questions")
+        assert page.get_attribute("html", "lang") == "es" and page.inner_text("h1") == "Después del vuelo"
+        assert page.get_attribute("header.bar", "lang") == "en"
+        assert page.locator("select[name=language] option").all_inner_texts() == ["Schwiizerdütsch", "English", "Deutsch", "Español"]
+        page.click("fieldset >> nth=0 >> label:has-text('de acuerdo') >> nth=0")
+        expect(page.locator("[data-status]")).to_contain_text("1 de", timeout=PATIENCE_MS)
+        assert given()["language"] == "es" and list(given()["answers"].values()) == [1]
+        person.keep("questions-spanish")
+        person.check()
+        page.select_option("select[name=language]", "de")
+        page.click("text=Cambiar")
+        page.wait_for_selector("html[lang=de]")
+        assert page.locator("input:checked").count() == 1, "the answer has no language"
+        page.click("fieldset >> nth=1 >> label:has-text('stimme gar nicht zu')")
+        expect(page.locator("[data-status]")).to_contain_text("2 von", timeout=PATIENCE_MS)
+        page.click("text=Speichern")
+        expect(page.locator("main")).to_contain_text("Gespeichert.")
+        assert given()["language"] == "de" and sorted(given()["answers"].values()) == [1, 5]
+        person.keep("questions-german")
+        person.check()
+        # Who comes back goes on in the language of the answers, whatever the browser likes.
+        person.go(f"/sessions/{session.name}/questions")
+        assert page.get_attribute("html", "lang") == "de"
+        person.go(f"/sessions/{session.name}/questions?language=de-CH")
+        page.click("text=Speichern")
+        expect(page.locator("main")).to_contain_text("Gspeicheret.")
+        assert person.go(f"/sessions/{session.name}/questions?language=tlh").status == 422
+        expect(page.locator("main")).to_contain_text("de-CH, en, de, es")
+    finally:
+        server.close()
+
+
+def test_a_wrong_wording_is_named_by_line_and_key(tmp_path):
+    broken = (spandrel.ROOT / "src/training/questionnaire/es.toml").read_text(encoding="utf-8").replace("neutral = ", "# neutral = ")
+    (tmp_path / "es.toml").write_text(broken.replace("Tarea {number}", "Tarea"), encoding="utf-8")
+    done = subprocess.run(
+        [spandrel.PROGRAM, "serve", "--sessions", str(tmp_path / "s"), "--listen", "127.0.0.1:0", "--wording", str(tmp_path / "es.toml")],
+        stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=webserver.PATIENCE_S, check=False,
+    )
+    line = 1 + broken.splitlines().index("[scale]")
+    assert done.returncode == 2 and f"es.toml:{line}: scale.neutral: missing" in done.stderr, done.stderr
+    assert "phases.task = Tarea: {name}" in done.stderr and "{number}" in done.stderr, done.stderr
+
+
 def test_a_report_opens_under_its_own_policy_and_its_slider_works(browser, server, sessions):
     person = Person(browser, server, "anna")
     session = ids(sessions, "anna")[0]
@@ -194,14 +252,44 @@ def test_a_report_of_another_version_is_made_again(server, sessions):
 
 
 def test_two_sessions_are_compared(browser, server, sessions):
-    person = Person(browser, server, "anna")
+    """Both flights on one drawing and one slider, lined up as the instructor wants."""
     first, second = ids(sessions, "anna")
-    person.go(f"/sessions/{first}")
-    person.page.select_option("[name=second]", second)
-    person.page.click("text=Compare >> nth=-1")
-    assert person.page.locator(".shape-1").count() == 1 and person.page.locator(".shape-2").count() == 1
-    person.keep("compare")
-    assert person.wrong == []
+    for size, scheme in [("desktop", "light"), ("phone", "dark")]:
+        person = Person(browser, server, "anna", size, scheme)
+        page = person.page
+        person.go(f"/sessions/{first}")
+        page.select_option("[name=second]", second)
+        page.click("text=Compare >> nth=-1")
+        page.wait_for_selector("body.live")
+        assert page.locator(".shape-1").count() == 1 and page.locator(".shape-2").count() == 1
+        # From above and from the side, two tracks and two drones each.
+        drawings = page.locator("svg.map").count()
+        assert drawings >= 2
+        for k in ("1", "2"):
+            assert page.locator(f".overlaid.line-{k}").count() == page.locator(f".drone-{k}").count() == drawings
+        assert page.locator(".chart canvas").count() == 4
+        places = lambda: [page.locator(f".drone-{k}").first.get_attribute("transform") for k in (1, 2)]
+        now = lambda: page.locator("[data-now=speed]").all_inner_texts()
+        move = "i => { const s = document.getElementById('moment'); s.value = i; s.dispatchEvent(new Event('input', {bubbles: true})); }"
+        most = int(page.get_attribute("#moment", "max"))
+        page.evaluate(move, most // 3)
+        before, said = places(), now()
+        page.evaluate(move, most // 2)
+        assert all(here != there for here, there in zip(places(), before)) and now() != said
+        # Keys move it, too, and it says where it is.
+        text = page.get_attribute("#moment", "aria-valuetext")
+        page.focus("#moment")
+        page.keyboard.press("PageUp")
+        assert page.get_attribute("#moment", "aria-valuetext") != text
+        # Lined up where both entered the task, both are at its path at 0:00.
+        page.select_option("#line-up", label="start of task 1")
+        assert page.inner_text("#moment-text") == "0:00"
+        away = [float(text.split()[0]) for text in page.locator("[data-now=distance]").all_inner_texts()]
+        assert max(away) <= 1.6, "the task is entered within 1.5 m of its path, up to a step of the slider"
+        assert page.locator("details.numbers table tr").count() > 4
+        person.keep(f"compare-{size}-{scheme}")
+        assert page.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+        assert person.wrong == []
 
 
 def test_nobody_reads_what_is_somebody_elses(browser, server, sessions):
@@ -212,7 +300,7 @@ def test_nobody_reads_what_is_somebody_elses(browser, server, sessions):
                  f"/sessions/{ben}/telemetry.tlog", f"/compare?first={ids(sessions, 'anna')[0]}&second={ben}", "/trainees/ben",
                  "/trainees/ben/export.json"]:
         assert person.go(path).status == 404, path
-    for path in ["/trainees", "/cohort", "/live", "/upload", "/settings", "/live/stream"]:
+    for path in ["/trainees", "/cohort", "/live", "/upload", "/settings", "/live/stream", "/live/camera.jpg"]:
         assert person.go(path).status == 403, path
     assert person.go("/trainees/anna").status == 200
 
@@ -348,6 +436,11 @@ def test_an_instructor_watches_and_acts(browser, tmp_path):
         page.fill("[name=from]", "180")
         page.click("text=Set the wind")
         expect(said).to_contain_text("instructor: wind 8 m/s from 180", timeout=PATIENCE_MS)
+        page.click("text=Close the bridges")
+        expect(said).to_contain_text("instructor: the bridges are closed to traffic", timeout=PATIENCE_MS)
+        expect(page.locator("[data-now=traffic]")).to_have_text("closed", timeout=PATIENCE_MS)
+        page.click("text=Open them")
+        expect(page.locator("[data-now=traffic]")).to_have_text("open", timeout=PATIENCE_MS)
         page.select_option("[name=unit]", "compass")
         page.click("text=Let it fail")
         expect(said).to_contain_text("instructor: compass fails", timeout=PATIENCE_MS)
@@ -361,6 +454,8 @@ def test_an_instructor_watches_and_acts(browser, tmp_path):
         events = next(path for path in flight.sessions.iterdir() if path.is_dir()) / "events.jsonl"
         noted = lambda: [e["text"] for e in map(json.loads, events.read_text(encoding="utf-8").splitlines()) if e["event"] == "note"]
         spandrel.wait_for("the note in the session", lambda: noted() == ["watch the pier <b>"])
+        gates = [e["open"] for e in map(json.loads, events.read_text(encoding="utf-8").splitlines()) if e["event"] == "traffic"]
+        assert gates == [False, True], "the session tells when the bridges were closed"
         assert person.wrong == []
     finally:
         server.close()

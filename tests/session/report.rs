@@ -4,10 +4,11 @@ use crate::inspection::{flown, phantom, two_bridges};
 use crate::job::*;
 use spandrel::monitor::assess_log;
 use spandrel::monitor::watch::build_site;
-use spandrel::report::coverage::Element;
+use spandrel::report::coverage::{Fate, REQUIRED_GSD_M};
 use spandrel::report::cues::KINDS;
 use spandrel::report::{About, Review, page};
 use spandrel::scenario::Scenario;
+use spandrel::site::look::INCIDENCE_MAX_RAD;
 use std::sync::OnceLock;
 
 /// The issue's ceiling for a page, bytes.
@@ -38,8 +39,10 @@ fn fetched(page: &str) -> Vec<&str> {
 
 /// The page without what the libraries and our own script and style bring.
 fn own(page: &str) -> String {
-    use spandrel::report::assets::{SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
-    [SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE].iter().fold(page.to_owned(), |page, text| page.replacen(text, "", 1))
+    use spandrel::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
+    [COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE]
+        .iter()
+        .fold(page.to_owned(), |page, text| page.replacen(text, "", 1))
 }
 
 #[test]
@@ -75,7 +78,7 @@ fn exact_the_page_asks_nobody_for_anything() {
         let inside = value.starts_with('#') || value.starts_with("data:");
         assert!(inside, "{value}");
     }
-    assert_eq!(page.matches("<script").count(), 5, "data, two halves of the model's library, uPlot, ours");
+    assert_eq!(page.matches("<script").count(), 6, "data, two halves of the model's library, uPlot, two of ours");
     assert!(!page.contains(" style=\"") && !page.contains(" onclick"), "the policy allows no style or script in attributes");
     assert!(page.contains("Content-Security-Policy"));
 }
@@ -105,17 +108,35 @@ fn exact_what_users_wrote_is_escaped_everywhere() {
 }
 
 #[test]
-fn exact_shares_of_surface_lie_inside_each_other() {
+fn exact_every_square_metre_has_one_fate() {
     let coverage = &short().coverage;
-    assert!(coverage.elements.len() > 3 && coverage.total().sharp_m2 > 0.0);
-    for Element { inspectable_m2, in_view_m2, pictured_m2, lit_m2, sharp_m2, .. } in
-        coverage.elements.iter().copied().chain([coverage.total()])
-    {
-        assert!(sharp_m2 <= lit_m2 && lit_m2 <= pictured_m2 && pictured_m2 <= in_view_m2 && in_view_m2 <= inspectable_m2);
+    assert!(coverage.elements.len() > 3 && coverage.total().area_m2(Fate::Shown) > 0.0);
+    for element in coverage.elements.iter().chain([&coverage.total()]) {
+        let sum: f64 = Fate::ALL.iter().map(|fate| element.area_m2(*fate)).sum();
+        assert!((sum - element.inspectable_m2).abs() < 1e-6 * element.inspectable_m2, "{element:?}");
+        assert!(element.pictured_m2() <= element.inspectable_m2 && element.area_m2(Fate::Shown) <= element.pictured_m2());
+        assert_eq!(element.typical().is_some(), element.pictured_m2() > 0.0);
+        if let Some(like) = element.typical() {
+            assert!(like.gsd_m <= REQUIRED_GSD_M && like.incidence_rad <= INCIDENCE_MAX_RAD && like.lux > 0.0, "{like:?}");
+        }
     }
     let job = two_bridges();
     let more = review(&flown(&job, 240.0, 2), &job);
-    assert!(more.coverage.total().pictured_m2 > coverage.total().pictured_m2, "three times the pictures show more");
+    assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times the pictures show more");
+}
+
+#[test]
+fn exact_the_same_pictures_at_night_lack_light_and_nothing_else() {
+    let mut job = two_bridges();
+    job.light.start_unix_s += 10 * 3600;
+    let (day, night) = (short().coverage.total(), review(&flown(&job, 240.0, 6), &job).coverage.total());
+    for fate in [Fate::TooOblique, Fate::TooFar, Fate::Unpictured, Fate::Unseen] {
+        assert!((night.area_m2(fate) - day.area_m2(fate)).abs() < 1e-6 * day.inspectable_m2, "{fate:?}");
+    }
+    // What stays is lit by the lamp, which is on in the dark task alone.
+    assert!(night.area_m2(Fate::Shown) < day.area_m2(Fate::Shown));
+    assert!(night.area_m2(Fate::DarkLampOff) > day.area_m2(Fate::DarkLampOff));
+    assert!(night.typical().unwrap().lux < day.typical().unwrap().lux);
 }
 
 /// The tape's forward stick creeps by a hundredth of its travel in 100 ms: a tenth takes 200 ms and, where it falls back, no time at all.

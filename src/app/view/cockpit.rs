@@ -1,5 +1,6 @@
 //! The window and what stands behind it: a thread that listens, a thread that builds the scene, a thread that flies, and the loop that draws.
 
+mod keeper;
 mod keys;
 mod listener;
 mod panes;
@@ -34,6 +35,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         map: !args.no_map,
         seed: args.job.seed,
         picture: picture(args)?,
+        keep: args.picture.clone(),
         announce: args.announce,
     };
     let stop = Stop::install(args.leash)?;

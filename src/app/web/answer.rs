@@ -82,6 +82,11 @@ impl Answer {
         Self { download: Some(name.to_owned()), ..Self::new(kind, bytes) }
     }
 
+    /// A picture to be shown once.
+    pub fn picture(jpeg: Vec<u8>) -> Self {
+        Self::new("image/jpeg", jpeg)
+    }
+
     /// A file that a browser may keep until its address changes.
     pub fn asset(kind: &'static str, text: String) -> Self {
         Self { keep: true, ..Self::new(kind, text.into_bytes()) }

@@ -31,6 +31,8 @@ pub struct Asked {
     pub form: Vec<(String, String)>,
     /// Its file.
     pub upload: Option<Upload>,
+    /// Languages that the browser likes (Accept-Language).
+    pub languages: String,
     /// A script of ours asks and reads JSON.
     pub by_script: bool,
 }

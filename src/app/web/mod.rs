@@ -4,6 +4,7 @@
 mod answer;
 mod asked;
 mod assets;
+mod body;
 mod door;
 mod guard;
 mod live;
@@ -12,6 +13,7 @@ mod people;
 mod questions;
 mod routes;
 mod scenarios;
+mod server;
 mod sessions;
 mod settings;
 mod state;
@@ -19,7 +21,8 @@ mod taking_in;
 mod tls;
 mod uploads;
 
-pub use door::Server;
+pub use live::Watched;
+pub use server::Server;
 pub use state::Setup;
 
 use super::args::{self, TraineeId};
@@ -41,9 +44,10 @@ use std::path::PathBuf;
 Examples:
   spandrel serve                                             http://127.0.0.1:8080, this machine only
   spandrel serve --set-password maria --role administrator   asks for the password, keeps its argon2 hash, and ends
+  spandrel serve --vehicle 127.0.0.1:14280 --vehicle 127.0.0.1:14281   two flights at once (instances 0 and 1)
   spandrel serve --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem
   spandrel serve --listen 127.0.0.1:8080 --behind-proxy      TLS is the proxy's business
-  spandrel serve --database postgres://spandrel@db/training --sessions /srv/sessions
+  spandrel serve --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem' --sessions /srv/sessions
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -54,9 +58,18 @@ pub struct Args {
     /// Folder of uploaded scenarios [default: scenarios in the first folder of sessions]
     #[arg(long, value_name = "DIR")]
     scenarios: Option<PathBuf>,
-    /// Vehicle that the live page watches: its payload port; or none
+    /// Wording of the questionnaire in a language of your own, or instead of a shipped one; may be repeated
+    ///
+    /// A copy of a shipped wording with other texts. English, German and Spanish are shipped; people choose, at first their browser does;
+    /// the first file named is what those get whose language is not there.
+    #[arg(long, value_name = "FILE")]
+    wording: Vec<PathBuf>,
+    /// Vehicle that the live page watches: its payload port; or none; may be repeated
     #[arg(long, value_name = "HOST:PORT|none", default_value = "127.0.0.1:14280")]
-    vehicle: args::Target,
+    vehicle: Vec<args::Target>,
+    /// Where `spandrel view --picture FILE` keeps the camera's view, for the live page; may be repeated in the order of --vehicle
+    #[arg(long, value_name = "FILE")]
+    picture: Vec<PathBuf>,
     /// Set this person's password (typed, or from standard input) and end
     #[arg(long, value_name = "USER", requires = "role")]
     set_password: Option<TraineeId>,
@@ -109,12 +122,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         return passwords::set(&args.place, name.as_str(), role);
     }
     let stop = Stop::install(args.leash)?;
-    let vehicle = match args.vehicle {
-        args::Target::None => None,
-        args::Target::Address(address) => Some(address),
-    };
+    let watched = watched(&args.vehicle, &args.picture)?;
     let scenarios = args.scenarios.clone();
-    let server = Server::start(&args.listen, state::Setup { place: args.place.clone(), scenarios, vehicle })?;
+    let (place, wordings) = (args.place.clone(), args.wording.clone());
+    let server = Server::start(&args.listen, state::Setup { place, scenarios, watched, wordings })?;
     if args.announce {
         files::write("-", format!("{}\n", serde_json::json!({ "address": server.address() })).as_bytes())?;
     } else {
@@ -122,4 +133,21 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
     server.until(&stop);
     Ok(())
+}
+
+/// Each vehicle with its picture.
+fn watched(vehicles: &[args::Target], pictures: &[PathBuf]) -> Result<Vec<Watched>, AppError> {
+    let addresses = vehicles.iter().filter_map(|target| match target {
+        args::Target::None => None,
+        args::Target::Address(address) => Some(*address),
+    });
+    let addresses: Vec<SocketAddr> = addresses.collect();
+    if pictures.len() > addresses.len() {
+        let (many, few) = (pictures.len(), addresses.len());
+        return Err(AppError::wrong(format!(
+            "--picture: {many} files for {few} vehicles (allowed: at most one for each --vehicle)"
+        )));
+    }
+    let mut pictures = pictures.iter().cloned();
+    Ok(addresses.into_iter().map(|vehicle| Watched { vehicle, picture: pictures.next() }).collect())
 }

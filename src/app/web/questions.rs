@@ -4,11 +4,11 @@ use super::answer::{Answer, Answered, Refusal};
 use super::asked::Asked;
 use super::sessions;
 use super::state::{State, lock};
-use crate::app::questionnaire::{stored, task_ids, wording};
+use crate::app::questionnaire::{stored, task_ids};
 use crate::app::session_folder::{self, Stored};
 use crate::monitor::export::json_text;
 use crate::scenario::Scenario;
-use crate::training::questionnaire::{ANSWERS, Answers, Item};
+use crate::training::questionnaire::{ANSWERS, Answers, Item, Wording};
 use crate::web::form;
 use serde_json::json;
 
@@ -22,10 +22,27 @@ fn shown(state: &State, asked: &Asked, saved: bool) -> Answered {
     let folder = sessions::folder(state, asked, id)?;
     let scenario = Stored::scenario_of(&folder)?.scenario;
     let answers = stored(&folder, &scenario)?.unwrap_or_default();
-    let wording = wording(None)?;
+    let wording = language(state, asked, &answers)?;
     let tasks = names(&scenario);
-    let about = form::Asked { id, tasks: &tasks, wording: &wording, answers: &answers, saved };
+    let languages = state.languages.all();
+    let about = form::Asked { id, tasks: &tasks, wording, languages, answers: &answers, saved };
     Ok(Answer::page(form::page(&asked.visitor, &about)))
+}
+
+/// The language asked for, that of the answers so far, or the one that the browser likes best.
+fn language<'a>(state: &'a State, asked: &Asked, answers: &Answers) -> Result<&'a Wording, Refusal> {
+    if let Some(tag) = asked.field("language").or_else(|| asked.word("language")) {
+        return state
+            .languages
+            .of(tag)
+            .ok_or_else(|| Refusal::Wrong(format!("language: not there (allowed: {})", names_of(state))));
+    }
+    let begun = state.languages.of(&answers.language).filter(|_| !answers.language.is_empty());
+    Ok(begun.unwrap_or_else(|| state.languages.accepted(&asked.languages)))
+}
+
+fn names_of(state: &State) -> String {
+    state.languages.all().iter().map(|wording| wording.language.as_str()).collect::<Vec<_>>().join(", ")
 }
 
 fn names(scenario: &Scenario) -> Vec<(u32, String)> {
@@ -42,7 +59,7 @@ pub fn save(state: &State, asked: &Asked) -> Answered {
         let _others_wait = lock(&state.answers);
         let mut answers = stored(&folder, &scenario)?.unwrap_or_default();
         form::take(&mut answers, &asked.form, &tasks).map_err(|wrong| Refusal::Wrong(wrong.to_string()))?;
-        answers.language = wording(None)?.language;
+        answers.language.clone_from(&language(state, asked, &answers)?.language);
         session_folder::replace(&folder.join(ANSWERS), json_text(&answers).as_bytes())?;
         answers
     };

@@ -88,6 +88,7 @@ pub const ROUTES: &[Route] = &[
     show("/upload", Needs::Instructor, uploads::page),
     upload("/upload", RECORDING_MOST, Needs::Instructor, uploads::recording),
     show("/live", Needs::Instructor, live::page),
+    show("/live/camera.jpg", Needs::Instructor, live::camera),
     change("/live/act", Needs::Instructor, live::act),
     show("/settings", Needs::Administrator, settings::page),
     change("/settings/login", Needs::Administrator, settings::set_login),

@@ -1,11 +1,12 @@
 //! What all requests share.
 
 use super::guard::Guard;
-use super::live::Live;
+use super::live::{Live, Watched};
 use super::taking_in::TakingIn;
 use crate::app::errors::AppError;
+use crate::app::questionnaire;
 use crate::app::records::{Database, Place};
-use std::net::SocketAddr;
+use crate::training::questionnaire::Languages;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -16,8 +17,10 @@ pub struct Setup {
     pub place: Place,
     /// Folder of uploaded scenarios; `None` for the usual one.
     pub scenarios: Option<PathBuf>,
-    /// Vehicle that is watched.
-    pub vehicle: Option<SocketAddr>,
+    /// Vehicles that are watched.
+    pub watched: Vec<Watched>,
+    /// Wordings of the questionnaire beside the shipped ones.
+    pub wordings: Vec<PathBuf>,
 }
 
 /// What all requests share.
@@ -31,8 +34,10 @@ pub struct State {
     pub scenarios: PathBuf,
     /// Who is who.
     pub guard: Guard,
-    /// The flight that is watched.
-    pub live: Live,
+    /// Languages of the questionnaire.
+    pub languages: Languages,
+    /// The flights that are watched.
+    pub live: Vec<Live>,
     /// Takes new sessions in.
     pub taking_in: TakingIn,
     /// Held while a file of answers is read, changed and written.
@@ -45,9 +50,10 @@ impl State {
     /// Opens everything.
     ///
     /// # Errors
-    /// When the database or the link to the vehicle cannot be opened.
+    /// When a wording is wrong, or the database or a link to a vehicle cannot be opened.
     pub fn open(setup: Setup, secure: bool, behind_proxy: bool) -> Result<Self, AppError> {
-        let Setup { place, scenarios, vehicle } = setup;
+        let Setup { place, scenarios, watched, wordings } = setup;
+        let languages = questionnaire::languages(&wordings)?;
         let first = place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
         std::fs::create_dir_all(&first)
             .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", first.display())))?;
@@ -55,9 +61,11 @@ impl State {
         let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
         let database = place.open()?;
         let guard = Guard::new(!database.with_password()?.is_empty(), secure, behind_proxy);
-        let live = Live::start(vehicle, &place.sessions, &scenarios)?;
+        let start = |watched: &Watched| Live::start(watched, &place.sessions, &scenarios);
+        let live = watched.iter().map(start).collect::<Result<Vec<_>, _>>()?;
         let taking_in = TakingIn::start(&place)?;
-        Ok(Self { database, place, scenarios, guard, live, taking_in, answers: Mutex::new(()), scoring: Mutex::new(()) })
+        let (answers, scoring) = (Mutex::new(()), Mutex::new(()));
+        Ok(Self { database, place, scenarios, guard, languages, live, taking_in, answers, scoring })
     }
 
     /// The folder of a session; `None` when it is not on this machine, or the id is no plain name.

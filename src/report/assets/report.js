@@ -2,8 +2,7 @@
 // go in as text, never as markup.
 (function () {
   'use strict';
-  const byId = (id) => document.getElementById(id);
-  const all = (selector) => Array.from(document.querySelectorAll(selector));
+  const { byId, all, clock, number, colour } = Flight;
   const block = byId('flight-data');
   if (!block) return;
   const data = JSON.parse(block.textContent);
@@ -14,26 +13,12 @@
   let now = 0;
   const listeners = [];
 
-  const clock = (t) => {
-    const whole = Math.max(0, Math.round(t));
-    return Math.floor(whole / 60) + ':' + String(whole % 60).padStart(2, '0');
-  };
-  const number = (value, digits, unit) => (value === null ? '–' : value.toFixed(digits) + ' ' + unit);
-  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const indexAt = (t) => {
-    let low = 0, high = count - 1;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (s.t[middle] < t) low = middle + 1; else high = middle;
-    }
-    return low > 0 && t - s.t[low - 1] < s.t[low] - t ? low - 1 : low;
-  };
   const taskName = (i) => (s.task[i] === null ? '–' : data.tasks[s.task[i]].id + ' · ' + data.tasks[s.task[i]].name);
   const pathWords = (i) => ['between tasks', 'off path', 'on path'][s.state[i]];
 
   // The slider.
   const slider = byId('moment');
-  const drones = all('.drone').map((node) => ({ node, m: node.dataset.matrix.split(' ').map(Number) }));
+  const drones = all('.drone').map(Flight.drone);
   const cursors = all('.cursor');
   const readout = {
     task: taskName,
@@ -45,12 +30,7 @@
   };
   function show(index) {
     now = Math.min(count - 1, Math.max(0, index));
-    const e = s.e[now], n = s.n[now], u = s.u[now];
-    for (const { node, m } of drones) {
-      const x = m[0] * e + m[1] * n + m[2] * u + m[3];
-      const y = m[4] * e + m[5] * n + m[6] * u + m[7];
-      node.setAttribute('transform', 'translate(' + x.toFixed(1) + ' ' + y.toFixed(1) + ')');
-    }
+    for (const drone of drones) Flight.place(drone, s.e[now], s.n[now], s.u[now]);
     for (const cursor of cursors) {
       const left = Number(cursor.dataset.left), right = Number(cursor.dataset.right);
       cursor.setAttribute('transform', 'translate(' + (left + (right - left) * (end > 0 ? s.t[now] / end : 0)).toFixed(1) + ' 0)');
@@ -68,90 +48,32 @@
   byId('readout').hidden = false;
   document.body.classList.add('live');
 
-  // Playing: eight times as fast as it was flown.
-  const play = byId('play');
-  let timer = null;
-  function stop() {
-    if (timer !== null) cancelAnimationFrame(timer);
-    timer = null;
-    play.textContent = 'Play';
-    play.setAttribute('aria-pressed', 'false');
-  }
-  play.addEventListener('click', () => {
-    if (timer !== null) { stop(); return; }
+  let t = 0;
+  const stop = Flight.player(byId('play'), () => {
     if (now >= count - 1) show(0);
-    let before = null, t = s.t[now];
-    const step = (at) => {
-      t += before === null ? 0 : (at - before) / 1000 * 8;
-      before = at;
-      show(indexAt(t));
-      if (t >= end) { stop(); return; }
-      timer = requestAnimationFrame(step);
-    };
-    play.textContent = 'Pause';
-    play.setAttribute('aria-pressed', 'true');
-    timer = requestAnimationFrame(step);
+    t = s.t[now];
+  }, (seconds) => {
+    t += seconds;
+    show(Flight.indexAt(s.t, t));
+    return t < end;
   });
 
   // The curves.
-  let charts = [];
   const limits = {
     speed: () => s.t.map(() => data.limits.speed),
     distance: () => s.task.map((task) => (task === null ? null : data.tasks[task].within)),
     clearance: () => s.t.map(() => data.limits.close),
   };
-  function chart(host) {
+  const curves = Flight.charts((host) => {
     const columns = host.dataset.columns.split(' ');
-    const own = ['--s1', '--s2', '--s3', '--s4'];
-    const axis = { stroke: colour('--faint'), grid: { stroke: colour('--grid'), width: 1 }, ticks: { stroke: colour('--grid'), width: 1 }, font: '12px system-ui, sans-serif' };
-    const series = [{}], values = [s.t];
-    columns.forEach((name, k) => {
-      series.push({ stroke: colour(own[k]), width: columns.length > 1 ? 1.2 : 1.6, points: { show: false } });
-      values.push(s[name]);
-    });
+    const lines = columns.map((name, k) => ({ values: s[name], colour: '--s' + (k + 1), width: columns.length > 1 ? 1.2 : 1.6 }));
     const limit = limits[columns[0]];
-    if (limit) {
-      series.push({ stroke: colour('--off'), width: 1.5, dash: [6, 4], points: { show: false } });
-      values.push(limit());
-    }
+    if (limit) lines.push({ values: limit(), colour: '--off', width: 1.5, dash: [6, 4] });
     const range = { battery: [0, 100], fb: [-1, 1] }[columns[0]];
-    const most = { distance: 20, clearance: 20 }[columns[0]];
-    const plot = new uPlot({
-      width: host.clientWidth, height: 132, legend: { show: false }, cursor: { y: false, points: { show: false }, drag: { x: true, y: false }, sync: { key: 'flight' } },
-      scales: { x: { time: false }, y: { range: range || ((u, low, high) => [0, Math.max(1, most ? Math.min(most, high) : high) * 1.05]) } },
-      axes: [Object.assign({ values: (u, ticks) => ticks.map(clock), size: 30 }, axis), Object.assign({ size: 44 }, axis)],
-      series,
-    }, values, host);
-    const mark = document.createElement('div');
-    mark.className = 'now';
-    plot.over.appendChild(mark);
-    plot.over.addEventListener('click', () => {
-      if (plot.cursor.left >= 0) { stop(); show(plot.cursor.idx ?? now); }
-    });
-    const follow = () => {
-      const x = plot.valToPos(s.t[now], 'x');
-      mark.hidden = x < 0 || x > plot.over.clientWidth;
-      mark.style.transform = 'translateX(' + x.toFixed(1) + 'px)';
-    };
-    plot.hooks.setScale = [follow];
-    return { plot, host, follow };
-  }
-  const hosts = all('.chart');
-  function draw() {
-    for (const { plot } of charts) plot.destroy();
-    charts = hosts.filter((host) => host.clientWidth > 0).map(chart);
-    for (const { follow } of charts) follow();
-  }
-  listeners.push(() => { for (const { follow } of charts) follow(); });
-  new ResizeObserver(() => {
-    for (const { plot, host, follow } of charts) {
-      if (host.clientWidth > 0 && host.clientWidth !== plot.width) { plot.setSize({ width: host.clientWidth, height: 132 }); follow(); }
-    }
-  }).observe(document.body);
-  const repaint = () => { draw(); if (model) model.paint(); };
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
-  addEventListener('beforeprint', () => { document.documentElement.dataset.theme = 'light'; repaint(); });
-  addEventListener('afterprint', () => { delete document.documentElement.dataset.theme; repaint(); });
+    return { times: s.t, lines, range: range || Flight.fromZero({ distance: 20, clearance: 20 }[columns[0]]) };
+  }, () => s.t[now], (moment) => { stop(); show(Flight.indexAt(s.t, moment)); });
+  listeners.push(curves.follow);
+  Flight.whenColoursChange(() => { curves.draw(); if (model) model.paint(); });
 
   // The series as a file, made here and handed to the browser.
   const csv = byId('series-csv');
@@ -356,6 +278,6 @@
     return { paint, follow };
   }
 
-  draw();
+  curves.draw();
   show(0);
 })();

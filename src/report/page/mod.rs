@@ -40,7 +40,7 @@ pub fn session(review: &Review) -> String {
     let data = series::data(review);
     document(
         &title,
-        Some(&data),
+        &Moves::Session(data),
         &html! {
             (summary::header(review))
             nav aria-label="Sections" { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
@@ -53,8 +53,18 @@ pub fn session(review: &Review) -> String {
     )
 }
 
+/// What moves on a page: its data block, and with it its scripts.
+enum Moves {
+    /// Nothing.
+    Nothing,
+    /// A session's slider, curves and model.
+    Session(String),
+    /// The slider and curves of two sessions.
+    Comparison(String),
+}
+
 /// A whole document: policy, styles, the body, data and scripts. Styles and scripts are ours and the libraries', never a user's words.
-fn document(title: &str, data: Option<&str>, body: &Markup) -> String {
+fn document(title: &str, moves: &Moves, body: &Markup) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -71,17 +81,27 @@ fn document(title: &str, data: Option<&str>, body: &Markup) -> String {
             }
             body {
                 (body)
-                @if let Some(data) = data {
-                    script type="application/json" id="flight-data" { (PreEscaped(data)) }
-                    script type="text/plain" id="three-core" { (PreEscaped(assets::THREE_CORE)) }
-                    script type="text/plain" id="three-module" data-core=(assets::THREE_CORE_NAME) { (PreEscaped(assets::THREE)) }
-                    script { (PreEscaped(assets::UPLOT)) }
-                    script { (PreEscaped(assets::SCRIPT)) }
+                @match moves {
+                    Moves::Nothing => {}
+                    Moves::Session(data) => {
+                        script type="application/json" id="flight-data" { (PreEscaped(data)) }
+                        script type="text/plain" id="three-core" { (PreEscaped(assets::THREE_CORE)) }
+                        script type="text/plain" id="three-module" data-core=(assets::THREE_CORE_NAME) { (PreEscaped(assets::THREE)) }
+                        (scripts(&[assets::UPLOT, assets::COMMON, assets::SCRIPT]))
+                    }
+                    Moves::Comparison(data) => {
+                        script type="application/json" id="comparison-data" { (PreEscaped(data)) }
+                        (scripts(&[assets::UPLOT, assets::COMMON, assets::COMPARE]))
+                    }
                 }
             }
         }
     }
     .into_string()
+}
+
+fn scripts(texts: &[&str]) -> Markup {
+    html! { @for text in texts { script { (PreEscaped(text)) } } }
 }
 
 /// A figure with its caption.

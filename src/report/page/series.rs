@@ -38,6 +38,43 @@ pub fn data(review: &Review) -> String {
     closed(&block.to_string())
 }
 
+/// The block of a comparison: both flights' series, and when each began and entered each task.
+#[must_use]
+pub fn comparison(both: [&Review; 2], line_ups: &[LineUp]) -> String {
+    let flight = |k: usize| {
+        let starts: Vec<f64> = line_ups.iter().map(|line_up| line_up.at_s[k]).collect();
+        let tasks = both[k].scenario.tasks.iter().map(|task| format!("{} · {}", task.id, task.name));
+        json!({ "series": series(both[k]), "starts": starts, "tasks": tasks.collect::<Vec<_>>() })
+    };
+    let scenario = &both[0].scenario;
+    let block = json!({
+        "flights": [flight(0), flight(1)],
+        "limits": { "speed": scenario.scoring.speed_limit_m_s, "close": scenario.feedback.too_close_m },
+    });
+    closed(&block.to_string())
+}
+
+/// An event of both flights at which their times are lined up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineUp {
+    /// In words.
+    pub name: String,
+    /// When it was in each, since lift-off, s.
+    pub at_s: [f64; 2],
+}
+
+/// Lift-off, and, of flights of one job, the entry into each task that both entered.
+#[must_use]
+pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<LineUp> {
+    let mut found = vec![LineUp { name: "lift-off".into(), at_s: [0.0, 0.0] }];
+    let tasks = both[0].scenario.tasks.iter().enumerate().filter(|_| same_job);
+    found.extend(tasks.filter_map(|(k, task)| {
+        let entry_s = |review: &Review| review.on_path.windows.get(k).copied().flatten().map(|window| review.t_s(window.first));
+        Some(LineUp { name: format!("start of task {}", task.id), at_s: [entry_s(both[0])?, entry_s(both[1])?] })
+    }));
+    found
+}
+
 /// JSON that cannot end the element that it stands in.
 fn closed(json: &str) -> String {
     json.replace('<', "\\u003c")

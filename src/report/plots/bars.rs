@@ -79,9 +79,10 @@ pub fn counts(rows: &[Counts], title: &str) -> Markup {
             @for (k, row) in rows.iter().enumerate() {
                 @let top = 40.0 * k as f64;
                 text.label x=(unit(LEFT)) y=(unit(top + 14.0)) { (row.name) }
-                @for (class, from, count) in segments(row) {
-                    rect class=(class) x=(unit(LEFT + length(from as f64, most))) y=(unit(top + 19.0))
-                        width=(unit((length(count as f64, most) - 1.5).max(1.0))) height=(unit(BAR)) rx="2" {}
+                @let kinds: Vec<_> = row.kinds.iter().map(|(class, count)| (*class, *count as f64)).collect();
+                @for (class, from, count) in parts(&kinds) {
+                    rect class=(class) x=(unit(LEFT + length(from, most))) y=(unit(top + 19.0))
+                        width=(unit((length(count, most) - 1.5).max(1.0))) height=(unit(BAR)) rx="2" {}
                 }
                 @let total = sum(row);
                 text.tick x=(unit(LEFT + length(total as f64, most) + 5.0)) y=(unit(top + 30.5)) { (total) }
@@ -90,15 +91,46 @@ pub fn counts(rows: &[Counts], title: &str) -> Markup {
     )
 }
 
-/// Style, counts before it, count; nothing for a count of zero.
-fn segments(row: &Counts) -> Vec<(&'static str, usize, usize)> {
-    let mut before = 0;
+/// A whole and its parts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stack {
+    /// What it is of.
+    pub name: String,
+    /// Style and share of the whole, 0 to 1, from left to right; the first one is also said in figures.
+    pub parts: Vec<(&'static str, f64)>,
+}
+
+/// Rows of wholes, each as long as the others.
+#[must_use]
+pub fn stacks(rows: &[Stack], title: &str) -> Markup {
+    sheet(
+        (WIDTH, 44.0 * rows.len() as f64 + 4.0),
+        title,
+        "bars",
+        &html! {
+            @for (k, row) in rows.iter().enumerate() {
+                @let top = 44.0 * k as f64;
+                text.label x=(unit(LEFT)) y=(unit(top + 14.0)) { (row.name) }
+                rect.track x=(unit(LEFT)) y=(unit(top + 21.0)) width=(unit(RIGHT - LEFT)) height=(unit(BAR)) rx="2" {}
+                @for (class, from, share) in parts(&row.parts) {
+                    rect class=(class) x=(unit(LEFT + length(from, 1.0))) y=(unit(top + 21.0)) width=(unit(length(share, 1.0))) height=(unit(BAR)) {}
+                }
+                @let first = row.parts.first().map_or(0.0, |part| part.1);
+                text.tick x=(unit(WIDTH - 2.0)) y=(unit(top + 32.5)) text-anchor="end" { (words::number(100.0 * first, 0)) " %" }
+            }
+        },
+    )
+}
+
+/// Style, what is before it, its size; nothing for one that is nothing.
+fn parts(parts: &[(&'static str, f64)]) -> Vec<(&'static str, f64, f64)> {
+    let mut before = 0.0;
     let mut out = Vec::new();
-    for (class, count) in &row.kinds {
-        if *count > 0 {
-            out.push((*class, before, *count));
+    for (class, size) in parts {
+        if *size > 0.0 {
+            out.push((*class, before, *size));
         }
-        before += count;
+        before += size;
     }
     out
 }
@@ -120,8 +152,17 @@ mod tests {
     #[test]
     fn exact_segments_follow_each_other() {
         let row = Counts { name: "a".into(), kinds: vec![("x", 2), ("y", 0), ("z", 3)] };
-        assert_eq!(segments(&row), [("x", 0, 2), ("z", 2, 3)]);
+        assert_eq!(parts(&[("x", 2.0), ("y", 0.0), ("z", 3.0)]), [("x", 0.0, 2.0), ("z", 2.0, 3.0)]);
         let figure = counts(&[row], "t").into_string();
         assert!(figure.contains("class=\"z\" x=\"151.2\""), "two of five along 368 from 4: {figure}");
+    }
+
+    #[test]
+    fn exact_parts_of_a_whole_follow_each_other_and_the_first_is_said() {
+        let row = Stack { name: "deck".into(), parts: vec![("good", 0.25), ("none", 0.0), ("bad", 0.5)] };
+        let figure = stacks(&[row], "t").into_string();
+        assert!(figure.contains("class=\"good\" x=\"4\" y=\"21\" width=\"92\""), "{figure}");
+        assert!(figure.contains("class=\"bad\" x=\"96\" y=\"21\" width=\"184\"") && !figure.contains("none"), "{figure}");
+        assert!(figure.contains("25 %"), "{figure}");
     }
 }

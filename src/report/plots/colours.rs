@@ -16,12 +16,30 @@ pub const COLOURINGS: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by
 
 /// The track in pieces of one colour: class and path data, in the order of the classes.
 pub(super) fn track(review: &Review, map: &Map, layer: usize, shown: &dyn Fn(&Frame) -> bool) -> Vec<(&'static str, String)> {
-    let mut pieces: Vec<(&'static str, String)> = classes(layer).iter().map(|class| (*class, String::new())).collect();
+    let names = classes(layer);
+    let pieces = pieces(review, map, names.len(), &|i| class_of(review, i, layer), shown);
+    names.iter().copied().zip(pieces).filter(|(_, data)| !data.is_empty()).collect()
+}
+
+/// The whole track in one colour.
+pub(super) fn plain(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> String {
+    pieces(review, map, 1, &|_| 0, shown).swap_remove(0)
+}
+
+/// Path data by colour.
+fn pieces(
+    review: &Review,
+    map: &Map,
+    colours: usize,
+    colour_of: &dyn Fn(usize) -> usize,
+    shown: &dyn Fn(&Frame) -> bool,
+) -> Vec<String> {
+    let mut pieces = vec![String::new(); colours];
     let mut run: Vec<(f64, f64)> = Vec::new();
     let mut colour = 0;
     let mut close = |run: &mut Vec<(f64, f64)>, colour: usize| {
         if run.len() > 1 {
-            pieces[colour].1.push_str(&line(&simplified(run, TRACK_WITHIN), false));
+            pieces[colour].push_str(&line(&simplified(run, TRACK_WITHIN), false));
         }
         run.clear();
     };
@@ -33,7 +51,7 @@ pub(super) fn track(review: &Review, map: &Map, layer: usize, shown: &dyn Fn(&Fr
                 continue;
             }
         }
-        let now = class_of(review, i, layer);
+        let now = colour_of(i);
         let here = map.at(frame.position_m);
         if now != colour {
             // The step between two colours belongs to the one that ends.
@@ -46,7 +64,6 @@ pub(super) fn track(review: &Review, map: &Map, layer: usize, shown: &dyn Fn(&Fr
         run.push(here);
     }
     close(&mut run, colour);
-    pieces.retain(|(_, data)| !data.is_empty());
     pieces
 }
 

@@ -110,23 +110,9 @@ pub fn oblique(review: &Review) -> Markup {
 /// One bridge from its side, with the flight near it.
 #[must_use]
 pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
-    let view = View::side(bridge);
-    let axis = view.right;
-    let towards = view.towards();
-    let half = 0.5 * bridge.deck_length_m() + 25.0;
-    let near = move |frame: &Frame| {
-        let to = frame.position_m - bridge.centre_m;
-        to.dot(axis).abs() < half && to.dot(towards).abs() < BESIDE_M
-    };
+    let near = is_beside(bridge);
+    let map = beside(&review.scenario, &review.site, bridge, review.frames.iter().filter(|frame| near(frame)));
     let prefix = format!("{}/", bridge.name);
-    let members = review.site.members().iter().filter(|member| member.name.starts_with(&prefix));
-    let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
-    points.extend(review.frames.iter().filter(|frame| near(frame)).map(|frame| frame.position_m));
-    let water_m = review.scenario.terrain.water_level_m;
-    // Foundations deep in the ground would make all else small.
-    points.retain(|point| point.up() > water_m - 6.0);
-    points.push(Vec3::new(bridge.centre_m.east(), bridge.centre_m.north(), water_m - 4.0));
-    let map = Map::around(view, &points);
     let title = format!("Flight at the bridge '{}' from the side", bridge.name);
     sheet(
         map.size,
@@ -138,6 +124,30 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
             (job(review, &map, Some(&bridge.name), &near))
         },
     )
+}
+
+/// The flight belongs into the side view of this bridge.
+pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
+    let (view, centre_m) = (View::side(bridge), bridge.centre_m);
+    let (axis, towards) = (view.right, view.towards());
+    let half_m = 0.5 * bridge.deck_length_m() + 25.0;
+    move |frame: &Frame| {
+        let to = frame.position_m - centre_m;
+        to.dot(axis).abs() < half_m && to.dot(towards).abs() < BESIDE_M
+    }
+}
+
+/// The side view of a bridge, with room for these frames.
+pub(super) fn beside<'a>(scenario: &Scenario, site: &Site, bridge: &Bridge, flown: impl Iterator<Item = &'a Frame>) -> Map {
+    let prefix = format!("{}/", bridge.name);
+    let members = site.members().iter().filter(|member| member.name.starts_with(&prefix));
+    let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
+    points.extend(flown.map(|frame| frame.position_m));
+    let water_m = scenario.terrain.water_level_m;
+    // Foundations deep in the ground would make all else small.
+    points.retain(|point| point.up() > water_m - 6.0);
+    points.push(Vec3::new(bridge.centre_m.east(), bridge.centre_m.north(), water_m - 4.0));
+    Map::around(View::side(bridge), &points)
 }
 
 /// A job without bridges, from the south.
@@ -180,7 +190,7 @@ pub fn findings(review: &Review, bridge: &Bridge, view: View, title: &str) -> Ma
     )
 }
 
-fn everything(review: &Review) -> Vec<Vec3<Enu>> {
+pub(super) fn everything(review: &Review) -> Vec<Vec3<Enu>> {
     let mut all = extent(&review.scenario, &review.site);
     let water_m = review.scenario.terrain.water_level_m;
     all.extend(review.frames.iter().map(|frame| frame.position_m).filter(|point| point.up() > water_m - 6.0));

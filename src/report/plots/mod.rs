@@ -10,6 +10,7 @@ pub mod job;
 pub mod likert;
 pub mod lines;
 pub mod map;
+pub mod overlay;
 pub mod radar;
 pub mod strips;
 

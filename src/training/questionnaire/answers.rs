@@ -1,5 +1,6 @@
 //! `answers.json`: what a trainee has answered so far.
 
+use super::language::is_tag;
 use super::{Item, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx};
 use crate::base::toml::{Problem, Problems};
 use serde::de::Error as _;
@@ -15,8 +16,6 @@ pub const ANSWERS: &str = "answers.json";
 const FORMAT: u64 = 1;
 /// Largest file that is read, bytes: far above 24 answers.
 const LARGEST: usize = 64 * 1024;
-/// Longest language tag, characters (BCP 47 asks for 35).
-const LANGUAGE_MAX: usize = 35;
 
 /// Answers of one session, perhaps not yet all.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -125,7 +124,7 @@ impl Reading<'_> {
             Some((_, value)) => self.wrong("format", &shown(value), &FORMAT.to_string(), "not this version's"),
             None => self.wrong("format", "", &FORMAT.to_string(), "missing"),
         }
-        let language = map.get("language").and_then(Value::as_str).filter(|tag| is_language(tag));
+        let language = map.get("language").and_then(Value::as_str).filter(|tag| is_tag(tag));
         if language.is_none() {
             let value = map.get("language").map(shown).unwrap_or_default();
             self.wrong("language", &value, "a language tag such as en", "missing or none");
@@ -193,10 +192,6 @@ impl Reading<'_> {
             message: message.to_owned(),
         });
     }
-}
-
-fn is_language(tag: &str) -> bool {
-    !tag.is_empty() && tag.len() <= LANGUAGE_MAX && tag.chars().all(|c| c.is_ascii_alphanumeric() || c == '-')
 }
 
 fn shown(value: &Value) -> String {

@@ -3,12 +3,14 @@
 //! file, ready for translation; the keys of the answers are the same in every language.
 
 mod answers;
+mod language;
 mod scales;
 mod wording;
 
 pub use answers::{ANSWERS, Answers, read_answers};
+pub use language::{Languages, SHIPPED};
 pub use scales::{Scales, raw_tlx, scales};
-pub use wording::{ENGLISH, Wording, read_wording};
+pub use wording::{Form, Wording, read_wording};
 
 use std::fmt;
 

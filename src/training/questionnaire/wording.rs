@@ -1,22 +1,37 @@
 //! The words of the questionnaire, from a TOML file.
 
-use super::{Aspect, Item, Overall, Phase, Tlx};
+use super::language::is_tag;
+use super::{Aspect, Item, Overall, Phase, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx};
 use crate::base::toml::{Problems, Reader, Section};
-
-/// The shipped wording.
-pub const ENGLISH: &str = include_str!("en.toml");
 
 /// Format of the file.
 const FORMAT: i64 = 1;
 /// Places for a task's number and name.
 const NUMBER: &str = "{number}";
 const NAME: &str = "{name}";
+/// Texts around the questions, and what is filled in.
+const FORM: [(&str, &[&str]); 12] = [
+    ("answered", &["{answered}", "{all}"]),
+    ("at_once", &[]),
+    ("saved", &[]),
+    ("not_saved", &[]),
+    ("save", &[]),
+    ("back", &[]),
+    ("choose_language", &[]),
+    ("change_language", &[]),
+    ("keys", &[]),
+    ("please_whole", &["{from}", "{to}"]),
+    ("please_steps", &["{from}", "{to}", "{step}"]),
+    ("later", &[]),
+];
 
 /// The questionnaire in one language.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Wording {
-    /// Language, for records.
+    /// Language (BCP 47), for records and browsers.
     pub language: String,
+    /// The language's name for those who speak it.
+    pub language_name: String,
     /// Title.
     pub title: String,
     /// Said before the first question.
@@ -37,6 +52,35 @@ pub struct Wording {
     pub tlx_introduction: String,
     tlx: [String; 6],
     tlx_ends: [String; 4],
+    /// What stands around the questions.
+    pub form: Form,
+}
+
+/// What stands around the questions: buttons, messages, the terminal's words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Form {
+    /// How many are answered; `{answered}` and `{all}` are still to be filled in.
+    pub answered: String,
+    /// That nothing is lost.
+    pub at_once: String,
+    /// It is saved.
+    pub saved: String,
+    /// It is not.
+    pub not_saved: String,
+    /// The button.
+    pub save: String,
+    /// The way back.
+    pub back: String,
+    /// Before the choice of languages.
+    pub choose_language: String,
+    /// Its button.
+    pub change_language: String,
+    /// What the keys of the terminal do.
+    pub keys: String,
+    please_whole: String,
+    please_steps: String,
+    /// How to go on in the terminal.
+    pub later: String,
 }
 
 /// Reads a wording.
@@ -57,7 +101,11 @@ pub fn read_wording(file: &str, text: &str) -> Result<Wording, Problems> {
 
 fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
     reader.whole(root, "format", (FORMAT, FORMAT), None);
-    let [language, title, introduction] = texts(reader, root, ["language", "title", "introduction"]);
+    let [language, language_name, title, introduction] =
+        texts(reader, root, ["language", "language_name", "title", "introduction"]);
+    if root.has("language") && !is_tag(&language) {
+        reader.complain(root, "language", &language, "a language tag such as de or pt-BR", "no such tag");
+    }
     let mut scale = reader.section(root, "scale");
     let answers = texts(reader, &mut scale, ["strongly_agree", "agree", "neutral", "disagree", "strongly_disagree"]);
     let mut overall = reader.section(root, "overall");
@@ -74,11 +122,14 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
     let [tlx_title, tlx_introduction] = texts(reader, &mut tlx, ["title", "introduction"]);
     let scales = texts(reader, &mut tlx, Tlx::ALL.map(Tlx::key));
     let tlx_ends = texts(reader, &mut tlx, ["low", "high", "best", "worst"]);
-    for section in [&scale, &overall, &by_phase, &phases, &tlx, root] {
+    let mut around = reader.section(root, "form");
+    let form = form(reader, &mut around);
+    for section in [&scale, &overall, &by_phase, &phases, &tlx, &around, root] {
         reader.finish(section);
     }
     Wording {
         language,
+        language_name,
         title,
         introduction,
         scale: answers,
@@ -93,6 +144,67 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
         tlx_introduction,
         tlx: scales,
         tlx_ends,
+        form,
+    }
+}
+
+fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> Form {
+    let texts = FORM.map(|(key, filled_in)| {
+        let text = reader.text(section, key, None);
+        let missing: Vec<&str> = filled_in.iter().copied().filter(|word| !text.contains(word)).collect();
+        if section.has(key) && !missing.is_empty() {
+            reader.complain(section, key, &text, &format!("text with {}", filled_in.join(" and ")), "a number would be missing");
+        }
+        text
+    });
+    let [
+        answered,
+        at_once,
+        saved,
+        not_saved,
+        save,
+        back,
+        choose_language,
+        change_language,
+        keys,
+        please_whole,
+        please_steps,
+        later,
+    ] = texts;
+    Form {
+        answered,
+        at_once,
+        saved,
+        not_saved,
+        save,
+        back,
+        choose_language,
+        change_language,
+        keys,
+        please_whole,
+        please_steps,
+        later,
+    }
+}
+
+impl Form {
+    /// How many of all questions are answered.
+    #[must_use]
+    pub fn answered(&self, answered: usize, all: usize) -> String {
+        self.answered.replace("{answered}", &answered.to_string()).replace("{all}", &all.to_string())
+    }
+
+    /// What may be typed to a statement.
+    #[must_use]
+    pub fn please_whole(&self) -> String {
+        self.please_whole.replace("{from}", &STRONGLY_AGREE.to_string()).replace("{to}", &STRONGLY_DISAGREE.to_string())
+    }
+
+    /// What may be typed to a scale of NASA-TLX.
+    #[must_use]
+    pub fn please_steps(&self) -> String {
+        let text = self.please_steps.replace("{from}", "0").replace("{to}", &TLX_MAX.to_string());
+        text.replace("{step}", &TLX_STEP.to_string())
     }
 }
 
@@ -149,27 +261,55 @@ impl Wording {
 
 #[cfg(test)]
 mod tests {
+    use super::super::language::SHIPPED;
     use super::*;
 
+    const ENGLISH: &str = SHIPPED[0].1;
+
     #[test]
-    fn exact_the_shipped_wording_is_whole_and_no_two_questions_read_alike() {
+    fn exact_shipped_wordings_are_whole_and_no_two_questions_read_alike() {
+        for (file, text) in SHIPPED {
+            let wording = read_wording(file, text).unwrap();
+            let name = |id: u32| format!("no. {id}");
+            let mut seen: Vec<String> =
+                Item::all(&[1, 2, 3, 4]).into_iter().map(|item| wording.heading(item, name) + wording.statement(item)).collect();
+            seen.extend(Tlx::ALL.map(|scale| wording.tlx(scale).0.to_owned()));
+            seen.extend(wording.scale.clone());
+            seen.sort();
+            seen.dedup();
+            assert_eq!(seen.len(), 24 + 6 + 5, "{file}");
+            assert!(wording.phase(Phase::Task(3), name).contains("3: no. 3"), "{file}");
+            assert_eq!(file, format!("{}.toml", wording.language));
+        }
         let wording = read_wording("en.toml", ENGLISH).unwrap();
-        let name = |id: u32| format!("no. {id}");
-        let mut seen: Vec<String> =
-            Item::all(&[1, 2, 3, 4]).into_iter().map(|item| wording.heading(item, name) + wording.statement(item)).collect();
-        seen.sort();
-        seen.dedup();
-        assert_eq!(seen.len(), 24);
-        assert_eq!(wording.phase(Phase::Task(3), name), "Task 3: no. 3");
         assert_eq!(wording.tlx(Tlx::Performance).1, "perfectly");
+        assert_eq!(wording.form.answered(3, 24), "3 of 24 answered");
+        assert_eq!(wording.form.please_steps(), "Please 0 to 100 in steps of 5, Enter, b or q.");
+    }
+
+    #[test]
+    fn exact_no_translation_left_an_english_text_behind() {
+        let texts = |text: &str| -> Vec<String> {
+            let lines = text.lines().filter(|line| !line.starts_with('#')).filter_map(|line| line.split_once(" = "));
+            lines.filter(|(key, _)| !matches!(*key, "format" | "neutral")).map(|(_, value)| value.to_owned()).collect()
+        };
+        let english = texts(ENGLISH);
+        for (file, text) in &SHIPPED[1..] {
+            let left: Vec<String> = texts(text).into_iter().filter(|value| english.contains(value)).collect();
+            assert!(left.is_empty(), "{file}: {left:?}");
+        }
     }
 
     #[test]
     fn exact_a_translation_that_leaves_a_text_out_is_refused_by_line_and_key() {
         let half = ENGLISH.replace("agree = \"agree\"\n", "").replace("task = \"Task {number}: {name}\"", "task = \"Aufgabe\"");
+        let half = half.replace("{answered} of {all} answered", "{answered} beantwortet").replace("\"en\"", "\"Deutsch!\"");
         let problems = read_wording("de.toml", &half).unwrap_err().to_string();
         assert!(problems.contains("scale.agree: missing"), "{problems}");
         assert!(problems.contains("phases.task = ") && problems.contains("{number}"), "{problems}");
+        assert!(problems.contains("form.answered = ") && problems.contains("{answered} and {all}"), "{problems}");
+        let line = 1 + half.lines().position(|line| line.starts_with("language = ")).unwrap();
+        assert!(problems.contains(&format!("de.toml:{line}: language = ")), "{problems}");
         assert!(read_wording("x.toml", "format = 2").is_err());
         assert!(read_wording("x.toml", "format = ").is_err());
     }

@@ -10,17 +10,20 @@ const COARSEST: u8 = 20;
 /// XMP's name before its packet in an APP1 segment (XMP specification, part 3).
 const XMP: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
 
+/// EXIF and XMP of a photograph.
+pub type Tags<'a> = (&'a [u8], &'a str);
+
 /// The best quality whose file is not larger than `most` bytes, by halving.
-pub fn encode(picture: &Picture, exif: &[u8], xmp: &str, most: usize) -> Result<Vec<u8>, PhotoError> {
-    let best = with_quality(picture, exif, xmp, BEST)?;
+pub fn encode(picture: &Picture, tags: Option<Tags<'_>>, most: usize) -> Result<Vec<u8>, PhotoError> {
+    let best = with_quality(picture, tags, BEST)?;
     if best.len() <= most {
         return Ok(best);
     }
-    let mut fits = with_quality(picture, exif, xmp, COARSEST)?;
+    let mut fits = with_quality(picture, tags, COARSEST)?;
     let (mut low, mut high) = (COARSEST, BEST);
     while fits.len() <= most && high - low > 1 {
         let middle = low + (high - low) / 2;
-        let tried = with_quality(picture, exif, xmp, middle)?;
+        let tried = with_quality(picture, tags, middle)?;
         if tried.len() <= most {
             (low, fits) = (middle, tried);
         } else {
@@ -30,7 +33,7 @@ pub fn encode(picture: &Picture, exif: &[u8], xmp: &str, most: usize) -> Result<
     Ok(fits)
 }
 
-fn with_quality(picture: &Picture, exif: &[u8], xmp: &str, quality: u8) -> Result<Vec<u8>, PhotoError> {
+fn with_quality(picture: &Picture, tags: Option<Tags<'_>>, quality: u8) -> Result<Vec<u8>, PhotoError> {
     let refused = |error: jpeg_encoder::EncodingError| PhotoError::Refused(error.to_string());
     let side = |px: u32| u16::try_from(px).map_err(|_| PhotoError::Refused(format!("{px} px is too large")));
     let (width, height) = (side(picture.width)?, side(picture.height)?);
@@ -38,8 +41,10 @@ fn with_quality(picture: &Picture, exif: &[u8], xmp: &str, quality: u8) -> Resul
     let mut encoder = Encoder::new(&mut out, quality);
     encoder.set_sampling_factor(SamplingFactor::F_2_2);
     encoder.set_optimized_huffman_tables(true);
-    encoder.add_exif_metadata(exif).map_err(refused)?;
-    encoder.add_app_segment(1, [XMP, xmp.as_bytes()].concat()).map_err(refused)?;
+    if let Some((exif, xmp)) = tags {
+        encoder.add_exif_metadata(exif).map_err(refused)?;
+        encoder.add_app_segment(1, [XMP, xmp.as_bytes()].concat()).map_err(refused)?;
+    }
     encoder.encode(&picture.rgba, width, height, ColorType::Rgba).map_err(refused)?;
     Ok(out)
 }

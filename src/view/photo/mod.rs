@@ -79,7 +79,15 @@ pub fn direction_deg(pose: &CameraPose) -> (f64, f64) {
 /// When JPEG or EXIF cannot say it.
 pub fn jpeg(picture: &Picture, about: &About, most: usize) -> Result<Vec<u8>, PhotoError> {
     let size = (picture.width, picture.height);
-    jpeg::encode(picture, &tags::write(about, size)?, &xmp::write(about, size), most)
+    jpeg::encode(picture, Some((&tags::write(about, size)?, &xmp::write(about, size))), most)
+}
+
+/// A picture that tells nothing of itself, as good as fits into `most` bytes.
+///
+/// # Errors
+/// When JPEG cannot say it.
+pub fn plain(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
+    jpeg::encode(picture, None, most)
 }
 
 #[cfg(test)]

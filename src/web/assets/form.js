@@ -7,6 +7,7 @@ let queue = Promise.resolve();
 async function save(field) {
   const body = new URLSearchParams();
   body.set("token", form.elements.token.value);
+  body.set("language", form.elements.language.value);
   body.set(field.name, field.value);
   const tell = (words, bad) => {
     status.textContent = words;
@@ -16,9 +17,10 @@ async function save(field) {
     const answer = await fetch(form.action, { method: "POST", body, headers: { Accept: "application/json" } });
     if (!answer.ok) throw new Error(`the server says ${answer.status}`);
     const { answered, all } = await answer.json();
-    tell(`${answered} of ${all} answered, saved`, false);
+    tell(form.dataset.answered.replace("{answered}", answered).replace("{all}", all), false);
   } catch (error) {
-    tell(`Not saved: ${error.message}. Please answer again, or reload the page.`, true);
+    console.error(error);
+    tell(form.dataset.notSaved, true);
   }
 }
 

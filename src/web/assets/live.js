@@ -1,6 +1,6 @@
 // Follows a flight: server-sent events move the drone on every drawing and fill the read-outs. Words of others become text, never markup.
 "use strict";
-const root = document.querySelector("[data-live]");
+const root = document.querySelector(".live-page");
 const state = root.querySelector("[data-state]");
 const job = root.dataset.job;
 const trail = [];
@@ -80,17 +80,33 @@ function show(now) {
   put("height", number(now.height_m, 1, "m"));
   put("clearance", number(now.clearance_m, 1, "m"));
   put("battery", number(now.battery_pct, 0, "%"));
+  put("traffic", now.traffic);
   put("contact", now.contact === "none" ? "nothing" : now.contact);
+  picture(now.picture);
   cues(now.cues);
   tell(now.words);
 }
 
-const source = new EventSource("/live/stream");
-source.onmessage = (event) => show(JSON.parse(event.data));
-source.onerror = () => {
-  state.textContent = "not connected";
-  state.classList.remove("on");
-};
+// Each picture has a name of its own and is asked for once; the one before stays until it is there.
+function picture(version) {
+  const camera = root.querySelector("[data-camera]");
+  if (!camera) return;
+  camera.hidden = version === null;
+  const image = camera.querySelector("img");
+  if (version === null || image.dataset.picture === String(version)) return;
+  image.dataset.picture = String(version);
+  image.src = `/live/camera.jpg?vehicle=${root.dataset.vehicle}&v=${version}`;
+}
+
+// Without a vehicle there is nothing to listen to.
+if ("live" in root.dataset) {
+  const source = new EventSource(`/live/stream?vehicle=${root.dataset.vehicle}`);
+  source.onmessage = (event) => show(JSON.parse(event.data));
+  source.onerror = () => {
+    state.textContent = "not connected";
+    state.classList.remove("on");
+  };
+}
 
 for (const form of root.querySelectorAll("form[data-act]")) {
   form.addEventListener("submit", async (event) => {

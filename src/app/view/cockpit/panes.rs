@@ -83,6 +83,9 @@ impl Panes {
 
     /// Draws both views.
     pub fn draw(&mut self, screen: &mut Screen, places: &[Place], now: &Now, feed: &Feed, gaze: &Gaze, map: bool) -> Vec<Shown> {
+        if self.job.site.traffic().gates() != &now.gates {
+            self.job.site = self.job.site.with_gates(now.gates.clone());
+        }
         places.iter().map(|place| self.draw_one(screen, place, now, feed, gaze, map)).collect()
     }
 

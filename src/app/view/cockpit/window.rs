@@ -1,5 +1,6 @@
 //! The window's loop: events in, views out.
 
+use super::keeper::Keeper;
 use super::keys::{Change, Held};
 use super::listener::Listener;
 use super::panes::{Job, Panes, Shown};
@@ -54,6 +55,8 @@ pub struct Plan {
     pub seed: Option<u64>,
     /// A picture to keep.
     pub picture: Option<Picture>,
+    /// Where the camera's view is kept for others.
+    pub keep: Option<PathBuf>,
     /// Say on standard output when both views are drawn.
     pub announce: bool,
 }
@@ -106,6 +109,7 @@ pub struct Cockpit {
     first_drawn: Option<Duration>,
     drawn: u32,
     failed: Option<AppError>,
+    keeper: Option<Keeper>,
 }
 
 impl Cockpit {
@@ -119,6 +123,7 @@ impl Cockpit {
     ) -> Self {
         Self {
             map: plan.map,
+            keeper: plan.keep.clone().map(Keeper::start),
             plan,
             job,
             keys,
@@ -240,7 +245,21 @@ impl Cockpit {
             self.first_drawn = Some(self.watch.elapsed());
             self.announce();
         }
+        self.hand_out()?;
         self.keep_picture(&shown, &text)
+    }
+
+    /// Hands the camera's view to whoever watches elsewhere.
+    fn hand_out(&mut self) -> Result<(), AppError> {
+        let (Some(keeper), Some(screen), Scene::Drawn(panes)) = (&mut self.keeper, &self.screen, &self.scene) else {
+            return Ok(());
+        };
+        if keeper.is_due(self.watch.elapsed())
+            && let Some(picture) = panes.camera(screen)?
+        {
+            keeper.take(picture);
+        }
+        Ok(())
     }
 
     /// Keys that are held move the inspector's eyes.

@@ -28,6 +28,11 @@ pub enum Order {
         /// From, degrees clockwise from north.
         from_deg: f64,
     },
+    /// The bridges open to traffic, or closed.
+    Traffic {
+        /// Open.
+        open: bool,
+    },
     /// A failure, or its end.
     Failure {
         /// FAILURE_UNIT.
@@ -90,6 +95,10 @@ impl Orders {
                 let words = format!("instructor: wind {speed_m_s} m/s from {from_deg}°");
                 let value = |value: f64| Number::Real(value as f32);
                 (vec![Step::Parameter("SIM_WIND_DIR", value(from_deg)), Step::Parameter("SIM_WIND_SPD", value(speed_m_s))], words)
+            }
+            Order::Traffic { open } => {
+                let words = format!("instructor: the bridges are {} to traffic", if open { "open" } else { "closed" });
+                (vec![Step::Parameter("SIM_TRAFFIC", Number::Whole(i32::from(open)))], words)
             }
             Order::Failure { unit, words, fails } => {
                 let said = format!("instructor: {} {}", words.to_lowercase(), if fails { "fails" } else { "is whole again" });
@@ -234,6 +243,17 @@ mod tests {
         orders.give(Order::Wind { speed_m_s: 1.0, from_deg: 0.0 });
         let told: Vec<String> = (0..30).flat_map(|k| sent(&mut orders, 1_000 + 500 * k).1).collect();
         assert_eq!(told, ["instructor: wind 1 m/s from 0°: not answered"]);
+    }
+
+    #[test]
+    fn wire_the_bridges_are_closed_by_a_whole_number() {
+        let mut orders = Orders::default();
+        orders.give(Order::Traffic { open: false });
+        let (frames, _) = sent(&mut orders, 0);
+        let Some(MavMessage::PARAM_SET(set)) = &frames[0].message else { panic!("{frames:?}") };
+        assert_eq!((set.param_id.to_str().unwrap(), set.param_value.to_bits()), ("SIM_TRAFFIC", 0));
+        orders.hear(&value("SIM_TRAFFIC", f32::from_bits(0)));
+        assert_eq!(sent(&mut orders, 1).1, ["instructor: the bridges are closed to traffic"]);
     }
 
     #[test]

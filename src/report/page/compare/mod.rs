@@ -1,7 +1,10 @@
 //! Two sessions side by side.
 
-use super::{document, figure, legend, summary};
+mod flight;
+
+use super::{Moves, document, figure, legend, series, summary};
 use crate::report::Review;
+use crate::report::coverage::Fate;
 use crate::report::plots::bars::{Row, shares};
 use crate::report::plots::radar::{Spoke, radar};
 use crate::report::table::{Cell, Table};
@@ -16,10 +19,11 @@ pub fn comparison(first: &Review, second: &Review) -> String {
         .map(|k| Spoke { name: named[0][k].0, values: named.iter().map(|scores| scores[k].1.map(|score| score.pct)).collect() })
         .collect();
     let same = first.scenario.tasks.len() == second.scenario.tasks.len() && first.scenario.crc == second.scenario.crc;
-    let key = [("dot-1", words_of(first)), ("dot-2", words_of(second))];
+    let line_ups = series::line_ups(both, same);
+    let key = [("dot-1", format!("1: {}", words_of(first))), ("dot-2", format!("2: {}", words_of(second)))];
     document(
         "Comparison of two sessions",
-        None,
+        &Moves::Comparison(series::comparison(both, &line_ups)),
         &html! {
             header {
                 div {
@@ -36,6 +40,10 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                         (figure("The four scores, first / second", &html! { (legend(&key)) (radar(&spokes, "Kiviat diagram of both sessions")) }))
                         (table(first, second).shown())
                     }
+                }
+                section aria-labelledby="flight-head" {
+                    h2 id="flight-head" { "Flights" }
+                    (flight::section(both, same, &line_ups, &key))
                 }
                 @if same {
                     section aria-labelledby="tasks-head" {
@@ -85,7 +93,7 @@ fn table(first: &Review, second: &Review) -> Table {
     put("Defects found", 0, both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
     put("Cues", 0, both.map(|review| Some(review.feedback.episodes.len() as f64)));
     put("Time too close or off the path, s", 1, both.map(|review| Some(warned_s(review))));
-    put("Surface in pictures, lit and sharp, m²", 0, both.map(|review| Some(review.coverage.total().sharp_m2)));
+    put("Surface shown well in pictures, m²", 0, both.map(|review| Some(review.coverage.total().area_m2(Fate::Shown))));
     Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["what", "first", "second", "change"], rows }
 }
 

@@ -1,0 +1,113 @@
+// What the pages of a session and of a comparison share: time in words, the moment nearest to a time, curves that follow a slider.
+const Flight = (function () {
+  'use strict';
+  const byId = (id) => document.getElementById(id);
+  const all = (selector) => Array.from(document.querySelectorAll(selector));
+  const clock = (t) => {
+    const whole = Math.round(Math.abs(t));
+    return (t < -0.5 ? '\u2212' : '') + Math.floor(whole / 60) + ':' + String(whole % 60).padStart(2, '0');
+  };
+  const number = (value, digits, unit) => (value === null ? '–' : value.toFixed(digits) + ' ' + unit);
+  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+  // Index of the time nearest to t in a rising list.
+  function indexAt(times, t) {
+    let low = 0, high = times.length - 1;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (times[middle] < t) low = middle + 1; else high = middle;
+    }
+    return low > 0 && t - times[low - 1] < times[low] - t ? low - 1 : low;
+  }
+
+  // Puts a drone of a drawing where it was: its matrix takes east, north, up to the sheet.
+  const drone = (node) => ({ node, m: node.dataset.matrix.split(' ').map(Number) });
+  function place({ node, m }, e, n, u) {
+    const x = m[0] * e + m[1] * n + m[2] * u + m[3];
+    const y = m[4] * e + m[5] * n + m[6] * u + m[7];
+    node.setAttribute('transform', 'translate(' + x.toFixed(1) + ' ' + y.toFixed(1) + ')');
+  }
+
+  // Play and pause for a slider: `advance` goes so many seconds on and says whether there is more.
+  function player(button, begin, advance) {
+    let timer = null;
+    function stop() {
+      if (timer !== null) cancelAnimationFrame(timer);
+      timer = null;
+      button.textContent = 'Play';
+      button.setAttribute('aria-pressed', 'false');
+    }
+    button.addEventListener('click', () => {
+      if (timer !== null) { stop(); return; }
+      begin();
+      let before = null;
+      const step = (at) => {
+        // Eight times as fast as it was flown.
+        const more = advance(before === null ? 0 : (at - before) / 1000 * 8);
+        before = at;
+        if (!more) { stop(); return; }
+        timer = requestAnimationFrame(step);
+      };
+      button.textContent = 'Pause';
+      button.setAttribute('aria-pressed', 'true');
+      timer = requestAnimationFrame(step);
+    });
+    return stop;
+  }
+
+  // Curves over one time axis. `curves` gives for a host its list of times, its series (values, colour, width, dash) and the range of its
+  // axis; `now` the moment of the slider, `pick` moves it.
+  const HEIGHT = 132;
+  function charts(curves, now, pick) {
+    const hosts = all('.chart');
+    let drawn = [];
+    function chart(host) {
+      const { times, lines, range } = curves(host);
+      const axis = { stroke: colour('--faint'), grid: { stroke: colour('--grid'), width: 1 }, ticks: { stroke: colour('--grid'), width: 1 }, font: '12px system-ui, sans-serif' };
+      const series = lines.map((line) => ({ stroke: colour(line.colour), width: line.width, dash: line.dash, points: { show: false } }));
+      const plot = new uPlot({
+        width: host.clientWidth, height: HEIGHT, legend: { show: false }, cursor: { y: false, points: { show: false }, drag: { x: true, y: false }, sync: { key: 'flight' } },
+        scales: { x: { time: false }, y: { range } },
+        axes: [Object.assign({ values: (u, ticks) => ticks.map(clock), size: 30 }, axis), Object.assign({ size: 44 }, axis)],
+        series: [{}, ...series],
+      }, [times, ...lines.map((line) => line.values)], host);
+      const mark = document.createElement('div');
+      mark.className = 'now';
+      plot.over.appendChild(mark);
+      plot.over.addEventListener('click', () => {
+        if (plot.cursor.left >= 0 && plot.cursor.idx != null) pick(times[plot.cursor.idx]);
+      });
+      const follow = () => {
+        const x = plot.valToPos(now(), 'x');
+        mark.hidden = x < 0 || x > plot.over.clientWidth;
+        mark.style.transform = 'translateX(' + x.toFixed(1) + 'px)';
+      };
+      plot.hooks.setScale = [follow];
+      return { plot, host, follow };
+    }
+    const follow = () => { for (const one of drawn) one.follow(); };
+    function draw() {
+      for (const { plot } of drawn) plot.destroy();
+      drawn = hosts.filter((host) => host.clientWidth > 0).map(chart);
+      follow();
+    }
+    new ResizeObserver(() => {
+      for (const { plot, host, follow: own } of drawn) {
+        if (host.clientWidth > 0 && host.clientWidth !== plot.width) { plot.setSize({ width: host.clientWidth, height: HEIGHT }); own(); }
+      }
+    }).observe(document.body);
+    return { draw, follow };
+  }
+
+  // Curves are drawn in the colours of the screen; on paper in light ones.
+  function whenColoursChange(repaint) {
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
+    addEventListener('beforeprint', () => { document.documentElement.dataset.theme = 'light'; repaint(); });
+    addEventListener('afterprint', () => { delete document.documentElement.dataset.theme; repaint(); });
+  }
+
+  // A chart's range from nothing up: at least 1, at most what says something.
+  const fromZero = (most) => (u, low, high) => [0, Math.max(1, most ? Math.min(most, high) : high) * 1.05];
+
+  return { byId, all, clock, number, colour, indexAt, drone, place, player, charts, whenColoursChange, fromZero };
+})();

@@ -1,0 +1,92 @@
+// What moves in a comparison: one slider for both flights, lined up at lift-off or where both entered a task.
+(function () {
+  'use strict';
+  const { byId, all, clock, number } = Flight;
+  const block = byId('comparison-data');
+  if (!block) return;
+  const data = JSON.parse(block.textContent);
+  const flights = data.flights;
+  if (flights.some((flight) => flight.series.t.length === 0)) return;
+  // Steps of the slider and of the curves, s.
+  const STEP = 0.2;
+  const slider = byId('moment'), select = byId('line-up');
+  const drones = all('.drone').map((node) => ({ flight: Number(node.dataset.flight), drone: Flight.drone(node) }));
+  let times = [], now = 0;
+
+  // When a flight's own clock shows what the common one does: 0 is where both are lined up.
+  const start = (k) => flights[k].starts[Number(select.value)];
+  const own = (k, t) => t + start(k);
+  // Index into a flight's series, null before its lift-off and after its end.
+  function index(k, t) {
+    const series = flights[k].series.t, at = own(k, t);
+    if (at < series[0] - STEP || at > series[series.length - 1] + STEP) return null;
+    return Flight.indexAt(series, at);
+  }
+
+  const value = { speed: [1, 'm/s'], distance: [1, 'm'], clearance: [1, 'm'], battery: [0, '%'] };
+  function words(k, key, i) {
+    if (i === null) return key === 'task' ? 'not flying' : '–';
+    const series = flights[k].series;
+    if (key === 'task') return series.task[i] === null ? '–' : flights[k].tasks[series.task[i]];
+    return number(series[key][i], value[key][0], value[key][1]);
+  }
+
+  function show(step) {
+    now = Math.min(times.length - 1, Math.max(0, step));
+    const t = times[now], at = flights.map((_, k) => index(k, t));
+    for (const { flight, drone } of drones) {
+      const i = at[flight], s = flights[flight].series;
+      drone.node.classList.toggle('away', i === null);
+      if (i !== null) Flight.place(drone, s.e[i], s.n[i], s.u[i]);
+    }
+    slider.value = String(now);
+    byId('moment-text').textContent = clock(t);
+    const spoken = flights.map((_, k) => 'session ' + (k + 1) + ' ' + words(k, 'task', at[k]));
+    slider.setAttribute('aria-valuetext', clock(t) + ', ' + spoken.join(', '));
+    for (const cell of all('[data-now]')) {
+      const k = Number(cell.dataset.flight);
+      cell.textContent = words(k, cell.dataset.now, at[k]);
+    }
+    curves.follow();
+  }
+
+  const curves = Flight.charts((host) => {
+    const name = host.dataset.columns;
+    const lines = flights.map((flight, k) => ({
+      values: times.map((t) => { const i = index(k, t); return i === null ? null : flight.series[name][i]; }),
+      colour: '--s' + (k + 1), width: 1.6, dash: k === 1 ? [7, 3] : undefined,
+    }));
+    const limit = { speed: data.limits.speed, clearance: data.limits.close }[name];
+    if (limit) lines.push({ values: times.map(() => limit), colour: '--faint', width: 1.2, dash: [2, 4] });
+    return { times, lines, range: name === 'battery' ? [0, 100] : Flight.fromZero({ distance: 20, clearance: 20 }[name]) };
+  }, () => times[now], (moment) => { stop(); show(Flight.indexAt(times, moment)); });
+
+  // Another line-up: other common times, the slider back at 0.
+  function lineUp() {
+    const from = Math.min(...flights.map((flight, k) => flight.series.t[0] - start(k)));
+    const to = Math.max(...flights.map((flight, k) => flight.series.t[flight.series.t.length - 1] - start(k)));
+    // 0 is a step of its own, so that both are exactly where they are lined up.
+    const first = Math.floor(from / STEP), count = Math.ceil(to / STEP) - first + 1;
+    times = Array.from({ length: count }, (_, k) => (first + k) * STEP);
+    slider.max = String(count - 1);
+    curves.draw();
+    show(-first);
+  }
+
+  let t = 0;
+  const stop = Flight.player(byId('play'), () => {
+    if (now >= times.length - 1) show(0);
+    t = times[now];
+  }, (seconds) => {
+    t += seconds;
+    show(Flight.indexAt(times, t));
+    return t < times[times.length - 1];
+  });
+  slider.addEventListener('input', () => { stop(); show(Number(slider.value)); });
+  select.addEventListener('change', () => { stop(); lineUp(); });
+  Flight.whenColoursChange(() => curves.draw());
+  byId('run').hidden = false;
+  byId('readout').hidden = false;
+  document.body.classList.add('live');
+  lineUp();
+})();
