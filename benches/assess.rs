@@ -63,6 +63,7 @@ fn cue_latency(scenario: &Scenario, datagrams: &[Vec<u8>]) -> (Duration, Duratio
         scenario: scenario.clone(),
         vehicle: vehicle(),
         trainee: "bench".to_owned(),
+        purpose: None,
         started_unix_us: 0,
         system_id: 1,
         seed: None,

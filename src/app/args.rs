@@ -3,6 +3,7 @@
 use super::clock;
 use crate::scenario::Scenario;
 use crate::sitl::endpoint::flavour as endpoint;
+use crate::view::flow::pipe;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
 use std::str::FromStr;
 
@@ -64,6 +65,30 @@ impl Flavour {
     /// As arguments of a child process.
     pub fn to_args(self) -> Vec<String> {
         vec!["--flavour".to_owned(), self.spoken().name.to_owned()]
+    }
+}
+
+/// What a flight is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Purpose {
+    /// It may stand still and begin anew
+    Practice,
+    /// It is flown through
+    Assessment,
+}
+
+impl Purpose {
+    /// As the window and the session's files say it.
+    pub fn said(self) -> pipe::Purpose {
+        match self {
+            Self::Practice => pipe::Purpose::Practice,
+            Self::Assessment => pipe::Purpose::Assessment,
+        }
+    }
+
+    /// In a word.
+    pub fn word(self) -> &'static str {
+        self.said().word()
     }
 }
 

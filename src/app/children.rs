@@ -4,7 +4,7 @@
 use super::clock::Stopwatch;
 use super::errors::AppError;
 use serde_json::Value;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
 use std::process::{ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
@@ -82,6 +82,14 @@ impl Child {
     /// A further line of its results, if there is one by now.
     pub fn line(&self) -> Option<String> {
         self.lines.try_recv().ok()
+    }
+
+    /// Says a line to it. One that has ended, or that has been asked to finish, hears nothing: that is told elsewhere.
+    pub fn tell(&mut self, line: &str) {
+        let told = self.leash.as_mut().map(|leash| writeln!(leash, "{line}").and_then(|()| leash.flush()));
+        if let Some(Err(error)) = told {
+            tracing::debug!("the {} does not hear '{line}': {error}", self.name);
+        }
     }
 
     /// How it ended, if it has.

@@ -35,6 +35,7 @@ mod serial;
 mod session_folder;
 mod shell;
 mod sim;
+mod standstill;
 mod stop;
 mod store;
 mod table;

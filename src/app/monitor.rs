@@ -52,6 +52,9 @@ pub struct Args {
     /// Who flies: letters, digits, '-' and '_', at most 32
     #[arg(long, value_name = "ID", default_value = "anonymous")]
     trainee: TraineeId,
+    /// What the flight is for, as the session's file says it: practice or assessment [default: nothing is said]
+    #[arg(long, value_name = "PURPOSE")]
+    purpose: Option<args::Purpose>,
     /// Taken as by train and demo, and without effect: the monitor's clock is the telemetry's, at whatever speed it comes
     #[arg(long, value_name = "X|max")]
     speed: Option<Speed>,
@@ -138,10 +141,11 @@ impl Start {
     }
 
     fn open(&self, args: &Args) -> Result<(MonitorConfig, Monitor, SessionFolder), AppError> {
-        let config = |scenario: &ScenarioFile, vehicle: &VehicleFile, trainee: &str, started_unix_us| MonitorConfig {
+        let config = |scenario: &ScenarioFile, vehicle: &VehicleFile, trainee: &str, purpose, started_unix_us| MonitorConfig {
             scenario: scenario.scenario.clone(),
             vehicle: vehicle.vehicle.clone(),
             trainee: trainee.to_owned(),
+            purpose,
             started_unix_us,
             system_id: args.instance + 1,
             seed: args.job.seed,
@@ -152,12 +156,14 @@ impl Start {
                 let (scenario, vehicle) = files.as_ref();
                 let started_unix_us = clock::unix_us();
                 let folder = SessionFolder::create(&args.sessions, args.trainee.as_str(), started_unix_us, scenario, vehicle)?;
-                let config = config(scenario, vehicle, args.trainee.as_str(), started_unix_us);
+                let purpose = args.purpose.map(|purpose| purpose.word().to_owned());
+                let config = config(scenario, vehicle, args.trainee.as_str(), purpose, started_unix_us);
                 Ok((config.clone(), Monitor::new(config), folder))
             }
             Self::Again(path, stored) => {
                 let folder = SessionFolder::resume(path, stored)?;
-                let config = config(&stored.scenario, &stored.vehicle, &stored.trainee, stored.started_unix_us);
+                let purpose = stored.purpose.clone();
+                let config = config(&stored.scenario, &stored.vehicle, &stored.trainee, purpose, stored.started_unix_us);
                 Ok((config.clone(), Monitor::resume(config, &stored.log), folder))
             }
         }

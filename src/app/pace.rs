@@ -83,6 +83,11 @@ impl Pace {
         due.min(reached + STEP)
     }
 
+    /// Time stands still: what passes on the wall does not count, and no machine was too slow.
+    pub fn hold(&mut self, wall: Duration, reached: SimTime) {
+        (self.wall, self.sim) = (wall, reached);
+    }
+
     /// Wall time to sleep until `next` is due.
     pub fn sleep(&self, wall: Duration, next: SimTime) -> Duration {
         let Speed::Times(times) = self.speed else { return Duration::ZERO };
@@ -140,6 +145,15 @@ mod tests {
         assert_eq!(pace.target(Duration::from_secs(5), SimTime::ZERO), STEP);
         assert_eq!(pace.slipped(), Duration::from_secs(5));
         assert_eq!(pace.target(Duration::from_millis(5010), STEP), SimTime::from_ms(10));
+    }
+
+    #[test]
+    fn exact_time_that_stood_still_does_not_count() {
+        let mut pace = Pace::new(Speed::Times(2.0), Duration::ZERO);
+        assert_eq!(pace.target(Duration::from_millis(5), SimTime::ZERO), SimTime::from_ms(10));
+        pace.hold(Duration::from_secs(60), SimTime::from_ms(10));
+        assert_eq!(pace.target(Duration::from_millis(60_005), SimTime::from_ms(10)), SimTime::from_ms(20));
+        assert_eq!(pace.slipped(), Duration::ZERO);
     }
 
     #[test]

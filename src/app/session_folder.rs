@@ -36,6 +36,8 @@ pub struct Stored {
     pub log: Vec<u8>,
     /// Who flew.
     pub trainee: String,
+    /// What for, where somebody chose.
+    pub purpose: Option<String>,
     /// Wall time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Starts of the monitor so far.
@@ -195,6 +197,7 @@ impl Stored {
                 None => files::vehicle(&vehicle_path.display().to_string())?,
             },
             trainee: text("trainee").or_else(|| trainee_of(path, &scenario.scenario.name)).unwrap_or_default(),
+            purpose: text("purpose"),
             started_unix_us: number("started_unix_us").or_else(|| tlog::session_start_us(&log)).unwrap_or_default(),
             spandrel_version: text("spandrel_version").unwrap_or_default(),
             starts: u32::try_from(number("monitor_starts").unwrap_or_default()).unwrap_or(u32::MAX - 1),

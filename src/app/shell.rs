@@ -6,6 +6,7 @@ use super::heard::HeardFile;
 use super::links::{Change, Links};
 use super::pace::{PATIENCE, Pace, Patience, Speed};
 use super::params::ParamFile;
+use super::standstill::Standstill;
 use super::store::Store;
 use crate::base::time::SimTime;
 use crate::mav::signing::{Key, stamp};
@@ -18,6 +19,8 @@ use std::time::Duration;
 const LOOK: Duration = Duration::from_millis(100);
 /// Shortest sleep: ticks every millisecond would only keep the machine awake, and an arrival ends the sleep anyway.
 const REST: Duration = Duration::from_millis(2);
+/// Heartbeats while time stands still, of wall time: clients take a vehicle for lost after some 3 to 5 s.
+const BEAT: Duration = Duration::from_secs(1);
 
 /// What a vehicle keeps on disk.
 #[derive(Debug)]
@@ -50,6 +53,8 @@ pub struct Shell {
     store: Option<Store>,
     params: Option<ParamFile>,
     heard: Option<HeardFile>,
+    still: Standstill,
+    stands: Option<Duration>,
 }
 
 impl Shell {
@@ -81,7 +86,43 @@ impl Shell {
             core.recall_signing(&memory).map_err(|line| file.wrong(line))?;
         }
         let pace = Pace::new(speed, watch.elapsed());
-        Ok(Self { core, links, pace, watch, patience: Patience::default(), store, params, heard })
+        Ok(Self {
+            core,
+            links,
+            pace,
+            watch,
+            patience: Patience::default(),
+            store,
+            params,
+            heard,
+            still: Standstill::default(),
+            stands: None,
+        })
+    }
+
+    /// Time stands still whenever this says so.
+    pub fn obey(&mut self, still: Standstill) {
+        self.still = still;
+    }
+
+    /// Time stands still: heartbeats go out, and what comes in does nothing.
+    fn stand(&mut self) {
+        while let Some(change) = self.links.poll() {
+            if !matches!(change, Change::Bytes { .. }) {
+                self.apply(change);
+            }
+        }
+        self.links.forget_silent();
+        let wall = self.watch.elapsed();
+        if self.stands.is_none_or(|last| wall.saturating_sub(last) >= BEAT) {
+            self.core.stand_still(self.stands.is_none());
+            self.stands = Some(wall);
+        }
+        while let Some(datagram) = self.core.poll_transmit() {
+            self.links.send(datagram.link.0, datagram.bytes);
+        }
+        self.pace.hold(wall, self.core.now());
+        self.links.wait(LOOK);
     }
 
     /// Takes in what has come, lets time pass, sends what is due, rests.
@@ -89,6 +130,13 @@ impl Shell {
     /// # Errors
     /// When a peer in step is gone.
     pub fn turn(&mut self, end: SimTime) -> Result<(), AppError> {
+        if self.still.is_on() {
+            self.stand();
+            return Ok(());
+        }
+        if self.stands.take().is_some() {
+            self.core.run_again();
+        }
         while let Some(change) = self.links.poll() {
             self.apply(change);
         }

@@ -11,6 +11,7 @@ use super::params::ParamFile;
 use super::ports::PortArgs;
 use super::progress::Progress;
 use super::shell::{Kept, Shell, Signing};
+use super::standstill::Standstill;
 use super::stop::Stop;
 use super::store::Store;
 use crate::base::time::SimTime;
@@ -82,7 +83,7 @@ pub struct Args {
     /// Print one JSON line {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output first
     #[arg(long)]
     announce: bool,
-    /// Finish when standard input closes (for a parent process)
+    /// Finish when standard input closes (for a parent process); a line `pause` there stops time, `resume` lets it run again
     #[arg(long)]
     leash: bool,
 }
@@ -128,7 +129,8 @@ impl Trusted {
 /// # Errors
 /// When files or ports are wrong, or a lockstep peer vanishes.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let stop = Stop::install(args.leash)?;
+    let stop = Stop::install(false)?;
+    let still = if args.leash { Standstill::heed(&stop) } else { Standstill::default() };
     let scenario = Arc::new(files::scenario(&args.job.scenario)?.scenario);
     let vehicle = Arc::new(files::vehicle(&args.job.vehicle)?.vehicle);
     let seed = args.job.seed_for(&scenario);
@@ -157,9 +159,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
                 instance,
                 flavour: args.flavour.spoken(),
             };
-            Shell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())
+            let mut shell = Shell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())?;
+            shell.obey(still.clone());
+            Ok(shell)
         })
-        .collect::<Result<_, _>>()?;
+        .collect::<Result<_, AppError>>()?;
     let digests = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
     if args.digest {
         for digest in digests {

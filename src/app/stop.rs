@@ -1,9 +1,10 @@
 //! When to stop: on SIGINT or SIGTERM, or when the process that holds the leash ends. Runs look at the flag and finish cleanly.
 
 use super::errors::AppError;
-use std::io::Read;
+use std::io::{BufRead, Read};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, channel};
 
 /// A request to finish, shared by all threads of the process.
 #[derive(Debug, Clone, Default)]
@@ -33,6 +34,26 @@ impl Stop {
             });
         }
         Ok(stop)
+    }
+
+    /// Lines of standard input, from a parent process; their end asks to finish, as a leash does.
+    pub fn lines(&self) -> Receiver<String> {
+        let (sender, lines) = channel();
+        let on_end = self.clone();
+        std::thread::spawn(move || {
+            let mut stdin = std::io::stdin().lock();
+            let mut line = Vec::new();
+            // Bytes that are no text are a bad line, not the end of the parent.
+            while matches!(stdin.read_until(b'\n', &mut line), Ok(1..)) {
+                let text = String::from_utf8_lossy(&line).trim_end().to_owned();
+                line.clear();
+                if sender.send(text).is_err() {
+                    break;
+                }
+            }
+            on_end.ask();
+        });
+        lines
     }
 
     /// True once somebody has asked.

@@ -36,7 +36,7 @@ pub struct Args {
     /// Fly from the window: sticks and commands go to the vehicle's port for ground stations
     #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
     pub(super) fly: Option<SocketAddr>,
-    /// Which key does what (TOML: format = 1, push, [sticks], [actions], [window]); the same file as that of `spandrel rc --keyboard`
+    /// Which key does what (TOML: format = 1, push, [sticks], [actions], [window], [sound]); the same file as that of `spandrel rc --keyboard`
     #[arg(long, value_name = "FILE")]
     pub(super) keys: Option<PathBuf>,
     /// Which controller, by a part of its name or its id [default: the only one]
@@ -51,6 +51,9 @@ pub struct Args {
     /// Size of the window, px
     #[arg(long, value_name = "WxH", default_value = "1600x560")]
     pub(super) size: String,
+    /// Without sound; [sound] in the file of keys says what is played: propellers, warnings, speech, volume
+    #[arg(long)]
+    pub(super) no_sound: bool,
     /// Without the map of the reference paths, for an assessment: M does not bring it back
     #[arg(long)]
     pub(super) no_map: bool,
@@ -73,6 +76,9 @@ pub struct Args {
     /// Finish when standard input closes (for a parent process)
     #[arg(long)]
     pub(super) leash: bool,
+    /// Pages and flights as the parent process says them, a JSON line each on standard input; what is wished goes to standard output
+    #[arg(long, requires = "leash", hide = true)]
+    pub(super) led: bool,
 }
 
 /// Runs the subcommand.

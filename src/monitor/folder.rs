@@ -44,6 +44,9 @@ pub struct SessionInfo {
     pub vehicle_sha256: String,
     /// Seed, once heard.
     pub seed: Option<u64>,
+    /// Practice or assessment, where somebody chose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub purpose: Option<String>,
     /// Times that the monitor was started on this folder.
     pub monitor_starts: u32,
     /// The link, as far as this monitor saw it.

@@ -2,7 +2,7 @@
 
 use super::{Action, Sticks};
 use crate::base::time::SimTime;
-use crate::base::toml::{Problems, Reader};
+use crate::base::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
 
 /// How far a key pushes the stick (estimate: half, so that a beginner does not fly at full speed).
@@ -78,9 +78,15 @@ pub enum Wish {
     ZoomIn,
     /// The inspector sees wider.
     ZoomOut,
+    /// A practice stands still, or goes on.
+    Pause,
+    /// A practice begins anew, once that is confirmed.
+    Restart,
+    /// Sound on or off.
+    Sound,
 }
 
-const WISHES: [(&str, Wish, &str); 9] = [
+const WISHES: [(&str, Wish, &str); 12] = [
     ("swap", Wish::Swap, "tab"),
     ("map", Wish::Map, "m"),
     ("follow", Wish::Follow, "f"),
@@ -90,16 +96,40 @@ const WISHES: [(&str, Wish, &str); 9] = [
     ("look_down", Wish::LookDown, "k"),
     ("zoom_in", Wish::ZoomIn, "+"),
     ("zoom_out", Wish::ZoomOut, "-"),
+    ("pause", Wish::Pause, "escape"),
+    ("restart", Wish::Restart, "backspace"),
+    ("sound", Wish::Sound, "n"),
 ];
 
+/// What the window plays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sounds {
+    /// Propellers.
+    pub propellers: bool,
+    /// Tones for warnings.
+    pub warnings: bool,
+    /// Warnings in words.
+    pub speech: bool,
+    /// How loud, 0 to 1.
+    pub volume: f64,
+}
+
+impl Default for Sounds {
+    fn default() -> Self {
+        Self { propellers: true, warnings: true, speech: false, volume: 0.7 }
+    }
+}
+
 /// Which key does what. Keys by name: a letter, a digit, another sign, `up`, `down`, `left`, `right`, `space`, `enter`, `pageup`,
-/// `pagedown`, `tab`.
+/// `pagedown`, `tab`, `escape`, `backspace`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Keys {
     push: f64,
     pushes: BTreeMap<String, Push>,
     actions: BTreeMap<String, Action>,
     wishes: BTreeMap<String, Wish>,
+    /// What the window plays.
+    pub sounds: Sounds,
 }
 
 impl Default for Keys {
@@ -109,6 +139,7 @@ impl Default for Keys {
             pushes: PUSHES.iter().map(|(_, push, key)| ((*key).to_owned(), *push)).collect(),
             actions: KEYS.iter().map(|(action, key)| ((*key).to_owned(), *action)).collect(),
             wishes: WISHES.iter().map(|(_, wish, key)| ((*key).to_owned(), *wish)).collect(),
+            sounds: Sounds::default(),
         }
     }
 }
@@ -128,6 +159,7 @@ impl Keys {
                 pushes: BTreeMap::new(),
                 actions: BTreeMap::new(),
                 wishes: BTreeMap::new(),
+                sounds: Sounds::default(),
             };
             let mut taken: BTreeMap<String, &str> = BTreeMap::new();
             let mut s = r.section(&mut root, "sticks");
@@ -151,6 +183,7 @@ impl Keys {
                 keys.wishes.insert(key, wish);
             }
             r.finish(&s);
+            keys.sounds = sounds(&mut r, &mut root);
             r.finish(&root);
             keys
         });
@@ -189,13 +222,20 @@ impl Keys {
     }
 }
 
-fn own(
-    r: &mut Reader,
-    s: &crate::base::toml::Section,
-    name: &'static str,
-    key: &str,
-    taken: &mut BTreeMap<String, &'static str>,
-) {
+fn sounds(r: &mut Reader, root: &mut Section) -> Sounds {
+    let usual = Sounds::default();
+    let mut s = r.section(root, "sound");
+    let sounds = Sounds {
+        propellers: r.flag(&mut s, "propellers", usual.propellers),
+        warnings: r.flag(&mut s, "warnings", usual.warnings),
+        speech: r.flag(&mut s, "speech", usual.speech),
+        volume: r.number(&mut s, "volume", (0.0, 1.0), Some(usual.volume)),
+    };
+    r.finish(&s);
+    sounds
+}
+
+fn own(r: &mut Reader, s: &Section, name: &'static str, key: &str, taken: &mut BTreeMap<String, &'static str>) {
     if let Some(before) = taken.insert(key.to_owned(), name) {
         r.complain(s, name, key, "a key of its own", &format!("does {before} already"));
     }
@@ -298,6 +338,10 @@ mod tests {
         board.press("space", true, at(0.0));
         assert_eq!(board.sticks(at(0.0)).up, 1.0);
         assert_eq!((board.keys().of("up"), board.keys().of("lamp")), (Some("space"), Some("b")));
+        let quiet = Keys::read("keys.toml", "format = 1\n[sound]\nspeech = true\nvolume = 0.2\n").unwrap();
+        assert_eq!(quiet.sounds, Sounds { speech: true, volume: 0.2, ..Sounds::default() });
+        let told = Keys::read("keys.toml", "format = 1\n[sound]\nvolume = 7\nbells = true\n").unwrap_err().to_string();
+        assert!(told.contains("keys.toml:3") && told.contains("0 to 1") && told.contains("bells"), "{told}");
         assert_eq!((board.keys().wish("Tab"), board.keys().wish("w")), (Some(Wish::Swap), None));
         let told = Keys::read("keys.toml", "format = 1\n[sticks]\nup = \"b\"\n[actions]\nfly = \"f\"\n").unwrap_err().to_string();
         assert!(told.contains("does up already") && told.contains("fly"), "{told}");

@@ -68,6 +68,18 @@ impl StickMode {
         }
     }
 
+    /// Where the sticks of a person in this mode stand for these wishes: left up, left right, right up, right right.
+    #[must_use]
+    pub fn hands(self, sticks: Sticks) -> [f64; 4] {
+        let Sticks { forward, right, up, yaw } = sticks;
+        match self {
+            Self::One => [forward, yaw, up, right],
+            Self::Two => [up, yaw, forward, right],
+            Self::Three => [forward, right, up, yaw],
+            Self::Four => [up, right, forward, yaw],
+        }
+    }
+
     /// The sticks' directions as wishes: each is a wish of its own, so modes are permutations.
     #[must_use]
     pub fn sticks(self, read: impl Fn(Way) -> f64) -> Sticks {
@@ -245,6 +257,9 @@ mod tests {
         assert_eq!(flown(StickMode::Three), Sticks { forward: 1.0, right: -1.0, up: -1.0, yaw: 1.0 });
         assert_eq!(flown(StickMode::Four), Sticks { up: 1.0, right: -1.0, forward: -1.0, yaw: 1.0 });
         assert_eq!(profile().sticks(&Raw::default()), Sticks::default(), "nothing heard, nothing asked");
+        for mode in [StickMode::One, StickMode::Two, StickMode::Three, StickMode::Four] {
+            assert_eq!(mode.hands(flown(mode)), [1.0, -1.0, -1.0, 1.0], "hands stand where they push");
+        }
     }
 
     #[test]

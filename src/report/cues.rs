@@ -100,6 +100,7 @@ fn events(log: &[u8], scene: &Scene<'_>) -> Vec<(f64, serde_json::Value)> {
         scenario: scene.scenario.clone(),
         vehicle: scene.vehicle.clone(),
         trainee: String::new(),
+        purpose: None,
         started_unix_us: 0,
         system_id: 1,
         seed: None,

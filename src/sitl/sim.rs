@@ -19,6 +19,7 @@ use super::physics::{self, Actuators, Air, Model};
 use super::sensors::{Readings, Sensors};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::{Schedule, SimTime};
+use crate::mav::dialect::MavSeverity;
 use crate::scenario::Scenario;
 use crate::site::Site;
 use crate::site::gates::Gates;
@@ -385,6 +386,22 @@ impl Sim {
         let view = view!(self, &estimate, &status, autopilot.tuning.fence_enabled);
         self.endpoint.boot(&view, autopilot);
         self.keep_pace();
+    }
+
+    /// Time stands still, and clients hear that the vehicle is there: a heartbeat on every link, and at the beginning a word. Call it once
+    /// a second of wall time; nothing else of the vehicle changes.
+    pub fn stand_still(&mut self, begins: bool) {
+        if begins {
+            self.endpoint.tell(MavSeverity::MAV_SEVERITY_INFO, "Time stands still");
+        }
+        let Backend::Builtin(autopilot) = &mut self.backend;
+        let view = view!(self, autopilot.estimate(), autopilot.status(), autopilot.tuning.fence_enabled);
+        self.endpoint.beat(&view);
+    }
+
+    /// Time runs again; clients are told with the next tick.
+    pub fn run_again(&mut self) {
+        self.endpoint.tell(MavSeverity::MAV_SEVERITY_INFO, "Time runs again");
     }
 
     fn speak(&mut self) {

@@ -2,13 +2,14 @@
 //! card is plain data and pure functions; only `gpu` (feature `view`) knows a device.
 //!
 //! [`scene`] turns a [`Site`](crate::site::Site) into meshes once and into what moves for every picture; [`camera`] says from where and how
-//! bright; [`hud`] lays the head-up display out; [`live`] hears a flight and says what to draw now; [`shaders`] holds the sources of the shaders.
+//! bright; [`hud`] lays the head-up display out; [`flow`] leads from a choice to a flight and its scores; [`live`] hears a flight and says what to draw now; [`sound`] is what is heard of it; [`shaders`] holds the sources of the shaders.
 
 pub mod arrange;
 pub mod camera;
 pub mod cells;
 pub mod exposure;
 pub mod feed;
+pub mod flow;
 pub mod gaze;
 #[cfg(feature = "view")]
 pub mod gpu;
@@ -27,6 +28,7 @@ pub mod shaders;
 pub mod shadows;
 pub mod shot;
 pub mod sky;
+pub mod sound;
 pub mod stage;
 #[cfg(feature = "view")]
 pub mod video;

@@ -6,7 +6,7 @@
 mod station;
 
 use spandrel::base::time::SimTime;
-use spandrel::mav::codec::Encoder;
+use spandrel::mav::codec::{Decoder, Encoder};
 use spandrel::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
 use spandrel::sitl::sim::{Sim, SimEvent};
 use station::{GCS, Station};
@@ -61,6 +61,42 @@ fn fly(sim: &mut Sim, inputs: &Inputs, end: SimTime, mut look: impl FnMut(&SimEv
 
 fn hex(sim: &Sim) -> String {
     sim.digest().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Time that stands still changes nothing of the flight, and the vehicle is heard all the while: a heartbeat a call on the link, at the
+/// beginning a word, no truth.
+#[test]
+fn flight_a_pause_changes_no_bit_and_heartbeats_go_on() {
+    let start = Station::airborne("drill-hover", SEED).sim;
+    let end = start.now() + SimTime::from_ms(3_000);
+    let sticks = MANUAL_CONTROL_DATA { target: 1, x: 300, y: -200, z: 600, ..Default::default() };
+    let mut encoder = Encoder::new(255, 190);
+    let inputs: Inputs = (0..60)
+        .map(|k| (start.now() + SimTime::from_ms(50 * k), encoder.encode(&MavMessage::MANUAL_CONTROL(sticks.clone()))))
+        .collect();
+    let mut through = start.clone();
+    fly(&mut through, &inputs, end, |_, _| {});
+    let mut paused = start;
+    let (middle, (first, second)) = (inputs[30].0, inputs.split_at(30));
+    fly(&mut paused, &first.to_vec(), middle, |_, _| {});
+    let mut messages = Vec::new();
+    for k in 0..100 {
+        paused.stand_still(k == 0);
+        let bytes: Vec<u8> =
+            std::iter::from_fn(|| paused.poll_transmit()).filter(|t| t.link == GCS).flat_map(|t| t.bytes).collect();
+        messages
+            .extend(Decoder::new().datagram(&bytes).into_iter().filter_map(|frame| Some((frame.component_id, frame.message?))));
+    }
+    assert_eq!(paused.now(), middle);
+    let beats = |component: u8| messages.iter().filter(|(c, m)| *c == component && matches!(m, MavMessage::HEARTBEAT(_))).count();
+    assert_eq!((beats(1), beats(100)), (100, 100), "autopilot and camera");
+    let words =
+        messages.iter().filter(|(_, m)| matches!(m, MavMessage::STATUSTEXT(t) if t.text.to_str() == Ok("Time stands still")));
+    assert_eq!(words.count(), 1);
+    assert!(messages.iter().all(|(_, m)| matches!(m, MavMessage::HEARTBEAT(_) | MavMessage::STATUSTEXT(_))), "{messages:?}");
+    paused.run_again();
+    fly(&mut paused, &second.to_vec(), end, |_, _| {});
+    assert_eq!(hex(&paused), hex(&through));
 }
 
 #[test]

@@ -62,7 +62,7 @@ const OUTSIDE: &[&[&str]] = &[
     &["jiff", "Zoned", "now"],
 ];
 /// What of these rooms of `std` is plain data: no clock, no socket.
-const PLAIN_DATA: &[&[&str]] = &[&["std", "time", "Duration"], &["std", "net", "IpAddr"]];
+const PLAIN_DATA: &[&[&str]] = &[&["std", "time", "Duration"], &["std", "net", "IpAddr"], &["std", "net", "SocketAddr"]];
 /// What the autopilot may name of physics: what it drives, not what is true.
 const ACTUATION: &[&str] = &["Actuators", "MAX_ROTORS"];
 const ROOTS: &[&str] = &[

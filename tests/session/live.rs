@@ -19,6 +19,7 @@ fn config(scenario: Scenario) -> MonitorConfig {
         scenario,
         vehicle: vehicle(),
         trainee: "tester".to_owned(),
+        purpose: None,
         started_unix_us: START_US,
         system_id: 1,
         seed: None,

@@ -66,9 +66,14 @@ impl Hand {
                 profiles.path(&device).display()
             ))
         })?;
-        tracing::info!("flying with '{}', stick mode {}", device.name, profile.mode.number());
         let log = record.map(|path| Log::begin(path, &device)).transpose()?;
-        Ok(Self { source, profile, raw: Raw::default(), log })
+        Ok(Self { log, ..Self::with(source, profile) })
+    }
+
+    /// Takes a source and what is known of its device.
+    pub fn with(source: Source, profile: Profile) -> Self {
+        tracing::info!("flying with '{}', stick mode {}", profile.device.name, profile.mode.number());
+        Self { source, profile, raw: Raw::default(), log: None }
     }
 
     /// Takes what the device has reported, and does what its buttons say. A record is played by `flown`, the time since the vehicle was
@@ -93,5 +98,29 @@ impl Hand {
             }
         }
         Ok(Look { sticks: (!self.raw.lost).then(|| self.profile.sticks(&self.raw)), over: self.source.is_over() })
+    }
+}
+
+/// What the window needs besides, where the controller is tried and calibrated.
+#[cfg(feature = "view")]
+impl Hand {
+    /// What is known of the device.
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// The device is read by another profile from now on.
+    pub fn set(&mut self, profile: Profile) {
+        self.profile = profile;
+    }
+
+    /// Where everything stands.
+    pub fn raw(&self) -> &Raw {
+        &self.raw
+    }
+
+    /// The device, without its meaning.
+    pub fn let_go(self) -> Source {
+        self.source
     }
 }

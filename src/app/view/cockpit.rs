@@ -1,13 +1,20 @@
-//! The window and what stands behind it: a thread that listens, a thread that builds the scene, a thread that flies, and the loop that draws.
+//! The window and what stands behind it: a thread that listens, a thread that builds the scene, a thread that flies, the pipe to whoever
+//! leads it, and the loop that draws.
 
+mod desk;
+mod flight;
+mod frame;
 mod keeper;
 mod keys;
+mod lead;
 mod listener;
 mod panes;
 mod pilot;
 mod screen;
+mod sound;
 mod stream;
 mod window;
+mod words;
 
 use super::Args;
 use crate::app::controller;
@@ -15,11 +22,14 @@ use crate::app::errors::AppError;
 use crate::app::files;
 use crate::app::render::size;
 use crate::app::stop::Stop;
-use listener::Listener;
-use pilot::Pilot;
+use crate::view::flow::Flow;
+use flight::Flight;
+use lead::Lead;
+use pilot::{Ask, Pilot};
+use sound::Speaker;
 use std::time::Duration;
 use stream::Stream;
-use window::Cockpit;
+use window::{Cockpit, Crew};
 
 /// Longest time to the picture that can be asked for, s.
 const AFTER_MAX_S: f64 = 3_600.0;
@@ -30,20 +40,34 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
     let keys = controller::keys(args.keys.as_deref())?;
     let plan = window::Plan {
+        listen: args.listen,
         quality: window::quality(&args.quality)?,
         size_px: size(&args.size)?,
         map: !args.no_map,
-        seed: args.job.seed,
         picture: picture(args)?,
         keep: args.picture.clone(),
-        announce: args.announce,
+        // Led, its standard output belongs to the pipe.
+        announce: args.announce && !args.led,
     };
-    let stop = Stop::install(args.leash)?;
+    let stop = Stop::install(args.leash && !args.led)?;
     be_nice();
-    let listener = Listener::dial(args.listen, args.connect, &scenario)?;
-    let pilot = args.fly.map(|vehicle| Pilot::start(args, vehicle, keys.clone())).transpose()?;
     let stream = args.stream.map(Stream::open).transpose()?;
-    Cockpit::new(plan, (scenario, vehicle), keys, (listener, pilot, stream), stop).run()
+    let mut crew = Crew { pilot: None, lead: None, flight: None, stream };
+    if args.led || args.fly.is_some() {
+        crew.pilot = Some(Pilot::start(args, keys.clone())?);
+    }
+    let flow = if args.led {
+        crew.lead = Some(Lead::listen(&stop));
+        Flow::new(!args.no_sound)
+    } else {
+        crew.flight = Some(Flight::begin(args.listen, args.connect, (scenario, vehicle), args.job.seed)?);
+        Flow::watching(!args.no_sound)
+    };
+    if let (Some(pilot), Some(vehicle)) = (&crew.pilot, args.fly) {
+        pilot.ask(Ask::Fly(vehicle));
+    }
+    let speaker = Speaker::new(keys.sounds, !args.no_sound);
+    Cockpit::new(plan, keys, flow, crew, speaker, stop).run()
 }
 
 fn picture(args: &Args) -> Result<Option<window::Picture>, AppError> {

@@ -68,6 +68,7 @@ fn take(state: &State, asked: &Asked) -> Result<PathBuf, Refusal> {
         scenario: scenario.scenario.clone(),
         vehicle: vehicle.vehicle.clone(),
         trainee: trainee.as_str().to_owned(),
+        purpose: None,
         started_unix_us,
         system_id: 1,
         seed: None,

@@ -62,6 +62,8 @@ pub struct MonitorConfig {
     pub vehicle: Vehicle,
     /// Who flies.
     pub trainee: String,
+    /// What for, where somebody chose: practice or assessment.
+    pub purpose: Option<String>,
     /// Wall time of simulation time zero, µs since the Unix epoch; on a restart that of the first start.
     pub started_unix_us: u64,
     /// System id until the vehicle has been heard: 1 + instance.
@@ -306,6 +308,7 @@ impl Monitor {
             vehicle: self.config.vehicle.id.clone(),
             vehicle_sha256: super::folder::sha256_hex(vehicle_toml),
             seed: self.seed,
+            purpose: self.config.purpose.clone(),
             monitor_starts,
             link: self.link(),
             bad_bytes: self.decoder.bad_bytes(),

@@ -7,6 +7,9 @@ use super::{Endpoint, LinkId, commands, ftp, items, mission};
 use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity};
 use crate::sitl::autopilot::{Event, Severity};
 
+/// HEARTBEAT's number.
+const HEARTBEAT: u32 = 0;
+
 impl Endpoint {
     /// What is due now goes out.
     pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
@@ -43,6 +46,20 @@ impl Endpoint {
         if let Some((peer, message)) = self.plans.remind(view.now) {
             self.send_to(peer, &message);
         }
+    }
+
+    /// Heartbeats and texts alone: time stands still.
+    pub fn beat(&mut self, view: &View) {
+        let view = &view.with(&self.payload);
+        for link in self.links.values_mut() {
+            let view = &view.towards(link.kind);
+            for (_, row) in streams::rows_of(HEARTBEAT) {
+                if let Some(message) = (row.build)(view) {
+                    link.send(row.component, &message);
+                }
+            }
+        }
+        self.say_texts();
     }
 
     /// The flavour's number of the mode that is flown. One that the fence has changed to nobody chose: what flies errands as they come does

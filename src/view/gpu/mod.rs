@@ -9,5 +9,5 @@ mod targets;
 mod uniforms;
 
 pub use device::{Gpu, GpuError};
-pub use overlay::{Overlay, paint};
+pub use overlay::{Overlay, Pictures, paint, paint_sheet};
 pub use renderer::{Counts, Renderer, picture_texture, read};

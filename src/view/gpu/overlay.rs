@@ -2,8 +2,10 @@
 
 use super::device::Gpu;
 use super::pipelines::PICTURE;
+use crate::view::flow::{PICTURES, Sheet};
 use crate::view::hud::{Item, Point, Side};
 use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke};
+use std::collections::BTreeMap;
 
 /// Text and shapes over pictures.
 pub struct Overlay {
@@ -68,6 +70,47 @@ impl Overlay {
     }
 }
 
+/// The pictures of pages, as textures of one context.
+#[derive(Default)]
+pub struct Pictures(BTreeMap<&'static str, egui::TextureHandle>);
+
+impl Pictures {
+    /// A picture by its name; decoded when it is first wanted. One that cannot be decoded is left out.
+    fn of(&mut self, context: &egui::Context, name: &'static str) -> Option<egui::TextureId> {
+        if !self.0.contains_key(name) {
+            let (_, bytes) = PICTURES.iter().find(|known| known.0 == name)?;
+            let texture = context.load_texture(name, decoded(bytes)?, egui::TextureOptions::LINEAR);
+            self.0.insert(name, texture);
+        }
+        self.0.get(name).map(egui::TextureHandle::id)
+    }
+}
+
+/// A JPEG as egui takes it.
+fn decoded(bytes: &[u8]) -> Option<egui::ColorImage> {
+    let mut decoder = zune_jpeg::JpegDecoder::new(zune_jpeg::zune_core::bytestream::ZCursor::new(bytes));
+    let pixels = decoder.decode().ok()?;
+    let (width, height) = decoder.dimensions()?;
+    (pixels.len() == 3 * width * height).then(|| egui::ColorImage::from_rgb([width, height], &pixels))
+}
+
+/// Paints a page over a rectangle.
+pub fn paint_sheet(painter: &egui::Painter, sheet: &Sheet, rect: Rect, pictures: &mut Pictures) {
+    // The ground of a page lies below its pictures.
+    let ground = usize::from(matches!(sheet.items.first(), Some(Item::Fill { points, .. }) if points.len() == 4));
+    let (ground, items) = sheet.items.split_at(ground.min(sheet.items.len()));
+    paint(painter, ground, rect);
+    let size = rect.size();
+    let px = |p: &Point| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
+    let whole = Rect::from_min_max(Pos2::ZERO, egui::pos2(1.0, 1.0));
+    for picture in &sheet.pictures {
+        if let Some(texture) = pictures.of(painter.ctx(), picture.name) {
+            painter.image(texture, Rect::from_min_max(px(&picture.from), px(&picture.to)), whole, Color32::WHITE);
+        }
+    }
+    paint(painter, items, rect);
+}
+
 /// Paints items over the picture that fills a rectangle.
 pub fn paint(painter: &egui::Painter, items: &[Item], rect: Rect) {
     for item in items {
@@ -101,5 +144,19 @@ fn paint_one(painter: &egui::Painter, item: &Item, rect: Rect) {
             let stroke = Stroke::new((*width as f32 * size.y).max(1.0), colour(*ink));
             painter.add(Shape::line(points.iter().map(px).collect(), stroke));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_picture_of_the_tutorial_can_be_decoded() {
+        for (name, bytes) in PICTURES {
+            let picture = decoded(bytes).unwrap_or_else(|| panic!("{name}"));
+            assert!(picture.width() >= 400 && picture.height() >= 150, "{name}: {:?}", picture.size);
+        }
+        assert!(decoded(b"no picture").is_none());
     }
 }

@@ -47,6 +47,12 @@ pub enum Colour {
     Orange,
     /// Outlines of symbols.
     Black,
+    /// The ground of a page.
+    Night,
+    /// A field on it.
+    Card,
+    /// The field that the keys act on.
+    Focus,
 }
 
 impl Colour {
@@ -63,6 +69,9 @@ impl Colour {
             Self::Blue => [86, 180, 233, 255],
             Self::Orange => [240, 150, 20, 255],
             Self::Black => [0, 0, 0, 255],
+            Self::Night => [20, 24, 30, 255],
+            Self::Card => [42, 49, 60, 255],
+            Self::Focus => [20, 92, 140, 255],
         }
     }
 }

@@ -75,6 +75,8 @@ pub struct Hud {
 
 /// Bits of the wire's `cues`.
 pub mod cue {
+    /// Battery is red and flashes.
+    pub const BATTERY_RED: i32 = 1 << 1;
     /// Too fast.
     pub const SPEEDING: i32 = 1 << 2;
     /// Off the path, but near it.

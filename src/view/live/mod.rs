@@ -40,6 +40,10 @@ const ASK_EVERY: SimTime = SimTime::from_ms(5_000);
 /// What is drawn instead of the truth, by message number and rate, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
 /// GIMBAL_DEVICE_ATTITUDE_STATUS.
 const INSTEAD: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
+/// SERVO_OUTPUT_RAW, asked for at this rate, Hz: the rotors are heard (a tenth of a second is a person's limit for sound and picture).
+const ROTORS: (u32, f32) = (36, 20.0);
+/// Pulses of outputs that are at rest and full, µs (SERVO_OUTPUT_RAW).
+const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
 /// A clock that goes back by more is a restarted simulator, once so many samples in a row say so.
 const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
 const RESTART_CONFIRM: u32 = 3;
@@ -57,6 +61,8 @@ pub struct Live {
     system: Option<u8>,
     seed: Option<u64>,
     scenario_crc: Option<u32>,
+    /// When the rotors' outputs are asked for next; none: nobody hears them.
+    next_rotors: Option<SimTime>,
     spoken: bool,
     estimate: Estimate,
     backwards: u32,
@@ -101,6 +107,8 @@ struct State {
     trace: Trace,
     lamp: bool,
     armed: bool,
+    /// Outputs of the rotors, 0 to 1; none while they stand.
+    outputs: Option<[f64; 4]>,
     battery_pct: Option<f64>,
     field_of_view_rad: Option<f64>,
     begun: Option<SimTime>,
@@ -135,6 +143,7 @@ impl Live {
             system: None,
             seed: None,
             scenario_crc: None,
+            next_rotors: None,
             spoken: false,
             estimate: Estimate::default(),
             backwards: 0,
@@ -194,6 +203,13 @@ impl Live {
         let now = self.state.trace.newest().unwrap_or_default();
         if Feed::listens(frame.message_id) {
             self.state.feed.take(frame, now);
+        }
+        if let Some(MavMessage::SERVO_OUTPUT_RAW(servos)) = &frame.message {
+            self.next_rotors = self.next_rotors.map(|_| wall + ASK_EVERY);
+            let pulses = [servos.servo1_raw, servos.servo2_raw, servos.servo3_raw, servos.servo4_raw].map(f64::from);
+            let turn = pulses.iter().any(|pulse| *pulse >= PULSE_US.0);
+            self.state.outputs =
+                turn.then(|| pulses.map(|pulse| ((pulse - PULSE_US.0) / (PULSE_US.1 - PULSE_US.0)).clamp(0.0, 1.0)));
         }
         if !self.spoken
             && let Some(truth) = frame.message.as_ref().and_then(|message| self.estimate.take(message, &self.plane))
@@ -278,16 +294,33 @@ impl Live {
                 self.say(&video.status());
             }
         }
+        if let (Some(system), Some(due)) = (self.system, self.next_rotors)
+            && wall >= due
+        {
+            self.next_rotors = Some(wall + ASK_EVERY);
+            self.say(&every(system, ROTORS));
+        }
         if let (Some(system), false, Some(due)) = (self.system, self.spoken, self.next_ask)
             && wall >= due
         {
             self.next_ask = Some(wall + ASK_EVERY);
-            for (id, rate_hz) in INSTEAD {
-                let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
-                let ask = station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
-                self.say(&MavMessage::COMMAND_LONG(ask));
+            for wanted in INSTEAD {
+                self.say(&every(system, wanted));
             }
         }
+    }
+
+    /// The rotors are heard from now on: their outputs are asked for, and again when they fall silent.
+    pub fn hear_rotors(&mut self) {
+        self.next_rotors.get_or_insert(SimTime::ZERO);
+    }
+
+    /// How fast the rotors turn by what the autopilot puts out, rad/s; empty while they stand or nobody says.
+    #[must_use]
+    pub fn rotors_rad_s(&self, vehicle: &Vehicle) -> Vec<f64> {
+        let (idle, full) = (vehicle.rotor.idle_speed_rad_s, vehicle.rotor.max_speed_rad_s);
+        let outputs = self.state.outputs.filter(|_| self.state.armed);
+        outputs.map_or(Vec::new(), |outputs| outputs.map(|output| idle + output * (full - idle)).to_vec())
     }
 
     fn say(&mut self, message: &MavMessage) {
@@ -323,6 +356,12 @@ impl Live {
         };
         Some(Now { moment, told, gates: state.gates.clone() })
     }
+}
+
+/// The question for a message at a rate, Hz.
+fn every(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
+    let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
+    MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))
 }
 
 #[cfg(test)]

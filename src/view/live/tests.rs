@@ -1,7 +1,7 @@
 use super::*;
 use crate::mav::dialect::{
     ATTITUDE_DATA, CAMERA_IMAGE_CAPTURED_DATA, GLOBAL_POSITION_INT_DATA, HIL_STATE_QUATERNION_DATA, ILLUMINATOR_STATUS_DATA,
-    MavBool, MavModeFlag, NAMED_VALUE_INT_DATA,
+    MavBool, MavModeFlag, NAMED_VALUE_INT_DATA, SERVO_OUTPUT_RAW_DATA,
 };
 
 const SCENARIO: &str = include_str!("../../../scenarios/two-bridges.toml");
@@ -134,6 +134,42 @@ fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
     let now = wire.now(4_200).expect("it is drawn");
     assert!((now.moment.drone.position_m.east() - 3.0).abs() < WIRE_M && !wire.live.is_estimated());
     assert_eq!(said(&mut wire, 20_000), 0);
+}
+
+#[test]
+fn exact_rotors_are_asked_for_where_they_are_heard_and_turn_by_their_outputs() {
+    let mut wire = Wire::new();
+    let armed = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, ..Default::default() };
+    wire.say(&MavMessage::HEARTBEAT(armed), 0);
+    let asked = |wire: &mut Wire, ms: i64| {
+        wire.live.handle_timeout(SimTime::from_ms(ms));
+        let bytes: Vec<u8> = std::iter::from_fn(|| wire.live.poll_transmit()).flatten().collect();
+        let frames = Decoder::new().datagram(&bytes);
+        frames.iter().any(|f| matches!(&f.message, Some(MavMessage::COMMAND_LONG(c)) if c.param1 == 36.0))
+    };
+    assert!(!asked(&mut wire, 100), "nobody hears them");
+    wire.live.hear_rotors();
+    assert!(asked(&mut wire, 200) && !asked(&mut wire, 1_000) && asked(&mut wire, 5_300), "until they are told");
+    let mut say = |pulse: u16, wall_ms: i64| {
+        let servos = SERVO_OUTPUT_RAW_DATA {
+            servo1_raw: pulse,
+            servo2_raw: 1_500,
+            servo3_raw: 900,
+            servo4_raw: 2_100,
+            ..Default::default()
+        };
+        wire.say(&MavMessage::SERVO_OUTPUT_RAW(servos), wall_ms);
+    };
+    say(1_000, 6_000);
+    let rotor = wire.aircraft.rotor;
+    let half = 0.5 * (rotor.idle_speed_rad_s + rotor.max_speed_rad_s);
+    let idle = rotor.idle_speed_rad_s;
+    assert_eq!(wire.live.rotors_rad_s(&wire.aircraft), [idle, half, idle, rotor.max_speed_rad_s], "within their range");
+    wire.say(
+        &MavMessage::HEARTBEAT(HEARTBEAT_DATA { base_mode: MavModeFlag::empty(), mavlink_version: 3, ..Default::default() }),
+        6_100,
+    );
+    assert!(wire.live.rotors_rad_s(&wire.aircraft).is_empty(), "disarmed they stand");
 }
 
 #[test]

@@ -1,8 +1,27 @@
 //! Keys of the window by the names that files of keys use.
 
+use crate::view::flow::Press;
 use std::collections::BTreeMap;
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key, NamedKey, PhysicalKey};
+
+/// What a key does on a page; held keys repeat.
+pub fn press(event: &KeyEvent) -> Option<Press> {
+    if event.state != ElementState::Pressed {
+        return None;
+    }
+    Some(match &event.logical_key {
+        Key::Named(NamedKey::ArrowUp) => Press::Up,
+        Key::Named(NamedKey::ArrowDown | NamedKey::Tab) => Press::Down,
+        Key::Named(NamedKey::ArrowLeft) => Press::Left,
+        Key::Named(NamedKey::ArrowRight) => Press::Right,
+        Key::Named(NamedKey::Enter) => Press::Enter,
+        Key::Named(NamedKey::Escape) => Press::Escape,
+        Key::Named(NamedKey::Backspace) => Press::Backspace,
+        Key::Character(signs) => Press::Sign(signs.chars().next()?),
+        _ => return None,
+    })
+}
 
 /// A key that changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -59,6 +78,8 @@ fn name(key: &Key) -> Option<String> {
         Key::Named(NamedKey::PageUp) => "pageup".to_owned(),
         Key::Named(NamedKey::PageDown) => "pagedown".to_owned(),
         Key::Named(NamedKey::Tab) => "tab".to_owned(),
+        Key::Named(NamedKey::Escape) => "escape".to_owned(),
+        Key::Named(NamedKey::Backspace) => "backspace".to_owned(),
         _ => return None,
     })
 }

@@ -32,8 +32,8 @@ impl Listener {
         let listener = Self { live: Arc::new(Mutex::new(Live::new(scenario))), watch: Stopwatch::start(), vehicle };
         let heard = listener.clone();
         std::thread::spawn(move || {
-            // Ends with the process: whoever draws holds the window, and the window is the process.
-            loop {
+            // Ends when nobody but this thread holds what is heard.
+            while Arc::strong_count(&heard.live) > 1 {
                 let arrival = hub.next(WAIT);
                 let wall = heard.wall();
                 let mut live = heard.live();

@@ -81,6 +81,11 @@ impl Panes {
         now.moment.drone.position_m - self.job.scenario.ground_team.inspector_m
     }
 
+    /// Gives back what it holds of the window's painter.
+    pub fn close(self, screen: &mut Screen) {
+        self.panes.values().for_each(|pane| screen.painter.free_texture(&pane.id));
+    }
+
     /// Draws both views.
     pub fn draw(&mut self, screen: &mut Screen, places: &[Place], now: &Now, feed: &Feed, gaze: &Gaze, map: bool) -> Vec<Shown> {
         if self.job.site.traffic().gates() != &now.gates {

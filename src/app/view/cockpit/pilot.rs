@@ -1,144 +1,219 @@
 //! Flying from the window, in a thread of its own: sticks go out fifty times a second, however long a picture takes.
 
 use super::super::Args;
+use super::desk::Desk;
 use crate::app::clock::Stopwatch;
-use crate::app::controller::{Hand, Profiles, Source};
+use crate::app::controller::Profiles;
 use crate::app::errors::AppError;
 use crate::app::net::{Arrival, Hub, SocketId};
 use crate::base::time::SimTime;
 use crate::rc::keyboard::{Keyboard, Keys};
 use crate::rc::link::Link;
 use crate::rc::{Action, Sticks};
+use crate::view::flow::Controls;
 use std::net::SocketAddr;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Longest wait for a datagram: a quarter of the time between two stick samples.
 const WAIT: Duration = Duration::from_millis(5);
+/// On the ground, how the controller stands is shown this often (a tenth of a person's reaction; estimate).
+const SHOW: SimTime = SimTime::from_ms(30);
 
-/// What happens to keys of the window.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Press {
-    /// Down.
+/// What the window asks of the pilot.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ask {
+    /// A key went down.
     Down(String),
-    /// Up.
+    /// A key came up.
     Up(String),
-    /// The window lost the focus: all are up.
+    /// The window lost the focus, or shows a page: all keys are up.
     LetGo,
+    /// Dial this vehicle's port for ground stations.
+    Fly(SocketAddr),
+    /// Let go of the vehicle.
+    Land,
+    /// Look for a controller again.
+    Look,
+    /// Calibrate it.
+    Calibrate,
+    /// The wizard's Enter.
+    Confirm,
+    /// Leave the wizard.
+    Cancel,
+    /// Stick mode, dead band, expo.
+    Profile(i64, f64, f64),
 }
 
 /// The window's end of the pilot.
 #[derive(Debug)]
 pub struct Pilot {
-    presses: Sender<Press>,
+    asks: Sender<Ask>,
     told: Receiver<String>,
+    controls: Arc<Mutex<Controls>>,
 }
 
 impl Pilot {
-    /// Dials the vehicle's port for ground stations. Without a controller the keyboard flies; why there is none is told once.
+    /// Sits down. Without a controller the keyboard flies; why there is none is told once.
     ///
     /// # Errors
     /// When no socket can be opened, or a file is wrong.
-    pub fn start(args: &Args, vehicle: SocketAddr, keys: Keys) -> Result<Self, AppError> {
+    pub fn start(args: &Args, keys: Keys) -> Result<Self, AppError> {
         let mut hub = Hub::new();
         let socket = hub.bind(args.listen, 0, "--listen")?;
         let profiles = Profiles::at(args.profiles.clone())?;
         let device = args.device.clone();
-        let (presses, pressed) = channel();
+        let (asks, asked) = channel();
         let (teller, told) = channel();
+        let controls = Arc::new(Mutex::new(Controls::default()));
+        let shown = controls.clone();
         std::thread::spawn(move || {
             // A device is opened where it is used: some systems' devices may not change threads.
-            let hand = Source::device(device.as_deref()).and_then(|source| Hand::take(source, &profiles, None, None));
-            let hand = hand
-                .inspect_err(|error| tracing::info!("no controller: {error}; the window's keys fly"))
-                .map_err(|error| teller.send(format!("No controller: {error}. Keys fly.")))
-                .ok();
-            let mut seat = Seat { hub, socket, vehicle, link: Link::default(), board: Keyboard::new(keys), hand, touched: false };
-            seat.fly(&pressed, &teller);
+            let desk = Desk::new(device, profiles);
+            if !desk.flies() {
+                tracing::info!("{} The window's keys fly.", desk.note());
+            }
+            let words = keys.explain();
+            let board = Keyboard::new(keys);
+            let mut seat = Seat {
+                hub,
+                socket,
+                vehicle: None,
+                link: Link::default(),
+                board,
+                desk,
+                touched: false,
+                shown,
+                words,
+                next: SimTime::ZERO,
+            };
+            seat.fly(&asked, &teller);
         });
-        Ok(Self { presses, told })
+        Ok(Self { asks, told, controls })
     }
 
-    /// Hands a key on.
-    pub fn press(&self, press: Press) {
+    /// Asks for something.
+    pub fn ask(&self, ask: Ask) {
         // The thread lives as long as the window.
-        let _ = self.presses.send(press);
+        let _ = self.asks.send(ask);
     }
 
     /// The next thing to tell the person.
     pub fn poll_told(&self) -> Option<String> {
         self.told.try_recv().ok()
     }
+
+    /// How the controller stands.
+    pub fn controls(&self) -> Controls {
+        self.controls.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
 }
 
 struct Seat {
     hub: Hub,
     socket: SocketId,
-    vehicle: SocketAddr,
+    vehicle: Option<SocketAddr>,
     link: Link,
     board: Keyboard,
-    hand: Option<Hand>,
+    desk: Desk,
     touched: bool,
+    shown: Arc<Mutex<Controls>>,
+    words: String,
+    next: SimTime,
 }
 
 impl Seat {
-    fn fly(&mut self, pressed: &Receiver<Press>, teller: &Sender<String>) {
+    fn fly(&mut self, asked: &Receiver<Ask>, teller: &Sender<String>) {
         let watch = Stopwatch::start();
         loop {
             if let Some(Arrival::Datagram { from, bytes, .. }) = self.hub.next(WAIT)
-                && from == self.vehicle
+                && Some(from) == self.vehicle
             {
                 self.link.receive(&bytes);
             }
             let now = SimTime::from_s(watch.elapsed().as_secs_f64());
             loop {
-                match pressed.try_recv() {
-                    Ok(press) => self.take(&press, now),
-                    Err(std::sync::mpsc::TryRecvError::Empty) => break,
-                    Err(std::sync::mpsc::TryRecvError::Disconnected) => return,
+                match asked.try_recv() {
+                    Ok(ask) => self.take(ask, now, teller),
+                    Err(TryRecvError::Empty) => break,
+                    Err(TryRecvError::Disconnected) => return,
                 }
             }
             let sticks = self.sticks(now);
-            self.link.set_sticks(sticks, now);
-            self.link.handle_timeout(now);
-            while let Some(bytes) = self.link.poll_transmit() {
-                self.hub.send(self.socket, self.vehicle, &bytes);
-            }
-            while let Some(text) = self.link.poll_told() {
-                if teller.send(text).is_err() {
-                    return;
+            match self.vehicle {
+                Some(vehicle) => {
+                    self.link.set_sticks(sticks, now);
+                    self.send(vehicle, now);
+                    while let Some(text) = self.link.poll_told() {
+                        if teller.send(text).is_err() {
+                            return;
+                        }
+                    }
                 }
+                None => self.show(now),
             }
         }
     }
 
-    fn take(&mut self, press: &Press, now: SimTime) {
-        match press {
-            Press::Down(key) => {
-                let action = self.board.press(key, true, now);
-                if let Some(action) = action {
+    fn send(&mut self, vehicle: SocketAddr, now: SimTime) {
+        self.link.handle_timeout(now);
+        while let Some(bytes) = self.link.poll_transmit() {
+            self.hub.send(self.socket, vehicle, &bytes);
+        }
+    }
+
+    /// On the ground: how the controller stands; buttons have nobody to act on.
+    fn show(&mut self, now: SimTime) {
+        while self.link.poll_told().is_some() {}
+        if now >= self.next {
+            self.next = now + SHOW;
+            let controls = self.desk.controls(self.board.sticks(now), &self.words);
+            *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = controls;
+        }
+    }
+
+    fn take(&mut self, ask: Ask, now: SimTime, teller: &Sender<String>) {
+        match ask {
+            Ask::Down(key) => {
+                let action = self.board.press(&key, true, now);
+                if let Some(action) = action.filter(|_| self.vehicle.is_some()) {
                     self.link.act(action, now);
                 }
                 // Who has asked for no flight holds no sticks: another ground station may fly, and a script keeps its aircraft. Who arms
                 // does, or the vehicle would count as left alone.
                 let flies = matches!(action, Some(Action::Arm | Action::TakeOff | Action::Position));
-                self.touched |= flies || self.board.sticks(now) != Sticks::default();
+                self.touched |= self.vehicle.is_some() && (flies || self.board.sticks(now) != Sticks::default());
             }
-            Press::Up(key) => self.board.release(key),
-            Press::LetGo => self.board.let_go(),
+            Ask::Up(key) => self.board.release(&key),
+            Ask::LetGo => self.board.let_go(),
+            Ask::Fly(vehicle) => {
+                (self.vehicle, self.link, self.touched) = (Some(vehicle), Link::default(), false);
+                if !self.desk.flies() {
+                    // Nobody is left to hear it when the window is closed.
+                    let _ = teller.send(format!("{} Keys fly.", self.desk.note()));
+                }
+            }
+            Ask::Land => (self.vehicle, self.link) = (None, Link::default()),
+            Ask::Look => self.desk.look(),
+            Ask::Calibrate => self.desk.calibrate(),
+            Ask::Confirm => self.desk.confirm(now),
+            Ask::Cancel => self.desk.cancel(),
+            Ask::Profile(mode, dead_band, expo) => self.desk.change(mode, dead_band, expo),
         }
     }
 
     /// A controller's sticks, unless keys are held; the keys' once they have been touched.
     fn sticks(&mut self, now: SimTime) -> Option<Sticks> {
         let keys = self.board.sticks(now);
-        let Some(hand) = &mut self.hand else { return self.touched.then_some(keys) };
-        match hand.look(&mut self.link, now, now) {
-            Ok(look) if keys == Sticks::default() => look.sticks.or(self.touched.then_some(keys)),
-            Ok(_) => Some(keys),
+        let own = self.touched.then_some(keys);
+        match self.desk.sticks(&mut self.link, now) {
+            Ok(Some(sticks)) if keys == Sticks::default() => Some(sticks),
+            Ok(Some(_)) => Some(keys),
+            Ok(None) => own,
             Err(error) => {
                 tracing::warn!("the controller is given up: {error}");
-                self.hand = None;
+                self.desk.give_up(&error);
                 None
             }
         }

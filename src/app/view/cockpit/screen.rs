@@ -28,7 +28,11 @@ impl Screen {
     /// # Errors
     /// When there is no display, or nothing to draw with.
     pub fn open(events: &ActiveEventLoop, title: &str, (width, height): (u32, u32)) -> Result<Self, AppError> {
-        let attributes = Window::default_attributes().with_title(title).with_inner_size(PhysicalSize::new(width, height));
+        // A window that is larger than its display hides what stands at its edges.
+        let display = events.primary_monitor().or_else(|| events.available_monitors().next()).map(|display| display.size());
+        let room = display.filter(|size| size.width > 0 && size.height > 0).unwrap_or(PhysicalSize::new(width, height));
+        let size = PhysicalSize::new(width.min(room.width), height.min(room.height));
+        let attributes = Window::default_attributes().with_title(title).with_inner_size(size);
         let failed = |why: String| AppError::failed(format!("no window can be opened: {why}"));
         let window = Arc::new(events.create_window(attributes).map_err(|error| failed(error.to_string()))?);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());

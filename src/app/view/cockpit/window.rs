@@ -1,58 +1,54 @@
-//! The window's loop: events in, views out.
+//! The window's loop: events in, pages and views out.
 
+use super::flight::Flight;
 use super::keeper::Keeper;
-use super::keys::{Change, Held};
-use super::listener::Listener;
-use super::panes::{Job, Panes, Shown};
-use super::pilot::{Pilot, Press};
+use super::keys::{self, Change, Held};
+use super::lead::Lead;
+use super::pilot::{Ask, Pilot};
 use super::screen::Screen;
+use super::sound::Speaker;
 use super::stream::Stream;
 use crate::app::clock::Stopwatch;
 use crate::app::errors::AppError;
-use crate::app::render::png;
 use crate::app::stop::Stop;
 use crate::rc::keyboard::{Keys, Wish};
-use crate::scenario::Scenario;
-use crate::vehicle::Vehicle;
 use crate::view::arrange::Arrangement;
+use crate::view::flow::pipe::FromWindow;
+use crate::view::flow::{Flow, Page};
 use crate::view::gaze::Gaze;
-use crate::view::gpu::paint;
-use crate::view::live::Now;
+use crate::view::gpu::Pictures;
+use crate::view::hud;
 use crate::view::quality::{PRESETS, Quality};
-use serde_json::json;
+use std::net::IpAddr;
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 use winit::application::ApplicationHandler;
-use winit::event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::window::WindowId;
 
 /// No more pictures than this, 1/s: what a screen shows; without a graphics card, what a person still sees as motion.
 const MOST_HZ: (f64, f64) = (120.0, 25.0);
+/// Pages move by keys alone, and with the sticks, 1/s.
+const PAGES_HZ: f64 = 20.0;
 /// Rest after a picture without a graphics card, as a share of what it took: the machine has other work.
 const REST: f64 = 0.25;
-/// The inspector's head turns so fast by keys, rad/s, and by the mouse, rad a pixel (estimates: comfortable on a laptop).
-const TURN_RAD_S: f64 = 1.0;
+/// The mouse turns the inspector's head so far, rad a pixel (estimate: comfortable on a laptop).
 const TURN_RAD_PX: f64 = 0.003;
-/// A notch of the wheel, and a second of a held key, zoom so many times.
+/// A notch of the wheel zooms so many times.
 const ZOOM_NOTCH: f64 = 1.15;
-const ZOOM_S: f64 = 2.0;
-/// Words stay on the screen this long, s, and the first help longer.
-const WORDS_S: f64 = 7.0;
-const HELP_S: f64 = 25.0;
 
 /// What is asked for on the command line.
 #[derive(Debug, Clone)]
 pub struct Plan {
+    /// Local address to bind.
+    pub listen: IpAddr,
     /// A preset; `None`: by the device.
     pub quality: Option<Quality>,
     /// Size of the window.
     pub size_px: (u32, u32),
     /// The map may be shown.
     pub map: bool,
-    /// The session's seed, where it need not be heard.
-    pub seed: Option<u64>,
     /// A picture to keep.
     pub picture: Option<Picture>,
     /// Where the camera's view is kept for others.
@@ -75,64 +71,56 @@ pub fn quality(name: &str) -> Result<Option<Quality>, AppError> {
     if name == "auto" { Ok(None) } else { crate::app::render::quality(name).map(Some) }
 }
 
-/// What stands between the vehicle and its picture.
-enum Scene {
-    /// Nobody has said which session it is.
-    Waiting,
-    /// Site and light are being worked out.
-    Building(Receiver<Job>),
-    /// It is drawn.
-    Drawn(Box<Panes>),
+/// Who stands behind the window.
+pub struct Crew {
+    /// Whoever flies from it.
+    pub pilot: Option<Pilot>,
+    /// Whoever says what is flown.
+    pub lead: Option<Lead>,
+    /// The flight that is shown from the beginning.
+    pub flight: Option<Flight>,
+    /// Whoever hands the camera's view on.
+    pub stream: Option<Stream>,
 }
 
 /// The window with everything behind it.
 pub struct Cockpit {
-    plan: Plan,
-    job: (Scenario, Vehicle),
-    keys: Keys,
-    listener: Listener,
-    pilot: Option<Pilot>,
-    stream: Option<Stream>,
-    stop: Stop,
-    screen: Option<Screen>,
-    scene: Scene,
-    arrangement: Arrangement,
-    gaze: Gaze,
-    map: bool,
-    held: Held,
+    pub(super) plan: Plan,
+    pub(super) keys: Keys,
+    pub(super) flow: Flow,
+    pub(super) crew: Crew,
+    pub(super) keeper: Option<Keeper>,
+    pub(super) speaker: Speaker,
+    pub(super) stop: Stop,
+    pub(super) screen: Option<Screen>,
+    pub(super) pictures: Pictures,
+    pub(super) arrangement: Arrangement,
+    pub(super) gaze: Gaze,
+    pub(super) map: bool,
+    pub(super) held: Held,
     mouse: Option<(f64, f64)>,
     dragging: bool,
-    words: Vec<(String, Duration)>,
-    watch: Stopwatch,
-    frame_at: Duration,
+    pub(super) words: Vec<(String, Duration)>,
+    pub(super) watch: Stopwatch,
+    pub(super) frame_at: Duration,
     due: Duration,
-    first_drawn: Option<Duration>,
-    drawn: u32,
     failed: Option<AppError>,
-    keeper: Option<Keeper>,
 }
 
 impl Cockpit {
     /// Nothing is open yet.
-    pub fn new(
-        plan: Plan,
-        job: (Scenario, Vehicle),
-        keys: Keys,
-        (listener, pilot, stream): (Listener, Option<Pilot>, Option<Stream>),
-        stop: Stop,
-    ) -> Self {
+    pub fn new(plan: Plan, keys: Keys, flow: Flow, crew: Crew, speaker: Speaker, stop: Stop) -> Self {
         Self {
             map: plan.map,
-            keeper: plan.keep.clone().map(Keeper::start),
+            keeper: crew.flight.as_ref().and(plan.keep.clone()).map(Keeper::start),
             plan,
-            job,
             keys,
-            listener,
-            pilot,
-            stream,
+            flow,
+            crew,
+            speaker,
             stop,
             screen: None,
-            scene: Scene::Waiting,
+            pictures: Pictures::default(),
             arrangement: Arrangement::default(),
             gaze: Gaze::default(),
             held: Held::default(),
@@ -142,8 +130,6 @@ impl Cockpit {
             watch: Stopwatch::start(),
             frame_at: Duration::ZERO,
             due: Duration::ZERO,
-            first_drawn: None,
-            drawn: 0,
             failed: None,
         }
     }
@@ -152,178 +138,113 @@ impl Cockpit {
     pub fn run(mut self) -> Result<(), AppError> {
         let events = display()?;
         events.run_app(&mut self).map_err(|error| AppError::failed(format!("the window broke off: {error}")))?;
-        if let Some(first) = self.first_drawn {
-            let seconds = self.watch.elapsed().saturating_sub(first).as_secs_f64();
-            tracing::info!("{} pictures of both views, {:.1} a second", self.drawn, f64::from(self.drawn) / seconds.max(1e-3));
-        }
+        self.land();
         self.failed.map_or(Ok(()), Err)
     }
 
-    fn quality(&self, screen: &Screen) -> Quality {
+    pub(super) fn quality(&self, screen: &Screen) -> Quality {
         let usual = if screen.gpu.software { "low" } else { "high" };
         self.plan.quality.or_else(|| Quality::named(usual)).unwrap_or(PRESETS[0])
     }
 
-    /// Goes on from waiting to building to drawing, as far as is known by now.
-    fn prepare(&mut self, now: Option<&Now>) -> Result<(), AppError> {
-        let Some(screen) = &self.screen else { return Ok(()) };
-        match &self.scene {
-            Scene::Waiting => {
-                let (seed, crc, estimated) = {
-                    let live = self.listener.live();
-                    (live.seed(), live.scenario_crc(), live.is_estimated())
-                };
-                if crc.is_some_and(|crc| crc != self.job.0.crc) {
-                    return Err(AppError::wrong(
-                        "the simulator flies another scenario than this window was given: start both with the same --scenario",
-                    ));
-                }
-                // A real vehicle names no seed: its bridges have no seeded defects of ours.
-                let seed = self.plan.seed.or(seed).or(self.job.0.seed).or(estimated.then_some(0));
-                let (Some(seed), Some(now)) = (seed, now) else { return Ok(()) };
-                let ((scenario, vehicle), quality, at) = (self.job.clone(), self.quality(screen), now.moment.at);
-                tracing::info!("drawing with {}, {}, seed {seed}", screen.gpu.name, quality.name);
-                let (sender, receiver) = channel();
-                std::thread::spawn(move || {
-                    // A window that was closed meanwhile needs no scene.
-                    let _ = sender.send(Job::build(scenario, vehicle, seed, &quality, at));
-                });
-                self.scene = Scene::Building(receiver);
-            }
-            Scene::Building(receiver) => {
-                if let Ok(job) = receiver.try_recv() {
-                    self.scene = Scene::Drawn(Box::new(Panes::new(screen, self.quality(screen), job)));
-                }
-            }
-            Scene::Drawn(_) => {}
+    /// Lets go of the flight that is shown.
+    pub(super) fn land(&mut self) {
+        self.keeper = None;
+        if let Some(flight) = self.crew.flight.take() {
+            let watch = self.watch;
+            flight.end(self.screen.as_mut(), |first| watch.elapsed().saturating_sub(first));
         }
-        Ok(())
     }
 
-    fn frame(&mut self) -> Result<(), AppError> {
-        let started = self.watch.elapsed();
-        let step_s = started.saturating_sub(self.frame_at).as_secs_f64();
-        self.frame_at = started;
-        let (now, feed) = {
-            let mut live = self.listener.live();
-            (live.now(self.listener.wall(), &self.job.1), live.feed().clone())
-        };
-        self.prepare(now.as_ref())?;
-        self.look(now.as_ref(), step_s);
-        while let Some(text) = self.pilot.as_ref().and_then(Pilot::poll_told) {
-            tracing::info!("{text}");
-            self.words.push((text, started));
-        }
-        self.words.retain(|(_, since)| started.saturating_sub(*since).as_secs_f64() < WORDS_S);
-        let Some(screen) = &mut self.screen else { return Ok(()) };
-        let shown = match (&mut self.scene, &now) {
-            (Scene::Drawn(panes), Some(now)) => {
-                panes.draw(screen, &self.arrangement.places(), now, &feed, &self.gaze, self.map && self.plan.map)
-            }
-            _ => Vec::new(),
-        };
-        let text = Text {
-            waiting: waiting(&self.scene, now.is_some(), &self.listener),
-            words: self.words.iter().map(|(words, _)| words.clone()).collect(),
-            help: match self.first_drawn {
-                Some(first) if started.saturating_sub(first).as_secs_f64() < HELP_S => help(&self.keys, self.pilot.is_some()),
-                _ => String::new(),
-            },
-        };
-        screen.show(|ui| compose(ui, &shown, &text))?;
-        if shown.is_empty() {
-            return Ok(());
-        }
-        self.drawn += 1;
-        if let (Some(stream), Scene::Drawn(panes), Some(screen)) = (&mut self.stream, &self.scene, &self.screen)
-            && stream.is_due()
-            && let Some(picture) = panes.camera(screen)?
-        {
-            self.listener.live().streams(stream.push(picture));
-        }
-        if self.first_drawn.is_none() {
-            self.first_drawn = Some(self.watch.elapsed());
-            self.announce();
-        }
-        self.hand_out()?;
-        self.keep_picture(&shown, &text)
+    /// True while the views are shown, and keys fly.
+    fn flies(&self) -> bool {
+        self.flow.page() == Page::Flight
     }
 
-    /// Hands the camera's view to whoever watches elsewhere.
-    fn hand_out(&mut self) -> Result<(), AppError> {
-        let (Some(keeper), Some(screen), Scene::Drawn(panes)) = (&mut self.keeper, &self.screen, &self.scene) else {
-            return Ok(());
-        };
-        if keeper.is_due(self.watch.elapsed())
-            && let Some(picture) = panes.camera(screen)?
-        {
-            keeper.take(picture);
+    fn key(&mut self, event: &KeyEvent) {
+        let change = self.held.take(event);
+        if !self.flies() {
+            self.key_on_page(event, change);
+            return;
         }
-        Ok(())
-    }
-
-    /// Keys that are held move the inspector's eyes.
-    fn look(&mut self, now: Option<&Now>, step_s: f64) {
-        let (Scene::Drawn(panes), Some(now)) = (&self.scene, now) else { return };
-        let held = |wish: &str| self.keys.of(wish).is_some_and(|key| self.held.is_down(key));
-        let way = |plus: &str, minus: &str| f64::from(i8::from(held(plus)) - i8::from(held(minus)));
-        let (right, up) = (way("look_right", "look_left"), way("look_up", "look_down"));
-        if right != 0.0 || up != 0.0 {
-            self.gaze.turn(TURN_RAD_S * step_s * right, TURN_RAD_S * step_s * up, panes.to_aircraft(now));
-        }
-        self.gaze.zoom(crate::base::math::pow(ZOOM_S, step_s * way("zoom_in", "zoom_out")));
-    }
-
-    fn announce(&self) {
-        let Some(screen) = self.screen.as_ref().filter(|_| self.plan.announce) else { return };
-        let size = screen.window.inner_size();
-        let quality = self.quality(screen).name;
-        println!("{}", json!({ "device": screen.gpu.name, "quality": quality, "width": size.width, "height": size.height }));
-    }
-
-    fn keep_picture(&mut self, shown: &[Shown], text: &Text) -> Result<(), AppError> {
-        let (Some(plan), Some(first), Some(screen)) = (&self.plan.picture, self.first_drawn, &mut self.screen) else {
-            return Ok(());
-        };
-        if self.watch.elapsed().saturating_sub(first) < plan.after {
-            return Ok(());
-        }
-        let picture = screen.picture(|ui| compose(ui, shown, text))?;
-        crate::app::files::write(&plan.path.display().to_string(), &png(&picture)?)?;
-        self.stop.ask();
-        Ok(())
-    }
-
-    fn key(&mut self, change: Change) {
         match change {
-            Change::Down(key) => {
-                match self.keys.wish(&key) {
-                    Some(Wish::Swap) => self.arrangement = self.arrangement.next(),
-                    Some(Wish::Map) => self.map = !self.map,
-                    Some(Wish::Follow) => self.gaze.follows = true,
-                    Some(_) | None => {}
+            Some(Change::Down(key)) => {
+                self.wish(&key);
+                if self.flies() {
+                    self.hand_on(Ask::Down(key));
                 }
-                self.hand_on(Press::Down(key));
             }
-            Change::Up(key) => self.hand_on(Press::Up(key)),
+            Some(Change::Up(key)) => self.hand_on(Ask::Up(key)),
+            None => {}
         }
     }
 
-    fn hand_on(&self, press: Press) {
-        if let Some(pilot) = &self.pilot {
-            pilot.press(press);
+    fn key_on_page(&mut self, event: &KeyEvent, change: Option<Change>) {
+        let trying = self.flow.page() == Page::Controls;
+        match change {
+            Some(Change::Down(key)) if self.flow.stands() && self.keys.wish(&key) == Some(Wish::Pause) => {
+                self.flow.pause();
+                return;
+            }
+            // On the page of the controller the keys' sticks are seen.
+            Some(Change::Down(key)) if trying => self.hand_on(Ask::Down(key)),
+            Some(Change::Up(key)) => self.hand_on(Ask::Up(key)),
+            _ => {}
         }
+        if let Some(press) = keys::press(event) {
+            self.flow.press(press);
+        }
+    }
+
+    fn wish(&mut self, key: &str) {
+        match self.keys.wish(key) {
+            Some(Wish::Swap) => self.arrangement = self.arrangement.next(),
+            Some(Wish::Map) => self.map = !self.map,
+            Some(Wish::Follow) => self.gaze.follows = true,
+            Some(Wish::Pause) => self.flow.pause(),
+            Some(Wish::Restart) => self.flow.restart(),
+            Some(Wish::Sound) => self.flow.toggle_sound(),
+            Some(Wish::LookLeft | Wish::LookRight | Wish::LookUp | Wish::LookDown | Wish::ZoomIn | Wish::ZoomOut) | None => {}
+        }
+    }
+
+    pub(super) fn hand_on(&self, ask: Ask) {
+        if let Some(pilot) = &self.crew.pilot {
+            pilot.ask(ask);
+        }
+    }
+
+    fn click(&mut self, pressed: bool) {
+        self.dragging = false;
+        let (Some(screen), Some((x, y)), true) = (&self.screen, self.mouse, pressed) else { return };
+        let size = screen.window.inner_size();
+        let (width, height) = (f64::from(size.width.max(1)), f64::from(size.height.max(1)));
+        let hit = self.flow.click(hud::at(x / width, y / height), width / height);
+        self.dragging = !hit && self.flies();
     }
 
     fn moved(&mut self, x: f64, y: f64) {
-        if let (true, Some((from_x, from_y)), Scene::Drawn(panes)) = (self.dragging, self.mouse, &self.scene) {
-            let now = self.listener.live().now(self.listener.wall(), &self.job.1);
-            if let Some(now) = now {
-                // The world is dragged along: what is under the pointer stays there.
-                self.gaze.turn(TURN_RAD_PX * (from_x - x), TURN_RAD_PX * (y - from_y), panes.to_aircraft(&now));
-            }
+        if let (true, Some((from_x, from_y)), Some(flight)) = (self.dragging, self.mouse, &self.crew.flight)
+            && let (Some(panes), Some(now)) = (flight.panes(), flight.now())
+        {
+            // The world is dragged along: what is under the pointer stays there.
+            self.gaze.turn(TURN_RAD_PX * (from_x - x), TURN_RAD_PX * (y - from_y), panes.to_aircraft(&now));
         }
         self.mouse = Some((x, y));
+    }
+
+    fn redraw(&mut self, events: &ActiveEventLoop) {
+        let started = self.watch.elapsed();
+        if let Err(error) = self.frame() {
+            self.failed = Some(error);
+            events.exit();
+        }
+        let software = self.screen.as_ref().is_some_and(|screen| screen.gpu.software);
+        let took = self.watch.elapsed().saturating_sub(started);
+        let shown = if software { MOST_HZ.1 } else { MOST_HZ.0 };
+        let most_hz = if self.flies() { shown } else { PAGES_HZ };
+        let rest = if software { took.mul_f64(REST) } else { Duration::ZERO };
+        self.due = started + Duration::from_secs_f64(1.0 / most_hz).max(took + rest);
     }
 }
 
@@ -332,9 +253,14 @@ impl ApplicationHandler for Cockpit {
         if self.screen.is_some() {
             return;
         }
-        let title = format!("Spandrel: {}", self.job.0.title);
+        let title = self.crew.flight.as_ref().map_or("Spandrel".to_owned(), |flight| format!("Spandrel: {}", flight.job.0.title));
         match Screen::open(events, &title, self.plan.size_px) {
-            Ok(screen) => self.screen = Some(screen),
+            Ok(screen) => {
+                self.screen = Some(screen);
+                if let Some(lead) = &self.crew.lead {
+                    lead.tell(&FromWindow::Ready);
+                }
+            }
             Err(error) => {
                 self.failed = Some(error);
                 events.exit();
@@ -348,28 +274,13 @@ impl ApplicationHandler for Cockpit {
         }
         match event {
             WindowEvent::CloseRequested => events.exit(),
-            WindowEvent::RedrawRequested => {
-                let started = self.watch.elapsed();
-                if let Err(error) = self.frame() {
-                    self.failed = Some(error);
-                    events.exit();
-                }
-                let software = self.screen.as_ref().is_some_and(|screen| screen.gpu.software);
-                let took = self.watch.elapsed().saturating_sub(started);
-                let least = Duration::from_secs_f64(1.0 / if software { MOST_HZ.1 } else { MOST_HZ.0 });
-                let rest = if software { took.mul_f64(REST) } else { Duration::ZERO };
-                self.due = started + least.max(took + rest);
-            }
-            WindowEvent::KeyboardInput { event, .. } => {
-                if let Some(change) = self.held.take(&event) {
-                    self.key(change);
-                }
-            }
+            WindowEvent::RedrawRequested => self.redraw(events),
+            WindowEvent::KeyboardInput { event, .. } => self.key(&event),
             WindowEvent::Focused(false) => {
                 self.held.let_go();
-                self.hand_on(Press::LetGo);
+                self.hand_on(Ask::LetGo);
             }
-            WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => self.dragging = state == ElementState::Pressed,
+            WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => self.click(state == ElementState::Pressed),
             WindowEvent::CursorMoved { position, .. } => self.moved(position.x, position.y),
             WindowEvent::MouseWheel { delta, .. } => {
                 let notches = match delta {
@@ -414,80 +325,4 @@ fn display() -> Result<EventLoop<()>, AppError> {
             .to_owned(),
     };
     Err(AppError::failed(format!("there is no display to open a window on ({why}); everything else works without")))
-}
-
-/// Words of the window itself.
-struct Text {
-    waiting: String,
-    words: Vec<String>,
-    help: String,
-}
-
-fn waiting(scene: &Scene, heard: bool, listener: &Listener) -> String {
-    match scene {
-        Scene::Drawn(_) => String::new(),
-        Scene::Building(_) => "Building the site and its light ...".to_owned(),
-        Scene::Waiting if heard => "The vehicle is heard; waiting for the session's seed ...".to_owned(),
-        Scene::Waiting => format!("Waiting for the vehicle at {} ...", listener.vehicle()),
-    }
-}
-
-fn help(keys: &Keys, flies: bool) -> String {
-    let key = |name: &str| keys.of(name).unwrap_or("?").to_uppercase();
-    let mut words = format!(
-        "{} views    {} map    drag or {} {} look around    wheel zoom    {} follow the drone",
-        key("swap"),
-        key("map"),
-        key("look_left"),
-        key("look_right"),
-        key("follow")
-    );
-    if flies {
-        words.push_str(&format!(
-            "\n{} motors on    {} take off    {} {} up and down    {} {} turn    arrows fly    {} lamp    {} picture    {} land",
-            key("arm"),
-            key("take_off"),
-            key("up"),
-            key("down"),
-            key("turn_left"),
-            key("turn_right"),
-            key("lamp"),
-            key("snapshot"),
-            key("land")
-        ));
-    }
-    words
-}
-
-/// The window's content: pictures with their displays, and the window's own words.
-fn compose(ui: &mut egui::Ui, shown: &[Shown], text: &Text) {
-    let area = ui.ctx().content_rect();
-    let painter = ui.ctx().layer_painter(egui::LayerId::background());
-    for view in shown {
-        let at = |x: f64, y: f64| area.min + egui::vec2(x as f32 * area.width(), y as f32 * area.height());
-        let place = &view.place;
-        let rect = egui::Rect::from_min_max(at(place.left, place.top), at(place.left + place.width, place.top + place.height));
-        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
-        painter.image(view.picture, rect, whole, egui::Color32::WHITE);
-        paint(&painter.with_clip_rect(rect), &view.items, rect);
-        let edge = egui::Stroke::new(1.0, egui::Color32::from_gray(20));
-        painter.rect_stroke(rect, 0.0, edge, egui::StrokeKind::Inside);
-    }
-    let size = 0.03 * area.height().max(300.0);
-    if !text.waiting.is_empty() {
-        let font = egui::FontId::proportional(1.2 * size);
-        painter.text(area.center(), egui::Align2::CENTER_CENTER, &text.waiting, font, egui::Color32::from_gray(225));
-    }
-    let mut lines = text.words.clone();
-    if !text.help.is_empty() {
-        lines.push(text.help.clone());
-    }
-    if !lines.is_empty() {
-        let font = egui::FontId::proportional(0.75 * size);
-        let place = area.left_bottom() + egui::vec2(0.6 * size, -0.6 * size);
-        let galley = painter.layout_no_wrap(lines.join("\n"), font, egui::Color32::from_gray(235));
-        let rect = egui::Rect::from_min_size(place - egui::vec2(0.0, galley.size().y), galley.size());
-        painter.rect_filled(rect.expand(0.3 * size), 0.2 * size, egui::Color32::from_black_alpha(160));
-        painter.galley(rect.min, galley, egui::Color32::WHITE);
-    }
 }

@@ -1,0 +1,254 @@
+//! One flight after the other: what the window asks for, or what the command line says, once.
+
+use super::flight::{Flight, Outcome};
+use super::offers;
+use super::window::Window;
+use super::{Args, USUAL, camera, tell};
+use crate::app::args::{self, TraineeId};
+use crate::app::errors::AppError;
+use crate::app::files;
+use crate::app::records::Place;
+use crate::app::stop::Stop;
+use crate::app::web::{ListenArgs, Server, Setup, Watched};
+use crate::view::flow::pipe::{Choice, FromWindow, ToWindow};
+use std::io::IsTerminal;
+use std::net::SocketAddr;
+use std::path::Path;
+use std::time::Duration;
+
+/// Between two looks at the window.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// The pages of the sessions, and whose live flight they show.
+struct Pages {
+    server: Server,
+    vehicle: Option<SocketAddr>,
+}
+
+/// A run of `train`.
+pub struct Course<'a> {
+    args: &'a Args,
+    log: tracing::Level,
+    stop: Stop,
+    window: Option<Window>,
+    web: Option<Pages>,
+    told: bool,
+}
+
+/// What comes after a flight.
+enum Next {
+    Fly(Choice),
+    /// Somebody has seen the end and closed it.
+    Leave,
+    /// There is no window that could ask.
+    Nobody,
+}
+
+impl<'a> Course<'a> {
+    /// Nothing is started yet.
+    pub fn new(args: &'a Args, log: tracing::Level, stop: Stop) -> Self {
+        Self { args, log, stop, window: None, web: None, told: false }
+    }
+
+    /// Flies as often as is asked for.
+    ///
+    /// # Errors
+    /// When a flight cannot be started or scored: the last one's error.
+    pub fn run(mut self) -> Result<(), AppError> {
+        self.window = Window::open(self.args, self.log);
+        let usual = Choice {
+            trainee: self.args.trainee.as_str().to_owned(),
+            scenario: self.args.scenario.clone().unwrap_or_else(|| USUAL.to_owned()),
+            purpose: self.args.purpose.said(),
+        };
+        let mut next =
+            if self.args.choose || self.args.scenario.is_none() { self.first(&usual) } else { Next::Fly(usual.clone()) };
+        let mut result = Ok(());
+        let mut last = None;
+        while let Next::Fly(choice) = next {
+            let (flown, session) = match self.fly(&choice) {
+                Ok(done) => done,
+                // The first flight's error ends the run, as it does without a window; later ones are told in the window.
+                Err(error) if last.is_none() && !self.asks() => return Err(error),
+                Err(error) => {
+                    tracing::warn!("no flight: {error}");
+                    self.say(&ToWindow::Refused { words: error.to_string() });
+                    result = Err(error);
+                    next = self.next(&choice);
+                    continue;
+                }
+            };
+            result = flown;
+            last = Some(session);
+            next = self.next(&choice);
+        }
+        let seen = matches!(next, Next::Leave);
+        if let Some(window) = self.window.take() {
+            window.close();
+        }
+        if let (Some(session), false, true) = (&last, seen, result.is_ok()) {
+            self.linger(session);
+        }
+        result
+    }
+
+    /// The window asks, and not the command line alone.
+    fn asks(&mut self) -> bool {
+        self.told && self.window.as_mut().is_some_and(Window::is_open)
+    }
+
+    fn say(&mut self, message: &ToWindow) {
+        if let Some(window) = &mut self.window {
+            window.tell(message);
+        }
+    }
+
+    /// The first choice: the window's, or without one the command line's.
+    fn first(&mut self, usual: &Choice) -> Next {
+        if self.window.as_mut().is_some_and(Window::is_ready) {
+            self.serve(None);
+            self.offer(usual);
+            match self.next(usual) {
+                Next::Nobody => {}
+                next => return next,
+            }
+            // Who closes the window wants no flight; one that breaks off is done without.
+            if self.stop.asked() || self.window.as_ref().is_some_and(|window| window.closed) {
+                return Next::Leave;
+            }
+        }
+        tracing::info!(
+            "nobody is asked: {} flies {}; say --trainee, --scenario and --purpose for another choice",
+            usual.trainee,
+            usual.scenario
+        );
+        Next::Fly(usual.clone())
+    }
+
+    fn offer(&mut self, choice: &Choice) {
+        let web = self.web.as_ref().map(|web| web.server.address().to_owned());
+        let offers = offers::offers(&self.args.sessions, choice, web.as_deref());
+        self.told = true;
+        self.say(&ToWindow::Offers(offers));
+    }
+
+    /// Waits for what the window asks for next.
+    fn next(&mut self, last: &Choice) -> Next {
+        loop {
+            let Some(window) = &mut self.window else { return Next::Nobody };
+            while let Some(said) = window.hear() {
+                match said {
+                    FromWindow::Again => return Next::Fly(last.clone()),
+                    FromWindow::Quit => return Next::Leave,
+                    FromWindow::Chosen(choice) => match checked(&choice) {
+                        Ok(()) => return Next::Fly(choice),
+                        Err(error) => window.tell(&ToWindow::Refused { words: error.to_string() }),
+                    },
+                    // What belongs to a flight that has just ended by itself.
+                    FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
+                }
+            }
+            if !window.is_open() || self.stop.asked() {
+                return Next::Nobody;
+            }
+            std::thread::sleep(LOOK);
+        }
+    }
+
+    /// One flight, begun anew as often as is wished, to its end. Gives how it went and its folder.
+    fn fly(&mut self, choice: &Choice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
+        loop {
+            let mut flight = Flight::start(self.args, choice, self.log)?;
+            self.serve(flight.port("payload_port"));
+            if let Some(flying) = flight.flying(self.args) {
+                self.say(&flying);
+            }
+            let web = self.web.as_ref().map(|web| web.server.address());
+            print!("{}", flight.told(self.args, web, self.window.is_some()));
+            let outcome = flight.wait(&mut self.window, &self.stop);
+            if matches!(outcome, Outcome::Over) && self.stop.asked() {
+                // Who interrupts is not asked again.
+                self.window.take().into_iter().for_each(Window::close);
+            }
+            flight.finish();
+            let session = flight.session().to_path_buf();
+            if matches!(outcome, Outcome::Restart) {
+                tracing::info!("this attempt ended; what was recorded is in {}", session.display());
+                continue;
+            }
+            return Ok((self.end(choice, &session, outcome), session));
+        }
+    }
+
+    /// Tells the end at the terminal and in the window.
+    fn end(&mut self, choice: &Choice, session: &Path, outcome: Outcome) -> Result<(), AppError> {
+        let told = tell(session);
+        if told.is_ok() {
+            println!("questions     spandrel questionnaire {}", session.display());
+        }
+        let result = match outcome {
+            Outcome::Lost(error) => Err(error),
+            Outcome::Over | Outcome::Restart => told,
+        };
+        if self.window.is_some() {
+            self.offer(choice);
+            let web = self.web.as_ref().map(|web| web.server.address());
+            let trouble = result.as_ref().err().map(ToString::to_string);
+            let ended = offers::ended(session, web, trouble);
+            self.say(&ToWindow::Ended(ended));
+        }
+        result
+    }
+
+    /// Serves the pages of the sessions and of this vehicle's flight, from one address throughout. Without them one flies all the same.
+    fn serve(&mut self, vehicle: Option<SocketAddr>) {
+        let args::Port::Number(mut port) = self.args.web else { return };
+        let here = self.args.ports.listen;
+        let vehicle = vehicle.map(|at| if here.is_unspecified() { at } else { SocketAddr::new(here, at.port()) });
+        match self.web.take() {
+            Some(web) if web.vehicle == vehicle => {
+                self.web = Some(web);
+                return;
+            }
+            Some(web) => port = port_of(web.server.address()).unwrap_or(port),
+            None => {}
+        }
+        // The records lie beside the sessions; the first session may not have begun.
+        let made = std::fs::create_dir_all(&self.args.sessions);
+        let watched = vehicle.map(|vehicle| Watched { vehicle, picture: Some(camera(self.args)) });
+        let place = Place { sessions: vec![self.args.sessions.clone()], database: None };
+        let setup = Setup { place, scenarios: None, watched: watched.into_iter().collect(), wordings: Vec::new() };
+        let started = made
+            .map_err(|error| AppError::failed(format!("{}: {error}", self.args.sessions.display())))
+            .and_then(|()| Server::start(&ListenArgs::local(port), setup));
+        match started {
+            Ok(server) => self.web = Some(Pages { server, vehicle }),
+            Err(error) => tracing::warn!("no web pages: {error}"),
+        }
+    }
+
+    /// Keeps the pages for whoever sits at the terminal: the questionnaire comes after the flight.
+    fn linger(&self, session: &Path) {
+        let (Some(web), true, false) = (&self.web, std::io::stdin().is_terminal(), self.stop.asked()) else { return };
+        let address = offers::ended(session, Some(web.server.address()), None).questionnaire;
+        println!("in a browser  {address}   (the pages stay until you press Enter)");
+        let pressed = self.stop.clone();
+        std::thread::spawn(move || {
+            let mut line = String::new();
+            // The end of the input ends it, too.
+            let _ = std::io::stdin().read_line(&mut line);
+            pressed.ask();
+        });
+        web.server.until(&self.stop);
+    }
+}
+
+/// A choice of the window is as good as one of the command line.
+fn checked(choice: &Choice) -> Result<(), AppError> {
+    choice.trainee.parse::<TraineeId>().map_err(AppError::wrong)?;
+    files::scenario(&choice.scenario).map(|_| ())
+}
+
+fn port_of(address: &str) -> Option<u16> {
+    address.rsplit(':').next()?.parse().ok()
+}

@@ -1,0 +1,123 @@
+//! What the start page offers and what the end page tells.
+
+use crate::app::files;
+use crate::app::records::session_folders;
+use crate::app::report;
+use crate::app::session_folder::whose;
+use crate::monitor::folder::{ASSESSMENT, REPORT};
+use crate::scenario::Scenario;
+use crate::view::flow::pipe::{Choice, Ended, Job, Offers, Person, SCORES, Score};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// What can be chosen here.
+pub fn offers(sessions: &Path, choice: &Choice, web: Option<&str>) -> Offers {
+    let mut names: Vec<String> = files::scenario_names().into_iter().map(str::to_owned).collect();
+    if !names.contains(&choice.scenario) {
+        names.push(choice.scenario.clone());
+    }
+    let job = |name: String| {
+        let scenario = files::scenario(&name).ok()?.scenario;
+        Some(Job { name, title: scenario.title.clone(), kind: kind(&scenario) })
+    };
+    Offers {
+        trainees: people(sessions),
+        scenarios: names.into_iter().filter_map(job).collect(),
+        choice: choice.clone(),
+        web: web.map(str::to_owned),
+    }
+}
+
+/// Who has flown here, and how often.
+fn people(sessions: &Path) -> Vec<Person> {
+    // A folder that is not there yet holds nobody.
+    let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
+    let mut count: BTreeMap<String, u32> = BTreeMap::new();
+    for (trainee, _) in folders.iter().filter_map(|folder| whose(folder).ok()) {
+        *count.entry(trainee).or_default() += 1;
+    }
+    count.into_iter().map(|(name, sessions)| Person { name, sessions }).collect()
+}
+
+fn kind(scenario: &Scenario) -> String {
+    let some = |count: usize, one: &str, many: &str| match count {
+        1 => format!("1 {one}"),
+        n => format!("{n} {many}"),
+    };
+    let mut parts = vec![some(scenario.tasks.len(), "task", "tasks")];
+    if !scenario.bridges.is_empty() {
+        parts.push(some(scenario.bridges.len(), "bridge", "bridges"));
+    }
+    if scenario.defects.count > 0 {
+        parts.push(some(scenario.defects.count, "defect", "defects"));
+    }
+    parts.join(", ")
+}
+
+/// How a session ended. `trouble`: why it has no scores, where somebody knows.
+pub fn ended(session: &Path, web: Option<&str>, trouble: Option<String>) -> Ended {
+    let text = std::fs::read_to_string(session.join(ASSESSMENT)).unwrap_or_default();
+    let assessment: Value = serde_json::from_str(&text).unwrap_or_default();
+    let scores = &assessment["scores"];
+    let one = |name: &str| Some(Score { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
+    let page = session.join(REPORT);
+    let id = session.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    Ended {
+        scores: SCORES.map(one),
+        overall: scores["overall"].as_f64().zip(scores["overall_max"].as_f64()),
+        why: trouble.unwrap_or_else(|| why(&assessment["end"], session)),
+        report: page.is_file().then(|| report::address(&page)),
+        questionnaire: match web {
+            Some(web) => format!("{web}/sessions/{id}/questions"),
+            None => format!("spandrel questionnaire {}", session.display()),
+        },
+    }
+}
+
+fn why(end: &Value, session: &Path) -> String {
+    match (end["reason"].as_str(), end["seconds"].as_f64()) {
+        (Some(reason), Some(seconds)) => {
+            format!("{reason} after {:.0} min {:.0} s of flight", (seconds / 60.0).floor(), (seconds % 60.0).floor())
+        }
+        _ => format!("The session was not scored; what was recorded is in {}", session.display()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::flow::pipe::Purpose;
+
+    fn choice() -> Choice {
+        Choice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice }
+    }
+
+    #[test]
+    fn exact_every_shipped_job_is_offered_with_its_kind() {
+        let folder = tempfile::tempdir().unwrap();
+        let offers = offers(&folder.path().join("none-yet"), &choice(), None);
+        assert_eq!(offers.trainees, []);
+        let kind = |name: &str| offers.scenarios.iter().find(|job| job.name == name).map(|job| job.kind.clone());
+        assert_eq!(kind("two-bridges").as_deref(), Some("4 tasks, 2 bridges, 10 defects"));
+        assert_eq!(kind("drill-hover").as_deref(), Some("1 task"));
+    }
+
+    #[test]
+    fn exact_the_end_tells_scores_and_places_and_what_is_missing() {
+        let folder = tempfile::tempdir().unwrap();
+        let none = ended(folder.path(), None, None);
+        assert!(none.overall.is_none() && none.report.is_none() && none.why.contains("not scored"), "{none:?}");
+        assert!(none.questionnaire.starts_with("spandrel questionnaire "), "{none:?}");
+        let text = r#"{"scores": {"conformity": {"raw": 62.0, "pct": 81.0}, "efficiency": {"raw": 100.0, "pct": 100.0},
+            "safety": {"raw": -9.0, "pct": 91.0}, "accuracy": null, "overall": 272.0, "overall_max": 300.0},
+            "end": {"reason": "landed", "seconds": 750.9}}"#;
+        std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
+        std::fs::write(folder.path().join(REPORT), "page").unwrap();
+        let ended = ended(folder.path(), Some("http://127.0.0.1:9"), None);
+        assert_eq!(ended.why, "landed after 12 min 30 s of flight");
+        assert_eq!((ended.scores[2].map(|s| s.raw), ended.scores[3], ended.overall), (Some(-9.0), None, Some((272.0, 300.0))));
+        assert!(ended.report.is_some_and(|address| address.starts_with("file:///")));
+        assert!(ended.questionnaire.starts_with("http://127.0.0.1:9/sessions/") && ended.questionnaire.ends_with("/questions"));
+    }
+}

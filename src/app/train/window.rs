@@ -1,0 +1,115 @@
+//! The window as a process of its own, and the pipe to it. The session depends on neither.
+
+use super::Args;
+use crate::app::args::Port;
+use crate::app::children::Child;
+use crate::app::clock::Stopwatch;
+use crate::view::flow::pipe::{self, FromWindow, ToWindow};
+use std::time::Duration;
+
+/// Between two looks at the window.
+const LOOK: Duration = Duration::from_millis(20);
+/// A window has this long to open on a busy machine.
+const OPEN_LIMIT: Duration = Duration::from_secs(60);
+
+/// The window's process.
+pub struct Window {
+    child: Child,
+    over: bool,
+    /// It was closed, and did not break off.
+    pub closed: bool,
+    flies: bool,
+    complained: bool,
+}
+
+impl Window {
+    /// Opens it, unless it is not wanted or there is nothing that it could listen to.
+    pub fn open(args: &Args, log: tracing::Level) -> Option<Self> {
+        if args.no_view || !cfg!(feature = "view") {
+            return None;
+        }
+        if args.ports.payload_port == Some(Port::None) {
+            tracing::warn!("no window: it listens at the payload port, and --payload-port is none");
+            return None;
+        }
+        let mut words =
+            ["--led", "--log", &log.to_string().to_lowercase(), "--quality", &args.quality].map(str::to_owned).to_vec();
+        if let Some(keys) = &args.keys {
+            words.extend(["--keys".to_owned(), keys.display().to_string()]);
+        }
+        words.extend(["--picture".to_owned(), super::camera(args).display().to_string()]);
+        if args.no_sound {
+            words.push("--no-sound".to_owned());
+        }
+        let opened = Child::start_beside("view", &words, &spare_threads());
+        let child = opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()?;
+        Some(Self { child, over: false, closed: false, flies: false, complained: false })
+    }
+
+    /// Waits until it stands on a display; false when it does not.
+    pub fn is_ready(&mut self) -> bool {
+        let watch = Stopwatch::start();
+        while watch.elapsed() < OPEN_LIMIT && self.is_open() {
+            if self.hear() == Some(FromWindow::Ready) {
+                return true;
+            }
+            std::thread::sleep(LOOK);
+        }
+        false
+    }
+
+    /// Says something to it.
+    pub fn tell(&mut self, message: &ToWindow) {
+        match message {
+            ToWindow::Flying(_) => self.flies = true,
+            ToWindow::Ended(_) => self.flies = false,
+            ToWindow::Offers(_) | ToWindow::Paused { .. } | ToWindow::Refused { .. } => {}
+        }
+        self.child.tell(&pipe::line(message));
+    }
+
+    /// The next thing that it says. A bad line is named once and left alone.
+    pub fn hear(&mut self) -> Option<FromWindow> {
+        while let Some(line) = self.child.line() {
+            match pipe::read(&line) {
+                Ok(message) => return Some(message),
+                Err(error) if !self.complained => {
+                    self.complained = true;
+                    tracing::warn!("from the window: {error}; such lines are left alone");
+                }
+                Err(_) => {}
+            }
+        }
+        None
+    }
+
+    /// It has not ended; once it has, how is told once.
+    pub fn is_open(&mut self) -> bool {
+        let ended = self.child.ended();
+        if let Some(status) = ended.filter(|_| !self.over) {
+            self.over = true;
+            self.closed = status.success();
+            tracing::info!(
+                "{}",
+                match (self.closed, self.flies) {
+                    (true, false) => "the window is closed",
+                    (true, true) => "the window is closed: the session goes on without",
+                    (false, _) => "there is no window (its message stands above): the session goes on without",
+                }
+            );
+        }
+        !self.over
+    }
+
+    /// It closes, as was asked for in it.
+    pub fn close(mut self) {
+        self.over = true;
+        self.child.finish();
+    }
+}
+
+/// Mesa's software driver takes every processor unless it is told otherwise; half of them are the simulator's and the monitor's.
+fn spare_threads() -> [(&'static str, String); 1] {
+    let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    [("LP_NUM_THREADS", (all / 2).max(1).to_string())]
+}

@@ -1,0 +1,247 @@
+//! The way through the pages by keys, what is refused where, and what stands on each page.
+
+use super::pipe::{Choice, Ended, Flying, FromWindow, Job, Offers, Person, Purpose, Score, ToWindow};
+use super::{Controls, Flow, Order, PICTURES, Page, Press};
+use crate::view::hud::{Item, Point};
+use std::net::SocketAddr;
+
+fn offers() -> Offers {
+    let job = |name: &str, title: &str| Job { name: name.into(), title: title.into(), kind: "1 task".into() };
+    Offers {
+        trainees: vec![Person { name: "anna".into(), sessions: 2 }, Person { name: "bert".into(), sessions: 0 }],
+        scenarios: vec![job("drill-hover", "Drill: hover"), job("two-bridges", "Two bridges")],
+        choice: Choice { trainee: "anna".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice },
+        web: Some("http://127.0.0.1:8080".into()),
+    }
+}
+
+fn flying(choice: &Choice) -> ToWindow {
+    let here = SocketAddr::from(([127, 0, 0, 1], 14280));
+    ToWindow::Flying(Flying { choice: choice.clone(), vehicle: "phantom2".into(), seed: 7, connect: here, fly: Some(here) })
+}
+
+fn ended() -> Ended {
+    let score = |pct: f64| Some(Score { raw: pct, pct });
+    Ended {
+        scores: [score(81.25), score(100.0), score(91.0), None],
+        overall: Some((272.25, 300.0)),
+        why: "landed after 12 min 30 s".into(),
+        report: Some("file:///sessions/a/report.html".into()),
+        questionnaire: "http://127.0.0.1:8080/sessions/a/questions".into(),
+    }
+}
+
+fn started() -> Flow {
+    let mut flow = Flow::new(true);
+    flow.hear(ToWindow::Offers(offers()));
+    flow
+}
+
+fn orders(flow: &mut Flow) -> Vec<Order> {
+    std::iter::from_fn(|| flow.poll()).collect()
+}
+
+fn press(flow: &mut Flow, all: &[Press]) {
+    all.iter().for_each(|one| flow.press(*one));
+}
+
+fn in_flight(purpose: Purpose) -> Flow {
+    let mut flow = started();
+    flow.hear(flying(&Choice { purpose, ..flow.choice().clone() }));
+    orders(&mut flow);
+    flow
+}
+
+#[test]
+fn exact_keys_alone_lead_from_the_choice_to_the_flight_and_on() {
+    let mut flow = started();
+    assert_eq!(flow.page(), Page::Start);
+    press(&mut flow, &[Press::Down, Press::Left, Press::Enter, Press::Enter, Press::Enter]);
+    assert_eq!((flow.page(), flow.choice().scenario.as_str()), (Page::Controls, "drill-hover"));
+    press(&mut flow, &[Press::Enter]);
+    assert_eq!(flow.page(), Page::Waiting, "anna has flown before: no tutorial");
+    let wanted = Choice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
+    assert_eq!(orders(&mut flow), [Order::Tell(FromWindow::Chosen(wanted.clone()))]);
+    flow.hear(flying(&wanted));
+    assert_eq!(flow.page(), Page::Flight);
+    assert!(matches!(orders(&mut flow).as_slice(), [Order::Fly(flying)] if flying.choice == wanted));
+    flow.hear(ToWindow::Ended(ended()));
+    assert_eq!((flow.page(), orders(&mut flow)), (Page::Over, vec![Order::Land]));
+    press(&mut flow, &[Press::Enter, Press::Down, Press::Enter, Press::Down, Press::Enter]);
+    let told = orders(&mut flow);
+    assert!(matches!(&told[0], Order::Open(address) if address.starts_with("file:")), "{told:?}");
+    assert!(matches!(&told[1], Order::Open(address) if address.ends_with("/questions")), "{told:?}");
+    assert_eq!(told[2..], [Order::Land, Order::Tell(FromWindow::Again)]);
+}
+
+#[test]
+fn exact_a_new_trainee_reads_the_tutorial_first_and_may_skip_it() {
+    let mut flow = started();
+    press(&mut flow, &[Press::Backspace; 4]);
+    "n3w".chars().for_each(|sign| flow.press(Press::Sign(sign)));
+    press(&mut flow, &[Press::Enter, Press::Enter, Press::Enter, Press::Enter]);
+    assert_eq!((flow.page(), flow.choice().trainee.as_str()), (Page::Controls, "n3w"));
+    press(&mut flow, &[Press::Enter, Press::Enter]);
+    assert_eq!(flow.page(), Page::Tutorial(1, true));
+    press(&mut flow, &[Press::Escape, Press::Up, Press::Enter]);
+    assert_eq!(flow.page(), Page::Waiting, "the last row skips");
+    assert!(matches!(orders(&mut flow).as_slice(), [Order::Tell(FromWindow::Chosen(choice))] if choice.trainee == "n3w"));
+    flow.hear(ToWindow::Refused { words: "the port is taken".into() });
+    assert_eq!((flow.page(), flow.words()), (Page::Start, Some("the port is taken")));
+    // Read again from the first page, to its end.
+    press(&mut flow, &[Press::Row(4)]);
+    (0..6).for_each(|_| flow.press(Press::Enter));
+    assert_eq!((flow.page(), orders(&mut flow).len()), (Page::Start, 0));
+}
+
+#[test]
+fn exact_names_stay_harmless_and_wrong_signs_are_told() {
+    let mut flow = started();
+    press(&mut flow, &[Press::Backspace; 9]);
+    for sign in "-_ /é.".chars() {
+        flow.press(Press::Sign(sign));
+        assert!(flow.words().is_some() && flow.choice().trainee.is_empty(), "{sign}");
+    }
+    press(&mut flow, &[Press::Row(3)]);
+    assert_eq!(flow.page(), Page::Start, "without a name nobody flies");
+    "a".repeat(40).chars().for_each(|sign| flow.press(Press::Sign(sign)));
+    assert!(flow.choice().trainee.is_empty(), "signs go to the row that has the focus");
+    flow.press(Press::Row(0));
+    "a".repeat(40).chars().for_each(|sign| flow.press(Press::Sign(sign)));
+    assert_eq!(flow.choice().trainee.len(), 32);
+}
+
+#[test]
+fn exact_pause_and_restart_are_for_practice_alone() {
+    let mut flow = in_flight(Purpose::Practice);
+    flow.pause();
+    assert_eq!(orders(&mut flow), [Order::Tell(FromWindow::Pause)]);
+    assert!(!flow.stands(), "the simulator decides");
+    flow.hear(ToWindow::Paused { on: true });
+    assert!(flow.stands());
+    flow.press(Press::Escape);
+    assert_eq!(orders(&mut flow), [Order::Tell(FromWindow::Resume)]);
+    flow.hear(ToWindow::Paused { on: false });
+    assert_eq!(flow.page(), Page::Flight);
+    flow.restart();
+    flow.hear(ToWindow::Paused { on: true });
+    flow.press(Press::Enter);
+    assert_eq!(
+        orders(&mut flow),
+        [Order::Tell(FromWindow::Pause), Order::Land, Order::Tell(FromWindow::Restart)],
+        "asked once more, by the row that has the focus"
+    );
+    assert_eq!(flow.page(), Page::Waiting);
+
+    let mut flow = in_flight(Purpose::Assessment);
+    assert!(!flow.map());
+    flow.pause();
+    assert!(flow.words().is_some_and(|words| words.contains("not paused")));
+    flow.restart();
+    assert!(flow.words().is_some_and(|words| words.contains("anew")));
+    assert_eq!(orders(&mut flow), []);
+    flow.hear(ToWindow::Ended(ended()));
+    flow.pause();
+    flow.restart();
+    assert_eq!(orders(&mut flow), [Order::Land], "after the end there is nothing to stop");
+}
+
+#[test]
+fn exact_the_profile_changes_by_steps_within_its_range() {
+    let mut flow = started();
+    press(&mut flow, &[Press::Row(3)]);
+    flow.look(Controls {
+        device: Some("Pad".into()),
+        calibrated: true,
+        mode: 4,
+        dead_band: 0.5,
+        expo: 0.05,
+        ..Controls::default()
+    });
+    press(&mut flow, &[Press::Row(2), Press::Right, Press::Row(3), Press::Right, Press::Row(4), Press::Left]);
+    let told = orders(&mut flow);
+    assert_eq!(told[0], Order::Profile(1, 0.5, 0.05), "after mode 4 comes 1");
+    assert_eq!(told[1], Order::Profile(4, 0.5, 0.05), "no dead band over a half");
+    assert_eq!(told[2], Order::Profile(4, 0.5, 0.0));
+    flow.look(Controls { wizard: Some("Let go.".into()), ..flow.controls.clone() });
+    assert_eq!(flow.page(), Page::Calibrating);
+    press(&mut flow, &[Press::Enter, Press::Escape]);
+    assert_eq!(orders(&mut flow), [Order::Confirm, Order::Cancel]);
+    flow.look(Controls { wizard: None, ..flow.controls.clone() });
+    assert_eq!(flow.page(), Page::Controls);
+}
+
+/// Every page that there is.
+fn every_page() -> Vec<(String, Flow)> {
+    let mut all = vec![("opening".to_owned(), Flow::new(true)), ("start".to_owned(), started())];
+    let mut controls = started();
+    controls.press(Press::Row(3));
+    controls.controls.keys = "w up\ns down\n1 arm".into();
+    all.push(("controls-keys".into(), controls.clone()));
+    let device = Controls {
+        device: Some("Radiomaster TX16S".into()),
+        calibrated: true,
+        dead_band: 0.05,
+        expo: 0.3,
+        sticks: [0.4, -0.2, 1.0, -1.0],
+        note: "Kept in /home/anna/.config/spandrel/controllers/radiomaster-tx16s-1209-4f54.toml".into(),
+        ..Controls::default()
+    };
+    controls.look(device.clone());
+    all.push(("controls-device".into(), controls.clone()));
+    let axes = vec![(0, 0.3, (-0.9, 0.95)), (1, -0.2, (-1.0, 1.0))];
+    controls.look(Controls { wizard: Some("Push the LEFT stick fully UP and hold it there.".into()), axes, ..device });
+    all.push(("calibrating".into(), controls));
+    let mut tutorial = started();
+    tutorial.press(Press::Row(4));
+    for page in 1..=6 {
+        all.push((format!("tutorial-{page}"), tutorial.clone()));
+        tutorial.press(Press::Enter);
+    }
+    let mut paused = in_flight(Purpose::Practice);
+    all.push(("flight".into(), paused.clone()));
+    paused.hear(ToWindow::Paused { on: true });
+    all.push(("paused".into(), paused.clone()));
+    paused.hear(ToWindow::Ended(ended()));
+    all.push(("over".into(), paused));
+    all
+}
+
+#[test]
+fn prop_everything_stays_in_windows_of_any_shape_and_every_picture_is_there() {
+    for aspect in [4.0 / 3.0, 16.0 / 9.0, 1600.0 / 560.0, 1280.0 / 360.0] {
+        for (name, flow) in every_page() {
+            let sheet = flow.sheet(aspect);
+            let inside = |p: &Point| (-1e-9..=1.0 + 1e-9).contains(&p.x) && (-1e-9..=1.0 + 1e-9).contains(&p.y);
+            for item in &sheet.items {
+                let points: Vec<Point> = match item {
+                    Item::Panel { from, to, .. } => vec![*from, *to],
+                    Item::Text { place, .. } => vec![*place],
+                    Item::Fill { points, .. } | Item::Line { points, .. } => points.clone(),
+                };
+                assert!(points.iter().all(inside), "{name} at {aspect}: {item:?}");
+            }
+            assert!(sheet.spots.iter().all(|spot| inside(&spot.from) && inside(&spot.to)), "{name} at {aspect}");
+            assert!(sheet.pictures.iter().all(|picture| PICTURES.iter().any(|known| known.0 == picture.name)), "{name}");
+            assert!(flow.rows().is_empty() || sheet.spots.len() >= flow.rows().len(), "{name}: every row can be clicked");
+        }
+    }
+}
+
+/// Every word of a page with its place in hundredths.
+fn words(flow: &Flow) -> String {
+    let line = |item: &Item| match item {
+        Item::Text { place, words, .. } => Some(format!("{:3.0} {:3.0} {words}\n", 100.0 * place.x, 100.0 * place.y)),
+        Item::Panel { .. } | Item::Fill { .. } | Item::Line { .. } => None,
+    };
+    flow.sheet(16.0 / 9.0).items.iter().filter_map(line).collect()
+}
+
+#[test]
+fn regress_the_first_page_and_the_last() {
+    let (start, end) = (include_str!("snapshots/start.txt"), include_str!("snapshots/over.txt"));
+    let mut over = in_flight(Purpose::Practice);
+    over.hear(ToWindow::Ended(ended()));
+    assert_eq!(words(&started()), start, "\n{}", words(&started()));
+    assert_eq!(words(&over), end, "\n{}", words(&over));
+}

@@ -1,0 +1,263 @@
+"""`spandrel train` in its window: choice, controller, tutorial, flight, pause, a new beginning, the end with its scores; all by keys."""
+
+import json
+import os
+import signal
+import subprocess
+
+import numpy
+import pytest
+from PIL import Image
+
+import asking
+import display
+import spandrel
+
+# Colours of pages as they define them (src/view/hud/mod.rs): the ground, the row that has the focus, a score's bar.
+NIGHT, FOCUS, BLUE = (20, 24, 30), (20, 92, 140), (86, 180, 233)
+# The display's battery, so a flight is drawn.
+GREEN = (0, 190, 130)
+# Wall seconds for a software driver on a busy machine to compile its shaders and to draw, or for a session to be written, ten times over.
+LIMIT_S = 400
+# Wall seconds after which a key without an effect is pressed again.
+AGAIN_S = 20.0
+# Rows of a window: X names of the keys that act on them.
+ENTER, DOWN, UP, LEFT, ESCAPE = "Return", "Down", "Up", "Left", "Escape"
+
+
+@pytest.fixture
+def screen(tmp_path):
+    """A virtual display that a page's words are legible on."""
+    opened = display.Display(tmp_path, width=1280, height=560)
+    yield opened
+    opened.close()
+
+
+class Training:
+    """`train` with its window on a display, on ports of its own."""
+
+    def __init__(self, screen, folder, *args):
+        self.screen, self.folder = screen, folder
+        self.sessions = folder / "sessions"
+        self.out = open(folder / "train.txt", "w", encoding="utf-8")
+        # Photographs for whoever wants to look at them afterwards.
+        self.album = os.environ.get("SPANDREL_ALBUM")
+        self.process = subprocess.Popen(
+            [spandrel.COCKPIT, "train", "--ports", "ephemeral", "--sessions", str(self.sessions), "--web", "none", *args],
+            stdin=subprocess.DEVNULL, stdout=self.out, stderr=self.out, env=screen.environment() | self.environment(),
+        )
+
+    def environment(self):
+        """A loudspeaker that writes down what it is to play, and no configuration of the person who runs the tests."""
+        programs = self.folder / "programs"
+        programs.mkdir()
+        player = programs / "pacat"
+        player.write_text(f"#!/bin/sh\nexec cat > {self.folder / 'played.raw'}\n", encoding="utf-8")
+        player.chmod(0o755)
+        return {"PATH": f"{programs}:{os.environ['PATH']}", "XDG_CONFIG_HOME": str(self.folder / "config")}
+
+    def told(self):
+        """What it has printed."""
+        return (self.folder / "train.txt").read_text(encoding="utf-8")
+
+    def keep(self, name, photograph):
+        """A photograph into the album, where there is one."""
+        if self.album:
+            Image.fromarray(photograph.astype(numpy.uint8)).save(os.path.join(self.album, f"{name}.png"))
+
+    def see(self, name, predicate, key=None):
+        """Waits until a photograph shows what is expected; presses a key first, and again when nothing happens: the first may come before
+        the window has the focus."""
+        pressed = spandrel.time.monotonic() - AGAIN_S if key else None
+
+        def look():
+            nonlocal pressed
+            assert self.process.poll() is None, self.told()
+            photograph = self.screen.photograph()
+            if predicate(photograph):
+                return [photograph]
+            if pressed is not None and spandrel.time.monotonic() - pressed >= AGAIN_S:
+                pressed = spandrel.time.monotonic()
+                self.screen.focus()
+                self.screen.tap(key)
+            return []
+
+        (photograph,) = spandrel.wait_for(name, look, LIMIT_S)
+        self.keep(name, photograph)
+        return photograph
+
+    def close(self):
+        """Ends it."""
+        spandrel.end(self.process)
+        self.out.close()
+
+
+def count(photograph, colour):
+    """Pixels of a colour."""
+    return len(display.pixels_of(photograph, colour))
+
+
+def is_page(photograph):
+    """A page covers the window."""
+    return count(photograph[-6:], NIGHT) > 0.9 * photograph[-6:].shape[0] * photograph.shape[1] and count(photograph, FOCUS) > 500
+
+
+def focus(photograph):
+    """Where the row with the focus is: the middle of its colour, from the left and from above, shares."""
+    rows, columns = display.pixels_of(photograph, FOCUS).T
+    return columns.mean() / photograph.shape[1], rows.mean() / photograph.shape[0]
+
+
+def other_page(before):
+    """A page on which much more has changed than the focus."""
+    return lambda photograph: is_page(photograph) and numpy.abs(photograph - before).mean() > 3.0
+
+
+def in_flight(photograph):
+    """The views are drawn, with the display."""
+    return count(photograph, GREEN) > 50 and count(photograph, FOCUS) < 200
+
+
+def paused(photograph):
+    """A page lies over the flight."""
+    return count(photograph, FOCUS) > 500 and count(photograph, GREEN) > 50
+
+
+def folders(training):
+    """Session folders so far."""
+    return sorted(training.sessions.iterdir()) if training.sessions.is_dir() else []
+
+
+@pytest.mark.timeout(2400)
+def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_path):
+    """Start page, controller, tutorial, flight, pause, a new beginning, the end; every page is photographed."""
+    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7")
+    try:
+        start = training.see("start", is_page)
+        # Down to "go on": the focus moves, and comes to the controller.
+        moved = training.see("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
+        assert focus(moved)[1] < 0.5
+        for _ in range(2):
+            screen.tap(DOWN)
+        controls = training.see("controls", other_page(moved), ENTER)
+        screen.key("w", True)
+        training.see("stick-follows-the-key", lambda photograph: is_page(photograph) and numpy.abs(photograph - controls).sum() > 20_000)
+        screen.key("w", False)
+        page = training.see("tutorial-1", other_page(controls), ENTER)
+        for number in range(2, 7):
+            page = training.see(f"tutorial-{number}", other_page(page), ENTER)
+        training.see("flight", in_flight, ENTER)
+        training.see("paused", paused, ESCAPE)
+        spandrel.wait_for("time stands still", lambda: "time stands still" in training.told(), LIMIT_S)
+        training.see("flies-on", in_flight, ESCAPE)
+        assert len(folders(training)) == 1
+
+        # Begun anew: asked once more, then a second session.
+        training.see("asked-once-more", paused, "BackSpace")
+        screen.tap(ENTER)
+        spandrel.wait_for("a second session", lambda: len(folders(training)) == 2, LIMIT_S)
+        training.see("second-flight", in_flight)
+        screen.focus()
+        # It flies a little: motors and take-off, asked again until it does; the filter settles first.
+        again = asking.Again(lambda: (screen.tap("1"), screen.tap("t")))
+
+        def flies():
+            again.if_due()
+            return "lift-off" in training.told().split("this attempt ended")[-1]
+
+        spandrel.wait_for("lift-off", flies, LIMIT_S)
+        training.see("paused-again", paused, ESCAPE)
+        screen.tap(UP)
+        over = training.see("over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200, ENTER)
+        assert focus(over)[0] > 0.5, "what comes next stands on the right"
+        screen.tap(UP)
+        screen.tap(ENTER)
+        assert training.process.wait(timeout=LIMIT_S) == 0, training.told()
+    finally:
+        training.close()
+    sessions = [json.loads((folder / "session.json").read_text(encoding="utf-8")) for folder in folders(training)]
+    assert [session["purpose"] for session in sessions] == ["practice"] * 2 and {session["trainee"] for session in sessions} == {"nina"}
+    heard_propellers(tmp_path)
+
+
+def heard_propellers(folder):
+    """What the loudspeaker was given: while the drone climbed, its blades' frequency stands out of everything."""
+    samples = numpy.frombuffer((folder / "played.raw").read_bytes(), dtype="<i2").astype(float)
+    pieces = samples[: len(samples) // 24000 * 24000].reshape(-1, 24000)
+    loudest = pieces[numpy.abs(pieces).mean(axis=1).argmax()]
+    spectrum = numpy.abs(numpy.fft.rfft(loudest * numpy.hanning(len(loudest))))
+    # A Phantom's rotors turn at some 60 to 150 turns a second: two blades.
+    assert 100 < spectrum.argmax() < 320, f"{spectrum.argmax()} Hz"
+
+
+@pytest.mark.timeout(1200)
+def test_wire_an_assessment_is_neither_paused_nor_begun_anew(screen, tmp_path):
+    """The keys of the pause are refused with words, and the flight goes on."""
+    training = Training(screen, tmp_path, "--trainee", "otto", "--scenario", "drill-hover", "--purpose", "assessment", "--no-sound")
+    try:
+        before = training.see("assessment", in_flight)
+        screen.focus()
+        screen.tap(ESCAPE)
+        screen.tap("BackSpace")
+        height, width, _ = before.shape
+        corner = (slice(int(0.7 * height), height), slice(0, width // 3))
+
+        def refused():
+            photograph = screen.photograph()
+            training.keep("refused", photograph)
+            return in_flight(photograph) and numpy.abs(photograph[corner] - before[corner]).max() > 100
+
+        spandrel.wait_for("words at the lower left", refused, LIMIT_S)
+        assert "time stands still" not in training.told() and len(folders(training)) == 1
+    finally:
+        training.close()
+
+
+def window_of(training):
+    """The process of a training's window."""
+    with open(f"/proc/{training.process.pid}/task/{training.process.pid}/children", encoding="utf-8") as listed:
+        children = [int(pid) for pid in listed.read().split()]
+    for pid in children:
+        with open(f"/proc/{pid}/cmdline", "rb") as words:
+            if b"--led" in words.read().split(b"\0"):
+                return pid
+    return None
+
+
+@pytest.mark.timeout(900)
+def test_wire_a_flight_outlives_its_window(screen, tmp_path):
+    """A window that is killed is told of once; simulator and monitor go on."""
+    training = Training(screen, tmp_path, "--scenario", "drill-hover", "--no-sound")
+    try:
+        spandrel.wait_for("the flight begins", lambda: "has dialled in" in training.told(), LIMIT_S)
+        os.kill(spandrel.wait_for("a window", lambda: window_of(training), LIMIT_S), signal.SIGKILL)
+        spandrel.wait_for("it is told", lambda: "the session goes on without" in training.told(), LIMIT_S)
+        assert training.process.poll() is None and training.told().count("there is no window") == 1
+    finally:
+        training.close()
+
+
+@pytest.mark.timeout(900)
+def test_wire_bad_lines_are_named_once_and_the_window_stays(screen, tmp_path):
+    """What is no message does nothing; the end of the pipe closes the window."""
+    log = open(tmp_path / "view.txt", "w", encoding="utf-8")
+    window = subprocess.Popen(
+        [spandrel.COCKPIT, "view", "--led", "--leash", "--no-sound"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log,
+        env=screen.environment() | {"XDG_CONFIG_HOME": str(tmp_path)},
+    )
+    try:
+        assert json.loads(window.stdout.readline()) == {"is": "ready"}
+        offers = {
+            "is": "offers", "trainees": [], "web": None, "scenarios": [{"name": "drill-hover", "title": "Drill", "kind": "1 task"}],
+            "choice": {"trainee": "nina", "scenario": "drill-hover", "purpose": "practice"},
+        }
+        window.stdin.write(b"rubbish\n\xff\xfe\n{}\n" + json.dumps(offers).encode() + b"\n")
+        window.stdin.flush()
+        spandrel.wait_for("the start page", lambda: is_page(screen.photograph()), LIMIT_S)
+        window.stdin.close()
+        assert window.wait(timeout=LIMIT_S) == 0
+    finally:
+        spandrel.end(window)
+        log.close()
+    told = (tmp_path / "view.txt").read_text(encoding="utf-8")
+    assert told.count("is no message between train and its window") == 1 and "rubbish" in told, told
