@@ -124,8 +124,8 @@ def paused(photograph):
 
 
 def folders(training):
-    """Session folders so far."""
-    return sorted(training.sessions.iterdir()) if training.sessions.is_dir() else []
+    """Session folders so far; beside them lies the camera's view while a window is open."""
+    return sorted(folder for folder in training.sessions.iterdir() if folder.is_dir()) if training.sessions.is_dir() else []
 
 
 @pytest.mark.timeout(2400)
