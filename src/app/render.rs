@@ -6,6 +6,8 @@ use std::path::PathBuf;
 #[cfg(feature = "view")]
 mod draw;
 #[cfg(feature = "view")]
+mod masks;
+#[cfg(feature = "view")]
 mod recorded;
 #[cfg(feature = "view")]
 mod snapshots;
@@ -27,6 +29,7 @@ Examples:
   spandrel render sessions/20260801T... --at 95 --out both.png
   spandrel render sessions/20260801T... --at 95 --view camera --size 4000x3000 --quality high --no-hud
   spandrel render sessions/20260801T... --snapshots
+  spandrel render sessions/20260801T... --snapshots --masks
   spandrel render sessions/20260801T... --video flight.mp4 --span 60,90 --size 960x540
   spandrel render two-bridges --from=-150,-60,12 --look 0,0,25 --utc 2026-06-20T08:00:00Z --cloud 0.2
   spandrel render two-bridges --from 20,-1,28 --look 0,0,31 --lamp --seed 7
@@ -51,6 +54,10 @@ pub struct Args {
     /// How much the picture may cost: low, medium, high or ultra
     #[arg(long, value_name = "PRESET", default_value = "high")]
     quality: String,
+    /// Beside each picture what its pixels show, to train detectors: NAME.elements.png (AASHTO element numbers), NAME.defects.png (numbers of
+    /// defects), both 16 bits grey, and NAME.masks.json (kind, condition state, box of each defect)
+    #[arg(long, conflicts_with = "video")]
+    masks: bool,
     /// Without the head-up display
     #[arg(long)]
     no_hud: bool,

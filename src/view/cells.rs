@@ -37,6 +37,12 @@ impl Ball {
         Self { centre_m, radius_m }
     }
 
+    /// How far it begins from a point, m; below zero inside.
+    #[must_use]
+    pub fn from_m(&self, point_m: Vec3<Enu>) -> f64 {
+        (point_m - self.centre_m).norm() - self.radius_m
+    }
+
     /// Around a mesh.
     #[must_use]
     pub fn of(mesh: &Mesh) -> Self {

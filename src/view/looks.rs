@@ -29,14 +29,14 @@ impl Look {
         matches!(self, Self::Steel | Self::Simple)
     }
 
-    /// The look of a vertex's material number.
+    /// The look of a vertex's material (its lowest eight bits).
     #[must_use]
     pub const fn of(material: u32) -> Self {
         const CONCRETE: u32 = Material::Concrete as u32;
         const DECK: u32 = Material::Deck as u32;
         const STEEL: u32 = Material::Steel as u32;
         const GROUND: u32 = Material::Ground as u32;
-        match material {
+        match material & 0xFF {
             CONCRETE => Self::Concrete,
             DECK => Self::Deck,
             STEEL => Self::Steel,

@@ -54,7 +54,7 @@ pub struct Vertex {
     pub uv: [f32; 2],
     /// Indirect light: shares of the sky's and of the sun's illuminance (see `LightModel::indirect_shares`).
     pub light: [f32; 2],
-    /// [`Material`].
+    /// [`Material`] in the lowest eight bits, above them the AASHTO element number of what is part of a bridge (0: nothing is).
     pub material: u32,
     /// Colour, red to alpha, linear in 1/255.
     pub tint: [u8; 4],

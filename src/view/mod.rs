@@ -16,6 +16,7 @@ pub mod gpu;
 pub mod hud;
 pub mod live;
 pub mod looks;
+pub mod masks;
 pub mod matrix;
 pub mod mesh;
 pub mod noise;

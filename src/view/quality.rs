@@ -17,6 +17,8 @@ pub struct Quality {
     pub lamp_shadow: bool,
     /// Size of the reflection on the water as a share of the picture; 0: the sky alone is reflected.
     pub reflection: f64,
+    /// The lake mirrors a ground of fewer triangles, and no boulders.
+    pub plain_mirror: bool,
     /// Spacing at which light is worked out on the bridges, m.
     pub light_cell_m: f64,
     /// Rays for each place at which light is worked out.
@@ -41,6 +43,7 @@ pub const PRESETS: &[Quality] = &[
         shadow_taps: 1,
         lamp_shadow: false,
         reflection: 0.25,
+        plain_mirror: true,
         light_cell_m: 2.5,
         light_rays: 24,
         trees: 1000,
@@ -56,6 +59,7 @@ pub const PRESETS: &[Quality] = &[
         shadow_taps: 3,
         lamp_shadow: true,
         reflection: 0.5,
+        plain_mirror: false,
         light_cell_m: 2.0,
         light_rays: 32,
         trees: 1500,
@@ -71,6 +75,7 @@ pub const PRESETS: &[Quality] = &[
         shadow_taps: 3,
         lamp_shadow: true,
         reflection: 0.5,
+        plain_mirror: false,
         light_cell_m: 1.5,
         light_rays: 48,
         trees: 3000,
@@ -86,6 +91,7 @@ pub const PRESETS: &[Quality] = &[
         shadow_taps: 3,
         lamp_shadow: true,
         reflection: 1.0,
+        plain_mirror: false,
         light_cell_m: 1.0,
         light_rays: 64,
         trees: 6000,

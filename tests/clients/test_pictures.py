@@ -4,6 +4,7 @@ import json
 import re
 import struct
 
+import numpy
 import pytest
 from PIL import Image
 
@@ -63,6 +64,37 @@ def test_val_photographs_tell_where_and_how_they_were_taken(session):
             plate = float(camera[0xA002]) / float(camera[0xA20E])
             assert abs(wide / float(told["spandrel:DistanceMetre"]) - plate / float(camera[0x920A])) < 1e-3
     assert (session / "report.html").read_text(encoding="utf-8").count("data:image/jpeg;base64,") >= 1
+
+
+@pytest.mark.timeout(900)
+def test_val_masks_label_what_the_measures_counted(session):
+    """Pillow reads 16 bits a pixel; what a photograph was counted for is labelled in it, in the box that the legend tells."""
+    size = f"{SIZE[0]}x{SIZE[1]}"
+    spandrel.run("render", str(session), "--snapshots", "--masks", "--quality", "low", "--size", size, program=spandrel.COCKPIT)
+    legends = sorted((session / "snapshots").glob("*.masks.json"))
+    assert len(legends) == len(list((session / "snapshots").glob("*.jpg"))) > 0
+    labelled = 0
+    for path in legends:
+        legend = json.loads(path.read_text(encoding="utf-8"))
+        stem = path.name.removesuffix(".masks.json")
+        pixels = {kind: numpy.asarray(Image.open(path.with_name(f"{stem}.{kind}.png"))) for kind in ("elements", "defects")}
+        assert all(of.shape == (SIZE[1], SIZE[0]) for of in pixels.values())
+        assert {entry["element"]: entry["pixels"] for entry in legend["elements"]} == counted(pixels["elements"])
+        assert {entry["id"]: entry["pixels"] for entry in legend["defects"]} == counted(pixels["defects"])
+        for entry in legend["defects"]:
+            rows, columns = numpy.nonzero(pixels["defects"] == entry["id"])
+            left, top, width, height = entry["box_px"]
+            assert (columns.min(), rows.min()) == (left, top)
+            assert (columns.max() - left + 1, rows.max() - top + 1) == (width, height)
+            # A defect lies on its element: most of it, for its outline may reach over an edge.
+            assert (pixels["elements"][rows, columns] == entry["element"]).mean() > 0.5
+        labelled += bool(legend["defects"])
+    assert labelled >= len(legends) / 2, "an expert photographs defects"
+
+
+def counted(labels):
+    """How many pixels have each label, without those that have none."""
+    return {int(label): int(count) for label, count in zip(*numpy.unique(labels[labels > 0], return_counts=True))}
 
 
 @pytest.mark.timeout(900)

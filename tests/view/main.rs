@@ -5,6 +5,7 @@
 mod compare;
 mod contrast;
 mod gallery;
+mod masks;
 mod snapshots;
 #[path = "../support/studio.rs"]
 mod studio;

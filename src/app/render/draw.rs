@@ -5,16 +5,17 @@ use super::super::files;
 use super::super::progress::Progress;
 use super::Args;
 use super::recorded::Recorded;
-use super::{snapshots, video};
+use super::{masks, snapshots, video};
 use crate::base::frames::{Enu, Vec3};
 use crate::base::time::SimTime;
-use crate::scenario::Scenario;
+use crate::scenario::{PlacedDefect, Scenario};
 use crate::site::Site;
 use crate::site::gates::Gates;
 use crate::vehicle::{Camera, Vehicle};
 use crate::view::camera::Eye;
 use crate::view::gpu::{Gpu, GpuError, Overlay, Renderer};
 use crate::view::hud;
+use crate::view::masks::Masks;
 use crate::view::picture::Picture;
 use crate::view::quality::{PRESETS, Quality};
 use crate::view::scene::Scene;
@@ -32,6 +33,7 @@ impl From<GpuError> for AppError {
 
 /// Draws what was asked for.
 pub fn run(args: &Args) -> Result<(), AppError> {
+    masks::check(args)?;
     if args.snapshots {
         return snapshots::run(args);
     }
@@ -106,7 +108,7 @@ fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pictur
     let pose = aimed(from, look, args.lamp);
     let standing = parked(&scenario, &vehicle);
     let shot = stage.through(Eye::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (at, size));
-    drawing.draw(&[(shot, Vec::new())])
+    drawing.draw(args, &[(shot, Vec::new())])
 }
 
 /// A moment of a session.
@@ -129,7 +131,7 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
         let display = stage::hud(&stage, &moment, &recorded.flight, (heard.until(at), true), true);
         views.push((stage.camera(&moment, size), if args.no_hud { Vec::new() } else { hud::layout(&display, aspect(size)) }));
     }
-    drawing.draw(&views)
+    drawing.draw(args, &views)
 }
 
 /// Width over height.
@@ -173,9 +175,17 @@ impl Drawing {
         Brush { gpu: &self.gpu, renderer: Renderer::new(&self.gpu, self.quality, &self.scene), overlay: Overlay::new(&self.gpu) }
     }
 
-    /// Shots side by side, each with what lies over it.
-    fn draw(&self, views: &[(Shot, Vec<hud::Item>)]) -> Result<Picture, AppError> {
+    /// The defects of the site.
+    pub fn defects(&self) -> &[PlacedDefect] {
+        self.site.defects()
+    }
+
+    /// Shots side by side, each with what lies over it; and the labels of the one that there is, if they are wanted.
+    fn draw(&self, args: &Args, views: &[(Shot, Vec<hud::Item>)]) -> Result<Picture, AppError> {
         let mut brush = self.brush();
+        if let (true, [(shot, _)]) = (args.masks, views) {
+            masks::write(&mut brush, shot, self.defects(), std::path::Path::new(&args.out))?;
+        }
         let pictures = views.iter().map(|(shot, items)| brush.draw(shot, items)).collect::<Result<Vec<_>, _>>()?;
         Ok(beside(&pictures))
     }
@@ -192,6 +202,11 @@ impl Brush<'_> {
     /// A picture with what lies over it.
     pub fn draw(&mut self, shot: &Shot, items: &[hud::Item]) -> Result<Picture, AppError> {
         Ok(self.renderer.picture_with(self.gpu, shot, &mut self.overlay, items)?)
+    }
+
+    /// What its pixels show.
+    pub fn labels(&mut self, shot: &Shot) -> Result<Masks, AppError> {
+        Ok(self.renderer.labels(self.gpu, shot)?)
     }
 }
 

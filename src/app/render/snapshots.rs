@@ -5,9 +5,9 @@ use super::super::errors::AppError;
 use super::super::progress::Progress;
 use super::super::report;
 use super::super::session_folder::replace;
-use super::Args;
 use super::draw::{Drawing, quality, size};
 use super::recorded::Recorded;
+use super::{Args, masks};
 use crate::base::geodesy::LocalPlane;
 use crate::monitor::folder::SNAPSHOTS;
 use crate::report::pictures::Picture;
@@ -57,7 +57,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         if bytes.len() > MOST_BYTES {
             tracing::warn!("picture {} has {} bytes at the coarsest: give a smaller --size", picture.number, bytes.len());
         }
-        replace(&folder.join(format!("{:04}.jpg", picture.index.max(0))), &bytes)?;
+        let path = folder.join(format!("{:04}.jpg", picture.index.max(0)));
+        replace(&path, &bytes)?;
+        if args.masks {
+            masks::write(&mut brush, &shot, drawing.defects(), &path)?;
+        }
     }
     progress.end();
     report::write(&recorded.folder)?;

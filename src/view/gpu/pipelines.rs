@@ -1,5 +1,7 @@
 //! How each kind of thing is drawn.
 
+mod labels;
+
 use super::device::Gpu;
 use crate::site::catalogue;
 use crate::view::looks::Look;
@@ -8,6 +10,8 @@ use crate::view::quality::Quality;
 use crate::view::scene::{Instance, Patch};
 use crate::view::shaders;
 use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm8x4};
+
+pub use labels::LabelPipelines;
 
 /// Light on the sensor.
 pub const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -112,6 +116,7 @@ struct Kind<'a> {
     buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
     target: Option<wgpu::TextureFormat>,
     blend: Option<wgpu::BlendState>,
+    writes: wgpu::ColorWrites,
     /// Whether depth is kept, and how it decides; `None`: no depth at all.
     depth: Option<(bool, wgpu::CompareFunction)>,
     bias: i32,
@@ -129,8 +134,7 @@ fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
         immediate_size: 0,
     });
     let constants = wgpu::PipelineCompilationOptions { constants: kind.constants, ..Default::default() };
-    let targets =
-        [kind.target.map(|format| wgpu::ColorTargetState { format, blend: kind.blend, write_mask: wgpu::ColorWrites::ALL })];
+    let targets = [kind.target.map(|format| wgpu::ColorTargetState { format, blend: kind.blend, write_mask: kind.writes })];
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: None,
         layout: Some(&layout),
@@ -280,6 +284,7 @@ impl Pipelines {
             buffers: &solid_buffers,
             target: Some(LIGHT),
             blend: None,
+            writes: wgpu::ColorWrites::ALL,
             depth: Some((true, NEARER)),
             bias: 0,
             cull: Some(wgpu::Face::Back),

@@ -1,9 +1,11 @@
 //! Draws shots of one scene.
 
+mod labels;
+
 use super::device::{Gpu, GpuError};
 use super::overlay::Overlay;
 use super::pass::{Copies, Solid, begin, begin_depth, upload};
-use super::pipelines::{DEPTH, PICTURE, Pipelines};
+use super::pipelines::{DEPTH, LabelPipelines, PICTURE, Pipelines};
 use super::targets::{Targets, noise_texture};
 use super::uniforms::{Develop, Globals, MAPS, Maps};
 use crate::base::frames::{Enu, Vec3};
@@ -14,7 +16,7 @@ use crate::view::looks::Look;
 use crate::view::matrix::Matrix;
 use crate::view::picture::Picture;
 use crate::view::quality::Quality;
-use crate::view::scene::{Instance, Model, Patch, Scene};
+use crate::view::scene::{Instance, Model, Patch, Scene, Seen};
 use crate::view::shadows::{self, Map};
 use crate::view::shot::Shot;
 use std::collections::BTreeMap;
@@ -45,6 +47,7 @@ struct Fixed {
     solid: Arc<Solid>,
     copies: Copies,
     casts: bool,
+    seen: Seen,
     ball: Ball,
 }
 
@@ -52,6 +55,8 @@ struct Fixed {
 pub struct Renderer {
     quality: Quality,
     pipelines: Pipelines,
+    /// Compiled when labels are first asked for.
+    labels: Option<LabelPipelines>,
     fixed: Vec<Fixed>,
     models: Vec<Option<Solid>>,
     water: Vec<(Solid, Ball)>,
@@ -110,6 +115,7 @@ impl Renderer {
             site_map_sun: None,
             targets: BTreeMap::new(),
             counts: Counts::default(),
+            labels: None,
             quality,
             pipelines,
         }
@@ -146,10 +152,10 @@ impl Renderer {
             self.targets.remove(&shot.size_px).unwrap_or_else(|| Targets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
         let projection = shot.eye.view_projection(shot.aspect());
         if self.quality.reflection > 0.0 {
-            let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &projection);
+            let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, (&projection, shot.eye.position_m));
             self.counts = self.counts.and(mirrored);
         }
-        let lit = self.draw_light(&mut encoder, &targets, &moving, &projection);
+        let lit = self.draw_light(&mut encoder, &targets, &moving, (&projection, shot.eye.position_m));
         self.counts = self.counts.and(lit);
         let develop = Develop::new(shot, &self.quality);
         gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
@@ -238,13 +244,13 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
         moving: &[(Model, Copies)],
-        projection: &Matrix,
+        (projection, eye_m): (&Matrix, Vec3<Enu>),
     ) -> Counts {
         let shown = Frustum::of(&projection.after(&Matrix::mirror(self.water_m)));
         let mut counts = Counts::default();
         let mut pass = begin(encoder, &targets.mirror, None, Some(&targets.mirror_depth));
         pass.set_bind_group(0, &self.bound_mirrored, &[]);
-        self.draw_solids(&mut pass, &self.pipelines.surfaces_mirrored, (moving, &shown), &mut counts);
+        self.draw_solids(&mut pass, &self.pipelines.surfaces_mirrored, (moving, &shown), (Seen::Directly, eye_m), &mut counts);
         pass.set_pipeline(&self.pipelines.sky_mirrored);
         pass.draw(0..3, 0..1);
         counts.draws += 1;
@@ -257,9 +263,13 @@ impl Renderer {
         pass: &mut wgpu::RenderPass,
         pipelines: &[(Look, wgpu::RenderPipeline)],
         (moving, shown): (&[(Model, Copies)], &Frustum),
+        (hidden, eye_m): (Seen, Vec3<Enu>),
         counts: &mut Counts,
     ) {
-        let still: Vec<&Fixed> = self.fixed.iter().filter(|fixed| shown.may_show(&fixed.ball)).collect();
+        let mut still: Vec<&Fixed> =
+            self.fixed.iter().filter(|fixed| fixed.seen != hidden && shown.may_show(&fixed.ball)).collect();
+        // Near things first: what they hide is not shaded.
+        still.sort_by(|a, b| a.ball.from_m(eye_m).total_cmp(&b.ball.from_m(eye_m)));
         for (look, pipeline) in pipelines {
             pass.set_pipeline(pipeline);
             let still = still.iter().map(|fixed| (&*fixed.solid, &fixed.copies));
@@ -276,13 +286,13 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
         moving: &[(Model, Copies)],
-        projection: &Matrix,
+        (projection, eye_m): (&Matrix, Vec3<Enu>),
     ) -> Counts {
         let shown = Frustum::of(projection);
         let mut counts = Counts::default();
         let mut pass = begin(encoder, &targets.light, targets.resolved.as_ref(), Some(&targets.depth));
         pass.set_bind_group(0, &self.bound, &[]);
-        self.draw_solids(&mut pass, &self.pipelines.surfaces, (moving, &shown), &mut counts);
+        self.draw_solids(&mut pass, &self.pipelines.surfaces, (moving, &shown), (Seen::Mirrored, eye_m), &mut counts);
         for (kind, buffer, patches) in &self.patches {
             let Some((_, pipeline)) = self.pipelines.defects.iter().find(|of| of.0 == *kind) else { continue };
             pass.set_pipeline(pipeline);
@@ -373,7 +383,13 @@ fn fixed(gpu: &Gpu, scene: &Scene) -> Vec<Fixed> {
     let mut all = Vec::new();
     for part in &scene.parts {
         let mut add = |solid: Arc<Solid>, instances: &[Instance], ball: Ball| {
-            all.extend(Copies::new(gpu, instances).map(|copies| Fixed { solid, copies, casts: part.casts, ball }));
+            all.extend(Copies::new(gpu, instances).map(|copies| Fixed {
+                solid,
+                copies,
+                casts: part.casts,
+                seen: part.seen,
+                ball,
+            }));
         };
         if part.instances == [Instance::HERE] {
             for cell in cells::cut(&part.mesh) {
@@ -415,7 +431,13 @@ pub fn picture_texture(gpu: &Gpu, (width, height): (u32, u32)) -> wgpu::Texture 
 /// When the device fails.
 pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Picture, GpuError> {
     let (width, height) = (texture.width(), texture.height());
-    let row = (4 * width).div_ceil(ROW) * ROW;
+    Ok(Picture { width, height, rgba: read_bytes(gpu, texture, 4)? })
+}
+
+/// Reads a texture's pixels back, so many bytes each.
+fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, pixel: u32) -> Result<Vec<u8>, GpuError> {
+    let (width, height) = (texture.width(), texture.height());
+    let row = (pixel * width).div_ceil(ROW) * ROW;
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read"),
         size: u64::from(row) * u64::from(height),
@@ -435,6 +457,5 @@ pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Picture, GpuError> {
     buffer.map_async(wgpu::MapMode::Read, .., |_| {});
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Failed(error.to_string()))?;
     let mapped = buffer.get_mapped_range(..).map_err(|error| GpuError::Failed(error.to_string()))?;
-    let rgba = mapped.chunks(row as usize).flat_map(|line| &line[..4 * width as usize]).copied().collect();
-    Ok(Picture { width, height, rgba })
+    Ok(mapped.chunks(row as usize).flat_map(|line| &line[..(pixel * width) as usize]).copied().collect())
 }

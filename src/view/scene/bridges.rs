@@ -67,6 +67,7 @@ fn add(mesh: &mut Mesh, member: &Member, axes: &Axes, bake: &Bake, quality: &Qua
         let normal = normal(&corners);
         let road = matches!(member.element, 12 | 13 | 15 | 16 | 28..=31 | 38 | 39) && normal.up() > 0.9;
         let look = Look {
+            element: member.element,
             normal,
             material: if road { Material::Deck } else { material },
             tint,
@@ -80,6 +81,7 @@ fn add(mesh: &mut Mesh, member: &Member, axes: &Axes, bake: &Bake, quality: &Qua
 }
 
 struct Look {
+    element: u32,
     normal: Vec3<Enu>,
     material: Material,
     tint: [u8; 3],
@@ -108,7 +110,7 @@ fn corner(p: Vec3<Enu>, look: &Look, axes: &Axes, light: [f32; 2]) -> Vertex {
         normal: single(look.normal),
         uv: uv(p, look.normal, axes),
         light,
-        material: look.material as u32,
+        material: look.material as u32 | (look.element << 8),
         tint: [r, g, b, 255],
         aux: if look.material == Material::Deck { axes.half_deck_m as f32 } else { 0.0 },
     }

@@ -28,7 +28,7 @@ pub struct Patch {
     pub size: [f32; 4],
     /// Indirect light (shares of sky and sun); half sizes of what is drawn, m.
     pub light: [f32; 4],
-    /// The coat on steel, linear.
+    /// The coat on steel, linear; the defect's number.
     pub tint: [f32; 4],
 }
 
@@ -60,7 +60,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> Patch {
         along: four(defect.along, defect.length_m),
         size: [defect.width_m as f32, f32::from(defect.condition_state), -defect.along.up() as f32, -across.up() as f32],
         light: [sky, sun, half.0 as f32, half.1 as f32],
-        tint: [r, g, b, 1.0],
+        tint: [r, g, b, defect.id as f32],
     }
 }
 

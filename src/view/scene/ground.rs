@@ -49,6 +49,23 @@ pub fn mesh(scenario: &Scenario, site: &Site, bake: &Bake) -> Mesh {
     Mesh { vertices: vertices.collect(), indices: triangles.into_iter().flatten().collect() }
 }
 
+/// The same ground by every fourth of its corners, for what shows but dimly and small; `None` where it has no such corners.
+pub fn coarse(ground: &Mesh) -> Option<Mesh> {
+    const STEP: usize = 4;
+    let side = ground.vertices.len().isqrt();
+    if side * side != ground.vertices.len() || side < STEP + 1 || !(side - 1).is_multiple_of(STEP) {
+        return None;
+    }
+    let few = (side - 1) / STEP + 1;
+    let corner = |k: usize| ground.vertices[STEP * (k / few) * side + STEP * (k % few)];
+    let n = few as u32;
+    let cells = (0..n - 1).flat_map(|row| (0..n - 1).map(move |column| row * n + column));
+    Some(Mesh {
+        vertices: (0..few * few).map(corner).collect(),
+        indices: cells.flat_map(|a| [a, a + 1, a + n + 1, a, a + n + 1, a + n]).collect(),
+    })
+}
+
 fn smooth(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
     let mut sums = vec![Vec3::zero(); points.len()];
     for [a, b, c] in triangles {
@@ -192,4 +209,33 @@ pub fn pad(site: &Site) -> Mesh {
     }
     mesh.indices.extend([0, 1, 2, 0, 2, 3]);
     mesh
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_coarse_ground_keeps_every_fourth_corner_and_faces_up() {
+        let at = |k: usize| Vec3::new(f64::from(k as u32 % 9), f64::from(k as u32 / 9), 0.1 * f64::from(k as u32));
+        let up = Vec3::new(0.0, 0.0, 1.0);
+        let ground = |corners: usize| Mesh {
+            vertices: (0..corners).map(|k| ground_vertex(at(k), up, [1.0; 2], 0.0)).collect(),
+            indices: Vec::new(),
+        };
+        let few = coarse(&ground(81)).unwrap();
+        assert_eq!((few.vertices.len(), few.triangles()), (9, 8));
+        assert_eq!(few.vertices[4].position, single(at(4 * 9 + 4)), "the middle stays");
+        for triangle in few.indices.chunks(3) {
+            let p = |k: u32| {
+                Vec3::<Enu>::new(0.0, 0.0, 0.0) + {
+                    let [x, y, z] = few.vertices[k as usize].position.map(f64::from);
+                    Vec3::new(x, y, z)
+                }
+            };
+            let normal = (p(triangle[1]) - p(triangle[0])).cross(p(triangle[2]) - p(triangle[0]));
+            assert!(normal.up() > 0.0);
+        }
+        assert!(coarse(&ground(64)).is_none(), "seven steps are no fours");
+    }
 }

@@ -63,6 +63,26 @@ pub struct Part {
     pub instances: Vec<Instance>,
     /// It throws shadows.
     pub casts: bool,
+    /// Where it shows.
+    pub seen: Seen,
+}
+
+/// Where something shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seen {
+    /// Everywhere.
+    Everywhere,
+    /// Wherever the eye meets it, but not in the lake.
+    Directly,
+    /// In the lake alone: a simpler stand-in.
+    Mirrored,
+}
+
+impl Part {
+    /// What is built where it stands.
+    fn here(name: &'static str, mesh: Mesh, casts: bool) -> Self {
+        Self { name, mesh, instances: vec![Instance::HERE], casts, seen: Seen::Everywhere }
+    }
 }
 
 /// Meshes of what moves.
@@ -125,11 +145,15 @@ impl Scene {
         let sun = site.light().daylight(at).sun;
         let bake = Bake::new(site, sun, quality.light_rays);
         let mut parts = vec![
-            Part { name: "bridges", mesh: bridges::mesh(scenario, &bake, quality), instances: vec![Instance::HERE], casts: true },
-            Part { name: "ground", mesh: ground::mesh(scenario, site, &bake), instances: vec![Instance::HERE], casts: true },
-            Part { name: "mountains", mesh: ground::mountains(scenario, site), instances: vec![Instance::HERE], casts: false },
-            Part { name: "pad", mesh: ground::pad(site), instances: vec![Instance::HERE], casts: false },
+            Part::here("bridges", bridges::mesh(scenario, &bake, quality), true),
+            Part::here("ground", ground::mesh(scenario, site, &bake), true),
+            Part::here("mountains", ground::mountains(scenario, site), false),
+            Part::here("pad", ground::pad(site), false),
         ];
+        if let (true, Some(coarse)) = (quality.plain_mirror, ground::coarse(&parts[1].mesh)) {
+            parts[1].seen = Seen::Directly;
+            parts.push(Part { seen: Seen::Mirrored, ..Part::here("ground in the lake", coarse, false) });
+        }
         parts.extend(plants::parts(scenario, site, quality));
         Self {
             parts,

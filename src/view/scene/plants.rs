@@ -3,7 +3,7 @@
 
 use super::super::mesh::{Finish, Material, Mesh};
 use super::super::quality::Quality;
-use super::{Instance, Part};
+use super::{Instance, Part, Seen};
 use crate::base::frames::{Enu, Vec3};
 use crate::base::math;
 use crate::base::random::RandomStream;
@@ -62,10 +62,12 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<Part> {
         let Some(foot) = room(scenario, site, east, north, -0.5) else { continue };
         rocks.push(grown(foot, size, turn));
     }
+    // A boulder is a few pixels of the lake's mirror.
+    let on_shore = if quality.plain_mirror { Seen::Directly } else { Seen::Everywhere };
     vec![
-        Part { name: "spruces", mesh: conifer(0.21, 5, quality.boughs), instances: tall, casts: true },
-        Part { name: "firs", mesh: conifer(0.15, 6, quality.boughs), instances: slim, casts: true },
-        Part { name: "boulders", mesh: boulder(quality.boughs), instances: rocks, casts: true },
+        Part { name: "spruces", mesh: conifer(0.21, 5, quality.boughs), instances: tall, casts: true, seen: Seen::Everywhere },
+        Part { name: "firs", mesh: conifer(0.15, 6, quality.boughs), instances: slim, casts: true, seen: Seen::Everywhere },
+        Part { name: "boulders", mesh: boulder(quality.boughs), instances: rocks, casts: true, seen: on_shore },
     ]
 }
 

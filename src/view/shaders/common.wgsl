@@ -69,6 +69,14 @@ fn fbm(p: vec2<f32>, footprint: f32) -> f32 {
     return textureSampleLevel(noise_map, noise_sampler, p / 16.0, log2(max(footprint * 32.0, 1.0))).r;
 }
 
+// Noise of which a preset that saves has its mean, or what is at hand.
+fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
+    if DETAIL {
+        return fbm(p, footprint);
+    }
+    return instead;
+}
+
 // Cells of a random pattern: distance to the nearest centre, and a number of that cell.
 fn pebbles(p: vec2<f32>) -> vec2<f32> {
     let found = textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0);
@@ -267,8 +275,20 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
 
 // Air between: things fade into the sky's horizon.
 fn haze(colour: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
+    let clear = exp(-distance * g.scene.z);
+    if !DETAIL {
+        return mix(horizon_radiance(v) * 0.85, colour, clear);
+    }
     let horizon = normalize(vec3<f32>(-v.x, -v.y, 0.04));
-    return mix(sky_radiance(horizon) * 0.85, colour, exp(-distance * g.scene.z));
+    return mix(sky_radiance(horizon) * 0.85, colour, clear);
+}
+
+// The sky just over the horizon behind what is seen from v, with the sun's glow by powers: cheap, where it is but a veil.
+fn horizon_radiance(v: vec3<f32>) -> vec3<f32> {
+    let q = 0.5 - 0.5 * dot(v, g.sun.xyz);
+    let q4 = q * q * q * q;
+    let clear = (1.0 + 2.2 * q4 * q4 * q4 * q4) * vec3<f32>(0.85, 0.90, 1.20);
+    return g.scene.x * mix(clear, vec3<f32>(0.34, 0.35, 0.36), g.sun_rgb.w);
 }
 
 fn exposed(colour: vec3<f32>) -> vec4<f32> {

@@ -3,6 +3,11 @@
 
 // AASHTO code of what a pipeline draws.
 override KIND: u32 = 0u;
+// It marks which defect a pixel shows.
+override MASK: bool = false;
+// Share of a pixel from which on it is marked: a line half a pixel wide, the least that is detected (domain.md 3a), covers at least a quarter of one
+// of the two pixels that it may lie across.
+const MARKED: f32 = 0.25;
 
 struct Patch {
     // Centre; AASHTO code.
@@ -15,7 +20,7 @@ struct Patch {
     @location(3) size: vec4<f32>,
     // Indirect light; half sizes of the quad.
     @location(4) light: vec4<f32>,
-    // Colour of the coat on steel.
+    // Colour of the coat on steel; the defect's number.
     @location(5) tint: vec4<f32>,
 }
 
@@ -28,6 +33,7 @@ struct Fragment {
     @location(5) @interpolate(flat) size: vec4<f32>,
     @location(6) @interpolate(flat) light: vec2<f32>,
     @location(7) @interpolate(flat) tint: vec3<f32>,
+    @location(8) @interpolate(flat) id: f32,
 }
 
 @vertex
@@ -49,6 +55,7 @@ fn vs(@builtin(vertex_index) k: u32, d: Patch) -> Fragment {
     out.size = d.size;
     out.light = d.light.xy;
     out.tint = d.tint.rgb;
+    out.id = d.tint.w;
     return out;
 }
 
@@ -327,6 +334,12 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
         lime(in, f, &look);
     } else {
         worn(in, f, &look);
+    }
+    if MASK {
+        if look.alpha < MARKED {
+            discard;
+        }
+        return vec4<f32>(0.0, in.id, 0.0, 1.0);
     }
     if look.alpha <= 0.002 {
         discard;

@@ -4,6 +4,8 @@
 override LOOK: u32 = 3u;
 // It draws what the lake mirrors.
 override MIRRORED: bool = false;
+// It marks which element of a bridge a pixel shows.
+override MASK: bool = false;
 
 struct Corner {
     @location(0) position: vec3<f32>,
@@ -41,9 +43,10 @@ fn vs(v: Corner) -> Fragment {
     out.clip = g.view_proj * vec4<f32>(out.p, 1.0);
     out.uv = v.uv;
     out.light = v.light * mix(v.around.zw, v.around.xy, 0.5 + 0.5 * out.normal.z);
-    out.material = v.material;
+    // The element number stands above the material.
+    out.material = select(v.material & 0xffu, v.material >> 8u, MASK);
     // Paint replaces the colour of painted parts only.
-    out.tint = select(v.tint, vec4<f32>(v.paint.rgb, 1.0), v.paint.w > 0.5 && v.material == 8u);
+    out.tint = select(v.tint, vec4<f32>(v.paint.rgb, 1.0), v.paint.w > 0.5 && (v.material & 0xffu) == 8u);
     out.aux = v.aux;
     return out;
 }
@@ -55,14 +58,14 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     let wall = 1.0 - smoothstep(0.4, 0.8, abs(n.z));
     let blotch = fbm(uv * 0.45, f * 0.45);
     let grain = fbm(uv * 9.0 + 31.0, f * 9.0);
-    let sand = fbm(uv * 71.0 + 3.0, f * 71.0);
+    let sand = fine(uv * 71.0 + 3.0, f * 71.0, grain);
     var tone = 0.82 + 0.55 * (blotch - 0.5) + 0.22 * (grain - 0.5) + 0.20 * (sand - 0.5);
     // Boards lie along the member, 0.16 m wide, each with a tone of its own.
     let board = floor(uv.y / 0.16);
     let board_tone = hash2(vec2<i32>(i32(board), i32(floor(uv.x / 2.4 + 0.37 * (board - 2.0 * floor(0.5 * board))))));
     tone += 0.07 * (board_tone - 0.5) * (1.0 - smoothstep(0.05, 0.2, fp.y));
     // Weather has worn most of the lines between boards away: what is left is fainter than any crack, and straight.
-    let kept = smoothstep(0.45, 0.7, fbm(vec2<f32>(uv.x * 0.9, board * 3.7), fp.x * 0.9));
+    let kept = smoothstep(0.45, 0.7, fine(vec2<f32>(uv.x * 0.9, board * 3.7), fp.x * 0.9, blotch));
     let seams = lines(uv.y, 0.16, 0.003, fp.y) * kept;
     let joints = lines(uv.x + 0.6, 4.8, 0.010, fp.x) + 0.3 * lines(uv.x + 0.2, 2.4, 0.004, fp.x);
     tone *= 1.0 - 0.16 * seams - 0.30 * joints;
@@ -74,9 +77,11 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     let streak = fbm(vec2<f32>(uv.x * 3.1, uv.y * 0.22 + 3.0), f * 3.1);
     tone *= 1.0 - wall * 0.42 * smoothstep(0.52, 0.78, streak);
     // Air holes left by the formwork, a few millimetres wide.
-    let hole = pebbles(uv * 14.0 + 5.0);
-    let bore = 0.03 + 0.09 * fract(hole.y * 7.3);
-    tone *= 1.0 - 0.5 * step(0.72, hole.y) * cover(hole.x, bore, f * 14.0) * (1.0 - smoothstep(0.004, 0.012, f));
+    if DETAIL {
+        let hole = pebbles(uv * 14.0 + 5.0);
+        let bore = 0.03 + 0.09 * fract(hole.y * 7.3);
+        tone *= 1.0 - 0.5 * step(0.72, hole.y) * cover(hole.x, bore, f * 14.0) * (1.0 - smoothstep(0.004, 0.012, f));
+    }
     var colour = vec3<f32>(0.36, 0.345, 0.315) * tone;
     // Soot and lichen in broad patches.
     let dark = smoothstep(0.6, 0.8, fbm(uv * 0.17 + 11.0, f * 0.17));
@@ -87,12 +92,12 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     if lucky > 0.93 {
         let centre = (spot + 0.3 + 0.4 * vec2<f32>(hash2(vec2<i32>(spot)), hash2(vec2<i32>(spot) + 5))) * 1.7;
         let d = length((uv - centre) * vec2<f32>(1.0, mix(1.0, 0.45, wall)));
-        let splash = 0.055 * fbm(uv * 38.0, 0.0);
+        let splash = 0.055 * fine(uv * 38.0, 0.0, grain);
         colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * (1.0 - smoothstep(splash - 0.5 * f, splash + 0.5 * f + 0.004, d)));
     }
     // Splash zone: algae and a wet foot.
     let over = in.p.z - g.scene.y;
-    let reach = 0.8 + 0.5 * fbm(uv * 0.8 + 4.0, f * 0.8);
+    let reach = 0.8 + 0.5 * fine(uv * 0.8 + 4.0, f * 0.8, blotch);
     let slime = wall * (1.0 - smoothstep(0.15, reach, over));
     colour = mix(colour, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);
     let band = wall * smoothstep(reach, reach + 0.15, over) * (1.0 - smoothstep(reach + 0.2, reach + 1.2, over));
@@ -154,20 +159,20 @@ fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     let over = in.aux;
     let broad = fbm(at * 0.03, f * 0.03);
     let near = fbm(at * 0.5 + 17.0, f * 0.5);
-    let fine = fbm(at * 4.0 + 3.0, f * 4.0);
-    let blades = fbm(at * 19.0 + 7.0, f * 19.0);
+    let fine_at = fbm(at * 4.0 + 3.0, f * 4.0);
+    let blades = fine(at * 19.0 + 7.0, f * 19.0, fine_at);
     let meadow = mix(vec3<f32>(0.085, 0.105, 0.032), vec3<f32>(0.17, 0.15, 0.065), smoothstep(0.35, 0.7, broad * 0.6 + near * 0.4));
     // Rock stands upright: its pattern lies in the plane that it faces most, or it would be drawn out down the slope.
     let east = abs(n.x) + 0.3 * (near - 0.5) > abs(n.y);
     let wall = vec2<f32>(select(in.p.x, in.p.y, east), in.p.z);
     let bed = fbm(vec2<f32>(wall.x * 0.12, wall.y * 0.7 + wall.x * 0.13 + 1.5 * near), f * 0.7);
     let block = fbm(wall * 0.8 + 9.0, f * 0.8);
-    let chip = fbm(wall * 6.0 + 3.0, f * 6.0);
+    let chip = fine(wall * 6.0 + 3.0, f * 6.0, fine_at);
     let rock = mix(vec3<f32>(0.17, 0.158, 0.14), vec3<f32>(0.30, 0.28, 0.255), smoothstep(0.25, 0.75, 0.35 * bed + 0.65 * block))
         * (0.6 + 0.8 * chip) * (0.9 + 0.2 * smoothstep(0.40, 0.55, bed + 0.3 * (chip - 0.5)));
-    let gravel = mix(vec3<f32>(0.21, 0.195, 0.17), vec3<f32>(0.34, 0.32, 0.28), fine);
+    let gravel = mix(vec3<f32>(0.21, 0.195, 0.17), vec3<f32>(0.34, 0.32, 0.28), fine_at);
     let steep = smoothstep(0.22, 0.42, 1.0 - n.z + 0.18 * (near - 0.5));
-    var colour = meadow * (0.55 + 0.55 * fine + 0.35 * blades);
+    var colour = meadow * (0.55 + 0.55 * fine_at + 0.35 * blades);
     colour = mix(colour, rock, steep);
     let shore = 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5));
     colour = mix(colour, gravel, shore);
@@ -175,7 +180,7 @@ fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     colour *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
     // Forest on distant slopes, snow on the heights.
     let forest = smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
-    let canopy = fbm(at * 0.09, f * 0.09);
+    let canopy = fine(at * 0.09, f * 0.09, near);
     colour = mix(colour, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + canopy), forest * smoothstep(0.38, 0.5, broad + 0.25 * (canopy - 0.5)) * (1.0 - 0.5 * steep));
     let snow = smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
     colour = mix(colour, vec3<f32>(0.8, 0.82, 0.85), snow);
@@ -223,6 +228,9 @@ fn simple(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
 
 @fragment
 fn fs(in: Fragment) -> @location(0) vec4<f32> {
+    if MASK {
+        return vec4<f32>(f32(in.material), 0.0, 0.0, 1.0);
+    }
     let fp = max(fwidth(in.uv), vec2<f32>(1e-5));
     let f = max(length(dpdx(in.p)), length(dpdy(in.p)));
     let n = normalize(in.normal);

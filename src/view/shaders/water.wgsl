@@ -44,13 +44,15 @@ fn slope(at: vec2<f32>, footprint: f32) -> vec2<f32> {
     var s = train(bent, normalize(wind + 0.15 * side), 5.3, 0.5 * strength, footprint);
     s += train(bent, normalize(wind - 0.45 * side), 2.9, 0.7 * strength, footprint);
     s += train(bent, normalize(wind + 0.75 * side), 1.55, strength, footprint);
-    s += train(bent, normalize(wind - 1.1 * side), 0.83, strength, footprint);
-    s += train(bent, normalize(wind + 0.35 * side), 0.41, strength, footprint);
+    if DETAIL {
+        s += train(bent, normalize(wind - 1.1 * side), 0.83, strength, footprint);
+        s += train(bent, normalize(wind + 0.35 * side), 0.41, strength, footprint);
+    }
     let t = g.eye.w;
-    let fine = 1.0 - smoothstep(0.05, 0.3, footprint);
+    let shown = 1.0 - smoothstep(0.05, 0.3, footprint);
     if DETAIL {
         let q = bent * 4.3 - wind * t * 0.9;
-        s += fine * strength * 1.6 * (vec2<f32>(noise(q), noise(q + 31.7)) - 0.5);
+        s += shown * strength * 1.6 * (vec2<f32>(noise(q), noise(q + 31.7)) - 0.5);
     }
     return s;
 }

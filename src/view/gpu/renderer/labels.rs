@@ -1,0 +1,86 @@
+//! Labels of a shot in place of its light.
+
+use super::{Frustum, Renderer, solids};
+use crate::view::gpu::device::{Gpu, GpuError};
+use crate::view::gpu::pass::{Copies, begin};
+use crate::view::gpu::pipelines::{DEPTH, LIGHT, LabelPipelines};
+use crate::view::gpu::targets::texture;
+use crate::view::gpu::uniforms::{Globals, Maps};
+use crate::view::masks::Masks;
+use crate::view::scene::{Instance, Seen};
+use crate::view::shot::Shot;
+
+/// Bytes of a pixel of labels: four half floats.
+const PIXEL: u32 = 8;
+
+impl Renderer {
+    /// Which element of a bridge and which defect each pixel of a shot shows.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn labels(&mut self, gpu: &Gpu, shot: &Shot) -> Result<Masks, GpuError> {
+        let globals = Globals::new(shot, self.water_m, &Maps { sun: &[], lamp: None }, false);
+        gpu.queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
+        let pipelines = self.labels.take().unwrap_or_else(|| LabelPipelines::new(gpu, &self.quality));
+        let target = target(gpu, shot.size_px);
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.draw_labels(gpu, &mut encoder, &pipelines, shot, &target);
+        gpu.queue.submit([encoder.finish()]);
+        self.labels = Some(pipelines);
+        read(gpu, &target)
+    }
+
+    fn draw_labels(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        pipelines: &LabelPipelines,
+        shot: &Shot,
+        target: &wgpu::Texture,
+    ) {
+        let (moving, here) = (self.moving(gpu, &shot.moving), Copies::new(gpu, &[Instance::HERE]));
+        let shown = Frustum::of(&shot.eye.view_projection(shot.aspect()));
+        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        let depth = texture(gpu, shot.size_px, DEPTH, 1);
+        let mut pass = begin(encoder, &view, None, Some(&depth));
+        pass.set_bind_group(0, &self.bound, &[]);
+        pass.set_pipeline(&pipelines.solid);
+        let still = self
+            .fixed
+            .iter()
+            .filter(|fixed| fixed.seen != Seen::Mirrored && shown.may_show(&fixed.ball))
+            .map(|fixed| (&*fixed.solid, &fixed.copies));
+        let lake = self.water.iter().flat_map(|(water, _)| Some((water, here.as_ref()?)));
+        for (solid, copies) in solids(&self.models, &moving).chain(still).chain(lake) {
+            solid.draw(&mut pass, copies);
+        }
+        for (kind, buffer, patches) in &self.patches {
+            let Some((_, pipeline)) = pipelines.defects.iter().find(|of| of.0 == *kind) else { continue };
+            pass.set_pipeline(pipeline);
+            pass.set_vertex_buffer(0, buffer.slice(..));
+            pass.draw(0..6, 0..*patches);
+        }
+    }
+}
+
+fn target(gpu: &Gpu, (width, height): (u32, u32)) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("labels"),
+        size: wgpu::Extent3d { width: width.max(1), height: height.max(1), depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: LIGHT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
+fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Masks, GpuError> {
+    let (width, height) = (texture.width(), texture.height());
+    let bytes = super::read_bytes(gpu, texture, PIXEL)?;
+    let number = |k: usize| u16::from_le_bytes([bytes[k], bytes[k + 1]]);
+    let of =
+        |channel: usize| (0..bytes.len() / PIXEL as usize).map(|k| Masks::whole(number(PIXEL as usize * k + channel))).collect();
+    Ok(Masks { width, height, elements: of(0), defects: of(2) })
+}
