@@ -20,9 +20,16 @@ const Flight = (function () {
     return low > 0 && t - times[low - 1] < times[low] - t ? low - 1 : low;
   }
 
-  // Puts a drone of a drawing where it was: its matrix takes east, north, up to the sheet.
-  const drone = (node) => ({ node, m: node.dataset.matrix.split(' ').map(Number) });
-  function place({ node, m }, e, n, u) {
+  // Puts a drone of a drawing where it was: its matrix takes east, north, up to the sheet. In the side view of a bridge that it is not
+  // near it is faint.
+  const numbers = (text) => (text ? text.split(' ').map(Number) : null);
+  const drone = (node) => ({ node, m: numbers(node.dataset.matrix), near: numbers(node.dataset.near) });
+  function place({ node, m, near }, e, n, u) {
+    if (near) {
+      const [east, north, alongEast, alongNorth, along, beside] = near;
+      const x = (e - east) * alongEast + (n - north) * alongNorth, y = (e - east) * alongNorth - (n - north) * alongEast;
+      node.classList.toggle('elsewhere', Math.abs(x) > along || Math.abs(y) > beside);
+    }
     const x = m[0] * e + m[1] * n + m[2] * u + m[3];
     const y = m[4] * e + m[5] * n + m[6] * u + m[7];
     node.setAttribute('transform', 'translate(' + x.toFixed(1) + ' ' + y.toFixed(1) + ')');

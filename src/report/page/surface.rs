@@ -68,8 +68,8 @@ fn rows(coverage: &Coverage) -> Vec<Stack> {
 }
 
 fn table(coverage: &Coverage) -> Table {
-    let row = |element: &Element, name: Cell| {
-        let mut row = vec![name, words::element(element.element).into(), Cell::Number(element.inspectable_m2, 1)];
+    let row = |element: &Element, [number, name]: [Cell; 2]| {
+        let mut row = vec![number, name, Cell::Number(element.inspectable_m2, 1)];
         row.extend(Fate::ALL.map(|fate| Cell::Number(element.area_m2(fate), 1)));
         let typical = element.typical();
         let value = |value: Option<f64>, digits| value.map_or(Cell::Empty, |value| Cell::Number(value, digits));
@@ -79,8 +79,12 @@ fn table(coverage: &Coverage) -> Table {
         row.push(value(typical.map(|like| like.blur_px), 2));
         row
     };
-    let mut rows: Vec<Vec<Cell>> = coverage.elements.iter().map(|element| row(element, element.element.into())).collect();
-    rows.push(row(&coverage.total(), "all".into()));
+    let mut rows: Vec<Vec<Cell>> = coverage
+        .elements
+        .iter()
+        .map(|element| row(element, [element.element.into(), words::element(element.element).into()]))
+        .collect();
+    rows.push(row(&coverage.total(), ["all".into(), Cell::Empty]));
     let mut columns = vec!["element", "name", "inspectable, m²"];
     columns.extend([
         "shown well, m²",

@@ -121,9 +121,18 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
         &html! {
             (ground(&review.scenario, &review.site, &map, bridge))
             (structure(&review.site, &map, Some(&prefix)))
-            (job(review, &map, Some(&bridge.name), &near))
+            (job(review, &map, Some(bridge), &near))
         },
     )
+}
+
+/// The same for the page's script: east and north of the middle, of the axis along the bridge, and how far along and beside counts, m.
+pub(super) fn nearness(bridge: &Bridge) -> String {
+    let axis = View::side(bridge).right;
+    let half_m = 0.5 * bridge.deck_length_m() + 25.0;
+    [bridge.centre_m.east(), bridge.centre_m.north(), axis.east(), axis.north(), half_m, BESIDE_M]
+        .map(|value| format!("{value:.3}"))
+        .join(" ")
 }
 
 /// The flight belongs into the side view of this bridge.
@@ -219,16 +228,16 @@ pub(super) fn structure(site: &Site, map: &Map, prefix: Option<&str>) -> Markup 
 }
 
 /// Reference paths (of one bridge or of all), track, marks, the drone and a scale.
-fn job(review: &Review, map: &Map, bridge: Option<&str>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+fn job(review: &Review, map: &Map, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
-        (references(&review.scenario, map, bridge))
+        (references(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
         @for (layer, (_, class)) in COLOURINGS.iter().enumerate() {
             g class={ "flown " (class) } {
                 @for (colour, data) in track(review, map, layer, shown) { path class=(colour) d=(data) {} }
             }
         }
         (marks(review, map, shown))
-        g.drone data-matrix=(map.matrix()) { circle r="7" {} circle.core r="2.5" {} }
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] { circle r="7" {} circle.core r="2.5" {} }
         (scale(map))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::backdrop::{ground, lake};
 use super::colours::plain;
-use super::map::{Map, beside, everything, is_beside, north, pad, references, scale, structure};
+use super::map::{Map, beside, everything, is_beside, nearness, north, pad, references, scale, structure};
 use super::{sheet, unit};
 use crate::report::Review;
 use crate::report::outline::View;
@@ -42,7 +42,7 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
         &html! {
             (ground(&first.scenario, &first.site, &map, bridge))
             (structure(&first.site, &map, Some(&format!("{}/", bridge.name))))
-            (flights(both, &map, Some(&bridge.name), &near))
+            (flights(both, &map, Some(bridge), &near))
         },
     )
 }
@@ -55,16 +55,16 @@ pub fn from_south(both: [&Review; 2]) -> Markup {
     sheet(map.size, "Both flights from the south", "map", &body)
 }
 
-fn flights(both: [&Review; 2], map: &Map, bridge: Option<&str>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+fn flights(both: [&Review; 2], map: &Map, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
-        (references(&both[0].scenario, map, bridge))
+        (references(&both[0].scenario, map, bridge.map(|bridge| bridge.name.as_str())))
         @for (k, review) in both.into_iter().enumerate() {
             path class={ "overlaid line-" (k + 1) } d=(plain(review, map, shown)) { title { "session " (k + 1) } }
         }
         (pad(&both[0].scenario, map))
         @for (k, review) in both.into_iter().enumerate() { (crashes(k, review, map, shown)) }
         @for k in 0..2 {
-            g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) {
+            g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] {
                 circle r="9" {}
                 text.mark y="4" text-anchor="middle" { (k + 1) }
             }
