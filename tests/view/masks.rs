@@ -2,6 +2,7 @@
 //! has pixels.
 
 use super::studio::{Studio, at, two_bridges};
+use spandrel::base::math;
 use spandrel::base::time::SimTime;
 use spandrel::site::Surface;
 
@@ -55,7 +56,7 @@ fn val_a_defect_before_the_lens_is_labelled_with_its_number_and_in_its_place() {
         let legend = masks.legend(studio.site.defects());
         let entry = legend["defects"].as_array().unwrap().iter().find(|entry| entry["id"] == defect.id);
         // A hair is narrower than a quarter of this picture's pixels.
-        let pixel_m = 2.0 * 1.5 * (0.5 * 60.0_f64.to_radians()).tan() / 320.0;
+        let pixel_m = 2.0 * 1.5 * math::tan(0.5 * 60.0_f64.to_radians()) / 320.0;
         if defect.line && defect.width_m < 0.6 * pixel_m {
             continue;
         }
