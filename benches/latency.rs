@@ -2,11 +2,11 @@
 //! echo, and in flight the roll rate); and whether a peer that floods it makes it miss ticks. Beside each figure stands the control tick,
 //! 2.5 ms.
 
-use spandrel::mav::codec::{Decoder, Encoder};
+#[path = "support/running.rs"]
+mod running;
+
+use running::{Client, now, start};
 use spandrel::mav::dialect::*;
-use std::io::{BufRead, BufReader};
-use std::net::UdpSocket;
-use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -17,7 +17,6 @@ const TARGET_MS: f64 = 2.0 * TICK_MS;
 const ROUNDS: usize = 1_000;
 /// Between two questions; no multiple of any period in the vehicle, so that every phase is met.
 const PAUSE: Duration = Duration::from_micros(7_310);
-const GONE: Duration = Duration::from_secs(5);
 /// Messages a second of the peer that floods, and for how long.
 const FLOOD_HZ: u64 = 50_000;
 const FLOOD_FOR: Duration = Duration::from_secs(5);
@@ -36,62 +35,6 @@ const TAKE_OFF: [f32; 3] = [1.0, 4.0, 2.0];
 const HOLDING: u32 = 4 << 16 | 3 << 24;
 const ALTITUDE: [f32; 3] = [1.0, 2.0, 0.0];
 
-struct Running(Child);
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        // Its standard input closes, which ends it; a child that is gone already is no error.
-        drop(self.0.stdin.take());
-        let _ = self.0.wait();
-    }
-}
-
-struct Client {
-    socket: UdpSocket,
-    encoder: Encoder,
-    decoder: Decoder,
-    buffer: Vec<u8>,
-}
-
-impl Client {
-    fn new(port: u16, system: u8) -> Self {
-        let socket = UdpSocket::bind("127.0.0.1:0").expect("a free port");
-        socket.connect(("127.0.0.1", port)).expect("loopback");
-        socket.set_read_timeout(Some(GONE)).expect("a timeout");
-        Self { socket, encoder: Encoder::new(system, 190), decoder: Decoder::new(), buffer: vec![0; 65_536] }
-    }
-
-    fn send(&mut self, message: &MavMessage) {
-        let frame = self.encoder.encode(message);
-        self.socket.send(&frame).expect("loopback takes it");
-    }
-
-    fn wait<T>(&mut self, mut pick: impl FnMut(&MavMessage) -> Option<T>) -> T {
-        loop {
-            let len = self.socket.recv(&mut self.buffer).expect("the simulator speaks");
-            let frames = self.decoder.datagram(&self.buffer[..len]);
-            if let Some(found) = frames.iter().filter_map(|frame| frame.message.as_ref()).find_map(&mut pick) {
-                return found;
-            }
-        }
-    }
-}
-
-fn start() -> (Running, u16) {
-    let arguments =
-        ["sim", "--scenario", "drill-hover", "--seed", "7", "--ports", "ephemeral", "--announce", "--leash", "--log", "warn"];
-    let mut child = Command::new(env!("CARGO_BIN_EXE_spandrel"))
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the program runs");
-    let mut line = String::new();
-    BufReader::new(child.stdout.take().expect("piped")).read_line(&mut line).expect("one line");
-    let announced: serde_json::Value = serde_json::from_str(&line).expect("JSON");
-    (Running(child), announced["gcs_port"].as_u64().expect("a port") as u16)
-}
-
 fn long(command: MavCmd, p: [f32; 3]) -> MavMessage {
     MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
         command,
@@ -108,11 +51,6 @@ fn long(command: MavCmd, p: [f32; 3]) -> MavMessage {
 fn spread(mut times: Vec<f64>) -> (f64, f64) {
     times.sort_by(f64::total_cmp);
     (times[times.len() / 2], times[times.len() * 99 / 100])
-}
-
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
-fn now() -> Instant {
-    Instant::now()
 }
 
 fn ms(since: Instant) -> f64 {
@@ -222,18 +160,10 @@ fn under_flood(client: &mut Client, port: u16) -> (f64, f64) {
             }
         })
     };
-    let clock = |client: &mut Client| {
-        client.wait(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some((t.time_boot_ms, now())) } else { None })
-    };
-    let (sim_begin, wall_begin) = clock(client);
-    let (mut sim_end, mut wall_end) = (sim_begin, wall_begin);
-    while wall_end - wall_begin < FLOOD_FOR {
-        (sim_end, wall_end) = clock(client);
-    }
+    let (pace, wall_s) = client.pace(FLOOD_FOR);
     stop.store(true, Ordering::Relaxed);
     flood.join().expect("the flood ends");
-    let wall_s = (wall_end - wall_begin).as_secs_f64();
-    (f64::from(sim_end - sim_begin) / 1e3 / wall_s, sent.load(Ordering::Relaxed) as f64 / wall_s)
+    (pace, sent.load(Ordering::Relaxed) as f64 / wall_s)
 }
 
 fn main() {
