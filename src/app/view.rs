@@ -20,7 +20,7 @@ Examples:
   spandrel view                                          what the simulator on this machine flies
   spandrel view --fly 127.0.0.1:18570                    and fly it with the keys: W S A D, arrows, 1 arms, T takes off
   spandrel view --stream 127.0.0.1:5600                  the camera's view in QGroundControl, too
-  spandrel view --connect 192.168.1.20:14280 --quality low
+  spandrel view --listen 0.0.0.0 --connect 192.168.1.20:14280 --quality low
   spandrel view --screenshot moment.png --after 10       a picture of the window after 10 s, then the end
 
 {EXIT_CODES}"))]

@@ -114,6 +114,8 @@ def test_val_a_film_has_every_picture_and_its_chapters(session, tmp_path):
     assert abs(length / scale - 30.5) < 0.01
     chapters = film.with_suffix(".vtt").read_text(encoding="utf-8")
     events = [json.loads(line) for line in (session / "events.jsonl").read_text(encoding="utf-8").splitlines()]
-    assert chapters.startswith("WEBVTT\n") and events
-    for start, end in re.findall(r"(\d\d:\d\d:\d\d\.\d{3}) --> (\d\d:\d\d:\d\d\.\d{3})", chapters):
+    taken = sum(event["event"] == "snapshot" and 30 <= event["t_s"] <= 60 for event in events)
+    found = re.findall(r"(\d\d:\d\d:\d\d\.\d{3}) --> (\d\d:\d\d:\d\d\.\d{3})", chapters)
+    assert chapters.startswith("WEBVTT\n") and len(found) == taken > 0
+    for start, end in found:
         assert "00:00:00.000" <= start < end <= "00:00:30.500"

@@ -129,6 +129,7 @@ def test_val_gstreamer_shows_what_the_camera_sees(tmp_path):
         assert window.wait(timeout=60) == 0, said(encoding="utf-8")
         stopped = asking.ask(link, send, "VIDEO_STREAM_INFORMATION", lambda m: not m.flags & 1)
         assert stopped.count == 1
+        spandrel.wait_for("everything is decoded", lambda: len(player.decoded) >= len(relay.pictures), LIMIT_S)
     finally:
         for process in (window, sim):
             spandrel.end(process)

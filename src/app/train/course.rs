@@ -203,8 +203,6 @@ impl<'a> Course<'a> {
     /// Serves the pages of the sessions and of this vehicle's flight, from one address throughout. Without them one flies all the same.
     fn serve(&mut self, vehicle: Option<SocketAddr>) {
         let args::Port::Number(mut port) = self.args.web else { return };
-        let here = self.args.ports.listen;
-        let vehicle = vehicle.map(|at| if here.is_unspecified() { at } else { SocketAddr::new(here, at.port()) });
         match self.web.take() {
             Some(web) if web.vehicle == vehicle => {
                 self.web = Some(web);

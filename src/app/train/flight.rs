@@ -10,7 +10,7 @@ use crate::app::standstill::{PAUSE, RESUME};
 use crate::app::stop::Stop;
 use crate::view::flow::pipe::{Choice, Flying, FromWindow, Purpose, ToWindow};
 use serde_json::Value;
-use std::net::SocketAddr;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -23,6 +23,8 @@ pub struct Flight {
     sim: Child,
     /// What the simulator announced.
     pub ports: Value,
+    /// Where it listens.
+    here: IpAddr,
     session: PathBuf,
     choice: Choice,
     title: String,
@@ -60,7 +62,9 @@ impl Flight {
         ];
         let mut sim = Child::start("sim", &sim_args.concat())?;
         let ports = sim.announced()?;
-        Ok(Self { monitor, sim, ports, session, choice: choice.clone(), title, stands: false })
+        let listen = args.ports.listen;
+        let here = if listen.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { listen };
+        Ok(Self { monitor, sim, ports, here, session, choice: choice.clone(), title, stands: false })
     }
 
     /// Its folder.
@@ -71,7 +75,7 @@ impl Flight {
     /// A port of the vehicle on this machine.
     pub fn port(&self, key: &str) -> Option<SocketAddr> {
         let port = self.ports[key].as_u64().and_then(|port| u16::try_from(port).ok())?;
-        Some(SocketAddr::from(([127, 0, 0, 1], port)))
+        Some(SocketAddr::new(self.here, port))
     }
 
     /// What the window needs to show it.

@@ -50,7 +50,6 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         announce: args.announce && !args.led,
     };
     let stop = Stop::install(args.leash && !args.led)?;
-    be_nice();
     let stream = args.stream.map(Stream::open).transpose()?;
     let mut crew = Crew { pilot: None, lead: None, flight: None, stream };
     if args.led || args.fly.is_some() {
@@ -66,6 +65,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     if let (Some(pilot), Some(vehicle)) = (&crew.pilot, args.fly) {
         pilot.ask(Ask::Fly(vehicle));
     }
+    // On Linux every thread has a niceness of its own, that of the thread which began it: sticks are sent by one that began before.
+    be_nice();
     let speaker = Speaker::new(keys.sounds, !args.no_sound);
     Cockpit::new(plan, keys, flow, crew, speaker, stop).run()
 }

@@ -59,6 +59,8 @@ pub struct Live {
     next_beat: SimTime,
     next_ask: Option<SimTime>,
     system: Option<u8>,
+    /// When the vehicle was first heard.
+    met: Option<SimTime>,
     seed: Option<u64>,
     scenario_crc: Option<u32>,
     /// When the rotors' outputs are asked for next; none: nobody hears them.
@@ -141,6 +143,7 @@ impl Live {
             next_beat: SimTime::ZERO,
             next_ask: None,
             system: None,
+            met: None,
             seed: None,
             scenario_crc: None,
             next_rotors: None,
@@ -178,6 +181,12 @@ impl Live {
         self.heard.is_some() && !self.spoken
     }
 
+    /// Nobody says the truth, though it was asked for: no simulator of ours, and no seed will be said.
+    #[must_use]
+    pub fn says_no_truth(&self, wall: SimTime) -> bool {
+        !self.spoken && self.met.is_some_and(|met| wall >= met + NO_TRUTH_AFTER + NO_TRUTH_AFTER)
+    }
+
     /// Mode, satellites, cues and words.
     #[must_use]
     pub fn feed(&self) -> &Feed {
@@ -195,6 +204,7 @@ impl Live {
         let beats = matches!(frame.message, Some(MavMessage::HEARTBEAT(_))) && frame.component_id == AUTOPILOT;
         if self.system.is_none() && (beats || sample::truth_time(&frame.bytes).is_some()) {
             self.system = Some(frame.system_id);
+            self.met = Some(wall);
             self.next_ask = Some(wall + NO_TRUTH_AFTER);
         }
         if self.system != Some(frame.system_id) {

@@ -59,19 +59,19 @@ impl Flight {
     /// # Errors
     /// When the simulator flies another scenario.
     pub fn prepare(&mut self, screen: &Screen, quality: Quality, now: Option<&Now>) -> Result<(), AppError> {
+        let (seed, crc, real) = {
+            let (wall, live) = (self.listener.wall(), self.listener.live());
+            (live.seed(), live.scenario_crc(), live.says_no_truth(wall))
+        };
+        if crc.is_some_and(|crc| crc != self.job.0.crc) {
+            return Err(AppError::wrong(
+                "the simulator flies another scenario than this window was given: start both with the same --scenario",
+            ));
+        }
         match &self.scene {
             Scene::Waiting => {
-                let (seed, crc, estimated) = {
-                    let live = self.listener.live();
-                    (live.seed(), live.scenario_crc(), live.is_estimated())
-                };
-                if crc.is_some_and(|crc| crc != self.job.0.crc) {
-                    return Err(AppError::wrong(
-                        "the simulator flies another scenario than this window was given: start both with the same --scenario",
-                    ));
-                }
-                // A real vehicle names no seed: its bridges have no seeded defects of ours.
-                let seed = self.seed.or(seed).or(self.job.0.seed).or(estimated.then_some(0));
+                // The simulator says its seed, whatever the scenario's own is. A real vehicle names none.
+                let seed = self.seed.or(seed).or_else(|| real.then_some(self.job.0.seed.unwrap_or(0)));
                 let (Some(seed), Some(now)) = (seed, now) else { return Ok(()) };
                 let ((scenario, vehicle), at) = (self.job.clone(), now.moment.at);
                 tracing::info!("drawing with {}, {}, seed {seed}", screen.gpu.name, quality.name);

@@ -189,6 +189,7 @@ impl Cockpit {
             self.words.push((text, now));
         }
         if let Some(text) = self.flow.take_words() {
+            tracing::info!("{text}");
             self.words.push((text, now));
         }
         self.words.retain(|(_, since)| now.saturating_sub(*since).as_secs_f64() < WORDS_S);

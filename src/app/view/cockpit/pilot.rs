@@ -84,6 +84,7 @@ impl Pilot {
                 board,
                 desk,
                 touched: false,
+                lost: false,
                 shown,
                 words,
                 next: SimTime::ZERO,
@@ -118,6 +119,7 @@ struct Seat {
     board: Keyboard,
     desk: Desk,
     touched: bool,
+    lost: bool,
     shown: Arc<Mutex<Controls>>,
     words: String,
     next: SimTime,
@@ -206,8 +208,15 @@ impl Seat {
     /// A controller's sticks, unless keys are held; the keys' once they have been touched.
     fn sticks(&mut self, now: SimTime) -> Option<Sticks> {
         let keys = self.board.sticks(now);
+        let flown = self.desk.sticks(&mut self.link, now);
+        let lost = matches!(flown, Ok(None)) && self.desk.flies() || flown.is_err();
+        if lost && !self.lost {
+            // Whose controller is gone holds no sticks, whatever keys were pressed before: the vehicle's failsafe acts, until a key flies anew.
+            self.touched = false;
+        }
+        self.lost = lost;
         let own = self.touched.then_some(keys);
-        match self.desk.sticks(&mut self.link, now) {
+        match flown {
             Ok(Some(sticks)) if keys == Sticks::default() => Some(sticks),
             Ok(Some(_)) => Some(keys),
             Ok(None) => own,
