@@ -19,8 +19,6 @@ NIGHT, FOCUS, BLUE = (20, 24, 30), (20, 92, 140), (86, 180, 233)
 GREEN = (0, 190, 130)
 # Wall seconds for a software driver on a busy machine to compile its shaders and to draw, or for a session to be written, ten times over.
 LIMIT_S = 400
-# Wall seconds after which a key without an effect is pressed again; a frame takes one at the worst.
-PRESS_AGAIN_S = 20.0
 # Wall seconds after which a key without an effect is pressed again.
 AGAIN_S = 20.0
 # Rows of a window: X names of the keys that act on them.
@@ -200,7 +198,7 @@ def test_wire_an_assessment_is_neither_paused_nor_begun_anew(screen, tmp_path):
         training.see("assessment", in_flight)
         screen.focus()
         for key, words in ((ESCAPE, "it is not paused"), ("BackSpace", "it does not begin anew")):
-            again = asking.Again(lambda key=key: screen.tap(key), again_s=PRESS_AGAIN_S)
+            again = asking.Again(lambda key=key: screen.tap(key), again_s=AGAIN_S)
 
             def refused(again=again, words=words):
                 again.if_due()
