@@ -11,6 +11,7 @@ use job::{Tape, fence_of_ten, line, scenario, task, vehicle};
 use spandrel::mav::dialect::{ATTITUDE_DATA, LOCAL_POSITION_NED_DATA, MavMessage, VFR_HUD_DATA};
 use spandrel::monitor::{Monitor, MonitorConfig, assess_log};
 use spandrel::scenario::Scenario;
+use std::process::ExitCode;
 use std::time::Duration;
 
 /// The ceiling.
@@ -87,7 +88,7 @@ fn cue_latency(scenario: &Scenario, datagrams: &[Vec<u8>]) -> (Duration, Duratio
     (slowest, slowest_change)
 }
 
-fn main() {
+fn main() -> ExitCode {
     let tasks = (0u32..4).map(|k| {
         let north = f64::from(k) * 20.0;
         task(k + 1, line((10.0, north, 10.0), (200.0, north, 10.0)), 3.0)
@@ -117,4 +118,5 @@ fn main() {
         CUE_CEILING.as_millis(),
         if slowest <= CUE_CEILING { "kept" } else { "EXCEEDED" },
     );
+    ExitCode::from(u8::from(frames.is_err() || assess > CEILING || slowest > CUE_CEILING))
 }

@@ -12,6 +12,7 @@ use spandrel::sitl::endpoint::flavour::px4;
 use spandrel::sitl::endpoint::{LinkId, LinkKind};
 use spandrel::sitl::sim::{Sim, SimConfig, SimEvent};
 use spandrel::vehicle::Vehicle;
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -120,18 +121,20 @@ fn memory() -> Option<(f64, f64)> {
     Some((mb("VmRSS")?, mb("VmHWM")?))
 }
 
-fn main() {
+fn main() -> ExitCode {
     let job = Job::two_bridges(7);
     let ready = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
     println!("first heartbeat after {}", first(&job, |said| matches!(said, MavMessage::HEARTBEAT(_))));
     let armable =
         |said: &MavMessage| matches!(said, MavMessage::SYS_STATUS(s) if s.onboard_control_sensors_health.contains(ready));
     println!("armable after {}", first(&job, armable));
+    let mut misses = false;
     for (name, skill) in [("expert", Skill::EXPERT), ("novice", Skill::NOVICE)] {
         let (inputs, end, crashes, how) = job.fly(skill);
         let runs = (0..ROUNDS).map(|_| job.replay(&inputs, end));
         let (wall, sent) = runs.min_by_key(|(wall, _)| *wall).unwrap_or_default();
         let times = end.s() / wall.as_secs_f64();
+        misses |= times < FLOOR;
         let verdict = if times >= FLOOR { "holds" } else { "MISSES" };
         println!(
             "{name}: {end} of flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.0} kB/s sent; {verdict} the floor of {FLOOR:.0}",
@@ -142,4 +145,5 @@ fn main() {
     if let Some((now, most)) = memory() {
         println!("resident memory {now:.0} MB, at most {most:.0} MB");
     }
+    ExitCode::from(u8::from(misses))
 }

@@ -10,6 +10,7 @@ use crate::telemetry::tlog;
 use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// An open session folder.
 #[derive(Debug)]
@@ -264,9 +265,16 @@ fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathB
 /// # Errors
 /// When the disk refuses.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
+    // A name of its own: two who write the same file at once must not rename each other's half.
+    static WRITTEN: AtomicU64 = AtomicU64::new(0);
     let mut beside = path.to_path_buf().into_os_string();
-    beside.push(".new");
-    std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path)).map_err(|error| cannot(path, &error))
+    beside.push(format!(".{}-{}.new", std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed)));
+    let done = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path));
+    done.map_err(|error| {
+        // Nobody else would ever write over it.
+        let _ = std::fs::remove_file(&beside);
+        cannot(path, &error)
+    })
 }
 
 fn cannot_read(path: &Path, error: &std::io::Error) -> AppError {

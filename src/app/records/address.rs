@@ -26,7 +26,7 @@ pub fn check(target: &str) -> Result<(), String> {
     let value = |key: &str| said.iter().rev().find(|(name, _)| name == key).map(|(_, value)| value.as_str());
     let known = ["sslmode", "sslrootcert", "sslcert", "sslkey"];
     // A misspelt word of safety must not be passed over in silence.
-    if let Some((name, _)) = said.iter().find(|(name, _)| name.starts_with("ssl") && !known.contains(&name.as_str())) {
+    if let Some((name, _)) = said.iter().find(|(name, _)| is_of_tls(name) && !known.contains(&name.as_str())) {
         return Err(format!("{name}: unknown (allowed: {})", known.join(", ")));
     }
     let mode = value("sslmode");
@@ -48,6 +48,11 @@ pub fn check(target: &str) -> Result<(), String> {
         }
         _ => Err("sslcert and sslkey go together: one of them is missing".into()),
     }
+}
+
+/// A key that means TLS, however it is written: the driver passes over `SSLMODE`.
+fn is_of_tls(key: &str) -> bool {
+    key.to_ascii_lowercase().starts_with("ssl")
 }
 
 /// A file holds at least one certificate.
@@ -118,6 +123,7 @@ mod tests {
             ("sslmode=allow", "sslmode = 'allow'"),
             ("sslmode=verify-ca", "sslmode = 'verify-ca'"),
             ("sslmod=verify-full", "sslmod: unknown (allowed: sslmode, sslrootcert, sslcert, sslkey)"),
+            ("SSLMODE=verify-full", "SSLMODE: unknown (allowed: sslmode, sslrootcert, sslcert, sslkey)"),
             ("sslrootcert=/none.pem", "counts with sslmode=verify-full alone"),
             ("sslmode=require&sslrootcert=/none.pem", "counts with sslmode=verify-full alone"),
             ("sslmode=verify-full&sslrootcert=/none.pem", "sslrootcert = '/none.pem': "),

@@ -183,10 +183,11 @@ impl Guard {
         pairs.into_iter().find(|cookie| cookie.name() == self.cookie_name()).map(|cookie| cookie.value().to_owned())
     }
 
-    /// Our cookie, to be set.
+    /// Our cookie, to be set. Lax, for with Strict a link in a mail would come without it and be given a stranger's in its place: logged
+    /// out by a link. What changes something has a form's token and is asked where it comes from.
     pub fn cookie(&self, value: &str) -> String {
         let built = cookie::Cookie::build((self.cookie_name(), value)).path("/").http_only(true).secure(self.secure);
-        built.same_site(cookie::SameSite::Strict).build().to_string()
+        built.same_site(cookie::SameSite::Lax).build().to_string()
     }
 }
 
@@ -207,9 +208,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_cookies_are_out_of_scripts_reach_and_strict() {
+    fn exact_cookies_are_out_of_scripts_reach_and_stay_with_a_link() {
         let plain = Guard::new(true, false, false).cookie("v");
-        assert_eq!(plain, "spandrel=v; HttpOnly; SameSite=Strict; Path=/");
+        assert_eq!(plain, "spandrel=v; HttpOnly; SameSite=Lax; Path=/");
         let guard = Guard::new(true, true, false);
         let cookie = guard.cookie("v");
         assert!(cookie.starts_with("__Host-spandrel=v;") && cookie.contains("Secure"), "{cookie}");

@@ -10,7 +10,7 @@ use crate::monitor::export::json_text;
 use crate::report::{assets, page::cohort as report};
 use crate::training::cohort::{Cohort, Selection, cohort};
 use crate::training::plan::plan as planned;
-use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
+use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
 use crate::web::{group, people as pages};
 use std::collections::BTreeSet;
 
@@ -74,6 +74,10 @@ pub fn erase(state: &State, asked: &Asked) -> Answered {
     let name = &person.pseudonym;
     if asked.needed("again")? != name {
         return Err(Refusal::Wrong(format!("the pseudonym that was written is not {name}: nothing is erased")));
+    }
+    // Whoever erases is an administrator who stays: so the last one is never erased.
+    if person.role == Role::Administrator && asked.visitor.name.as_deref() == Some(name) {
+        return Err(Refusal::Wrong("you would shut yourself out: let another administrator erase you".into()));
     }
     forget(&state.database, &state.place, name)?;
     state.guard.put_out(name, None);

@@ -1,9 +1,11 @@
 //! New sessions into the database: a thread that looks for folders that have ended, and takes in again whatever it is told has changed. The
-//! folders stay the source: a kill at any moment costs nothing but a later look.
+//! folders stay the source: a kill at any moment, or a database that is away, costs nothing but a later look.
 
 use crate::app::errors::AppError;
 use crate::app::records::{Database, Place, read_session, session_folders, session_id};
 use crate::monitor::folder::ASSESSMENT;
+use crate::training::questionnaire::ANSWERS;
+use crate::training::record::Record;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -26,17 +28,15 @@ impl TakingIn {
         let database = place.open()?;
         let sessions = place.sessions.clone();
         std::thread::spawn(move || {
-            let mut failed = BTreeSet::new();
+            let mut looked = Looked::default();
             loop {
-                look(&database, &sessions, &mut failed);
+                looked.look(&database, &sessions);
                 match changed.recv_timeout(LOOK) {
                     Ok(folder) => {
                         // Answers come in quick succession; the session is read once for all that wait.
                         let mut folders = BTreeSet::from([folder]);
                         folders.extend(changed.try_iter());
-                        folders.iter().for_each(|folder| {
-                            take(&database, folder, &mut failed);
-                        });
+                        folders.iter().for_each(|folder| looked.take(&database, folder, &BTreeMap::new()));
                     }
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => return,
@@ -54,34 +54,66 @@ impl TakingIn {
     }
 }
 
-/// Takes in the folders that have ended and that the database does not know.
-fn look(database: &Database, sessions: &[PathBuf], failed: &mut BTreeSet<PathBuf>) {
-    let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
-    let (known, folders) = match (database.fingerprints(), session_folders(&here)) {
-        (Ok(known), Ok(folders)) => (known, folders),
-        (Err(error), _) | (_, Err(error)) => {
-            tracing::warn!("no sessions are taken in now: {error}");
-            return;
-        }
-    };
-    for folder in folders {
-        let is_new = session_id(&folder).is_ok_and(|id| !known.contains_key(&id));
-        if is_new && folder.join(ASSESSMENT).is_file() && !failed.contains(&folder) {
-            take(database, &folder, failed);
-        }
-    }
+/// What the thread knows of the folders.
+#[derive(Debug, Default)]
+struct Looked {
+    /// The answers that a kill left out were looked for.
+    caught_up: bool,
+    /// Not to be read; told once.
+    unreadable: BTreeSet<PathBuf>,
+    /// Read, but refused by the database: tried again at every look.
+    refused: BTreeSet<PathBuf>,
 }
 
-fn take(database: &Database, folder: &Path, failed: &mut BTreeSet<PathBuf>) {
-    let taken = read_session(folder, &BTreeMap::new()).and_then(|record| database.put(&Vec::from_iter(record)));
-    match taken {
-        Ok(_) => {
-            failed.remove(folder);
+impl Looked {
+    /// Takes in the folders that have ended and that the database does not know, those that it refused, and the first time those whose
+    /// answers have changed.
+    fn look(&mut self, database: &Database, sessions: &[PathBuf]) {
+        let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
+        let (known, folders) = match (database.fingerprints(), session_folders(&here)) {
+            (Ok(known), Ok(folders)) => (known, folders),
+            (Err(error), _) | (_, Err(error)) => {
+                tracing::warn!("no sessions are taken in now: {error}");
+                return;
+            }
+        };
+        for folder in folders {
+            let is_known = session_id(&folder).is_ok_and(|id| known.contains_key(&id));
+            let is_new = !is_known && folder.join(ASSESSMENT).is_file() && !self.unreadable.contains(&folder);
+            let may_differ = is_known && !self.caught_up && folder.join(ANSWERS).is_file();
+            if is_new || may_differ || self.refused.contains(&folder) {
+                self.take(database, &folder, &known);
+            }
         }
-        // Erased meanwhile, or not to be read: told once.
-        Err(error) => {
-            if failed.insert(folder.to_path_buf()) && folder.is_dir() {
-                tracing::warn!("left out: {error}");
+        self.caught_up = true;
+    }
+
+    /// Takes in one folder, unless `known` holds it unchanged.
+    fn take(&mut self, database: &Database, folder: &Path, known: &BTreeMap<String, String>) {
+        match read_session(folder, known) {
+            Ok(record) => {
+                self.unreadable.remove(folder);
+                self.put(database, folder, record);
+            }
+            // Erased meanwhile, or not to be read.
+            Err(error) => {
+                self.refused.remove(folder);
+                if self.unreadable.insert(folder.to_path_buf()) && folder.is_dir() {
+                    tracing::warn!("left out: {error}");
+                }
+            }
+        }
+    }
+
+    fn put(&mut self, database: &Database, folder: &Path, record: Option<Record>) {
+        match database.put(&Vec::from_iter(record)) {
+            Ok(_) => {
+                self.refused.remove(folder);
+            }
+            Err(error) => {
+                if self.refused.insert(folder.to_path_buf()) {
+                    tracing::warn!("not taken in yet: {error}");
+                }
             }
         }
     }

@@ -2,21 +2,28 @@
 "use strict";
 const form = document.querySelector("form[data-save]");
 const status = form.querySelector("[data-status]");
+// What the server has not confirmed yet: it goes with the next save.
+const unsaved = new Map();
 let queue = Promise.resolve();
 
-async function save(field) {
+async function save() {
+  if (unsaved.size === 0) return;
+  const sent = new Map(unsaved);
   const body = new URLSearchParams();
   body.set("token", form.elements.token.value);
   body.set("language", form.elements.language.value);
-  body.set(field.name, field.value);
+  for (const [name, value] of sent) body.set(name, value);
   const tell = (words, bad) => {
     status.textContent = words;
     status.classList.toggle("bad", bad);
   };
   try {
-    const answer = await fetch(form.action, { method: "POST", body, headers: { Accept: "application/json" } });
-    if (!answer.ok) throw new Error(`the server says ${answer.status}`);
+    // Alive after the page is left; a redirect leads to the login and saves nothing.
+    const headers = { Accept: "application/json" };
+    const answer = await fetch(form.action, { method: "POST", body, headers, keepalive: true, redirect: "manual" });
+    if (!answer.ok) throw new Error(`the server says ${answer.status || "log in"}`);
     const { answered, all } = await answer.json();
+    for (const [name, value] of sent) if (unsaved.get(name) === value) unsaved.delete(name);
     tell(form.dataset.answered.replace("{answered}", answered).replace("{all}", all), false);
   } catch (error) {
     console.error(error);
@@ -25,5 +32,11 @@ async function save(field) {
 }
 
 form.addEventListener("change", (event) => {
-  if (event.target.value !== "") queue = queue.then(() => save(event.target));
+  const { name, value } = event.target;
+  if (value === "") {
+    unsaved.delete(name);
+    return;
+  }
+  unsaved.set(name, value);
+  queue = queue.then(save);
 });

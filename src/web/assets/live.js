@@ -38,6 +38,8 @@ function move(place) {
 function tell(words) {
   const list = root.querySelector("[data-said]");
   if (!list) return;
+  // The server has started again and counts from the beginning.
+  if (words.at(-1)?.id < newest) newest = 0;
   for (const one of words) {
     if (one.id <= newest) continue;
     newest = one.id;
@@ -112,8 +114,14 @@ for (const form of root.querySelectorAll("form[data-act]")) {
   form.addEventListener("submit", async (event) => {
     event.preventDefault();
     const body = new URLSearchParams(new FormData(form, event.submitter));
-    const answer = await fetch(form.action, { method: "POST", body, headers: { Accept: "application/json" } });
-    if (answer.ok) form.querySelector("input[name=text]")?.form.reset();
-    else state.textContent = `not done: the server says ${answer.status}`;
+    try {
+      // A redirect leads to the login: nothing was done.
+      const answer = await fetch(form.action, { method: "POST", body, headers: { Accept: "application/json" }, redirect: "manual" });
+      if (answer.ok) form.querySelector("input[name=text]")?.form.reset();
+      else state.textContent = `not done: the server says ${answer.status || "log in"}`;
+    } catch (error) {
+      console.error(error);
+      state.textContent = "not done: the server does not answer";
+    }
   });
 }
