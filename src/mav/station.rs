@@ -1,6 +1,8 @@
 //! What every client says as a ground station: its heartbeat, commands, the mode in which sticks command velocity.
 
-use super::dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavStandardMode, MavType};
+use super::dialect::{
+    COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavStandardMode, MavState, MavType,
+};
 
 /// PX4's main mode number of position control (what a PX4-compatible vehicle calls POSCTL).
 const PX4_POSITION: f32 = 3.0;
@@ -13,6 +15,19 @@ pub fn heartbeat() -> MavMessage {
     MavMessage::HEARTBEAT(HEARTBEAT_DATA {
         mavtype: MavType::MAV_TYPE_GCS,
         autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
+        mavlink_version: 3,
+        ..HEARTBEAT_DATA::default()
+    })
+}
+
+/// The heartbeat of who listens beside the vehicle and flies nothing: the sidecar, and whoever watches. The dialect's default says armed.
+#[must_use]
+pub fn companion_heartbeat() -> MavMessage {
+    MavMessage::HEARTBEAT(HEARTBEAT_DATA {
+        mavtype: MavType::MAV_TYPE_ONBOARD_CONTROLLER,
+        autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
+        base_mode: MavModeFlag::empty(),
+        system_status: MavState::MAV_STATE_ACTIVE,
         mavlink_version: 3,
         ..HEARTBEAT_DATA::default()
     })

@@ -3,9 +3,9 @@
 use super::{COMPONENT, CUES_EVERY, Monitor, Record};
 use crate::mav::codec::{Encoder, Received};
 use crate::mav::dialect::{
-    COMMAND_ACK_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult, MavSeverity, MavState, MavType,
-    NAMED_VALUE_INT_DATA, STATUSTEXT_DATA, TIMESYNC_DATA,
+    COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA, TIMESYNC_DATA,
 };
+use crate::mav::station;
 use crate::monitor::feedback::{Moment, TaskNow, cue};
 use crate::monitor::session::lift_off_height_m;
 use crate::telemetry::{Contact, Truth};
@@ -111,15 +111,7 @@ impl Monitor {
     }
 
     pub(super) fn heartbeat(&mut self) {
-        self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
-            mavtype: MavType::MAV_TYPE_ONBOARD_CONTROLLER,
-            autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
-            // The dialect's default says armed.
-            base_mode: MavModeFlag::empty(),
-            system_status: MavState::MAV_STATE_ACTIVE,
-            mavlink_version: 3,
-            ..HEARTBEAT_DATA::default()
-        }));
+        self.send(&station::companion_heartbeat());
     }
 
     pub(super) fn text(&mut self, words: &str, severity: MavSeverity) {

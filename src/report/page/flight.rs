@@ -46,16 +46,21 @@ fn end_s(review: &Review) -> f64 {
     review.t_s(review.frames.len().saturating_sub(1))
 }
 
+/// The button that plays, the slider and its moment.
+pub(super) fn slider() -> Markup {
+    html! {
+        button type="button" id="play" aria-pressed="false" { "Play" }
+        label for="moment" { "Moment" }
+        input type="range" id="moment" min="0" max="0" value="0" step="1";
+        output id="moment-text" for="moment" { "0:00" }
+    }
+}
+
 /// The slider, what holds at its moment, and the switch of colours.
 fn controls(review: &Review) -> Markup {
     html! {
         div.controls id="controls" {
-            div.run hidden id="run" {
-                button type="button" id="play" aria-pressed="false" { "Play" }
-                label for="moment" { "Moment" }
-                input type="range" id="moment" min="0" max="0" value="0" step="1";
-                output id="moment-text" for="moment" { "0:00" }
-            }
+            div.run hidden id="run" { (slider()) }
             dl.readout hidden id="readout" aria-live="off" {
                 @for (id, name) in [("task", "Task"), ("state", "Path"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")] {
                     div { dt { (name) } dd id={ "now-" (id) } { "–" } }

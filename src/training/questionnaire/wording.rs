@@ -9,22 +9,6 @@ const FORMAT: i64 = 1;
 /// Places for a task's number and name.
 const NUMBER: &str = "{number}";
 const NAME: &str = "{name}";
-/// Texts around the questions, and what is filled in.
-const FORM: [(&str, &[&str]); 12] = [
-    ("answered", &["{answered}", "{all}"]),
-    ("at_once", &[]),
-    ("saved", &[]),
-    ("not_saved", &[]),
-    ("save", &[]),
-    ("back", &[]),
-    ("choose_language", &[]),
-    ("change_language", &[]),
-    ("keys", &[]),
-    ("please_whole", &["{from}", "{to}"]),
-    ("please_steps", &["{from}", "{to}", "{step}"]),
-    ("later", &[]),
-];
-
 /// The questionnaire in one language.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Wording {
@@ -148,42 +132,29 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
     }
 }
 
+/// Texts around the questions, each with the places where something is filled in.
 fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> Form {
-    let texts = FORM.map(|(key, filled_in)| {
+    let mut text = |key: &'static str, filled_in: &[&str]| {
         let text = reader.text(section, key, None);
-        let missing: Vec<&str> = filled_in.iter().copied().filter(|word| !text.contains(word)).collect();
-        if section.has(key) && !missing.is_empty() {
+        let is_missing = filled_in.iter().any(|word| !text.contains(word));
+        if section.has(key) && is_missing {
             reader.complain(section, key, &text, &format!("text with {}", filled_in.join(" and ")), "a number would be missing");
         }
         text
-    });
-    let [
-        answered,
-        at_once,
-        saved,
-        not_saved,
-        save,
-        back,
-        choose_language,
-        change_language,
-        keys,
-        please_whole,
-        please_steps,
-        later,
-    ] = texts;
+    };
     Form {
-        answered,
-        at_once,
-        saved,
-        not_saved,
-        save,
-        back,
-        choose_language,
-        change_language,
-        keys,
-        please_whole,
-        please_steps,
-        later,
+        answered: text("answered", &["{answered}", "{all}"]),
+        at_once: text("at_once", &[]),
+        saved: text("saved", &[]),
+        not_saved: text("not_saved", &[]),
+        save: text("save", &[]),
+        back: text("back", &[]),
+        choose_language: text("choose_language", &[]),
+        change_language: text("change_language", &[]),
+        keys: text("keys", &[]),
+        please_whole: text("please_whole", &["{from}", "{to}"]),
+        please_steps: text("please_steps", &["{from}", "{to}", "{step}"]),
+        later: text("later", &[]),
     }
 }
 

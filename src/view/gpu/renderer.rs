@@ -281,6 +281,20 @@ impl Renderer {
         }
     }
 
+    /// Defects, each kind by its pipeline.
+    fn draw_patches(&self, pass: &mut wgpu::RenderPass, pipelines: &[(u32, wgpu::RenderPipeline)]) -> Counts {
+        let mut counts = Counts::default();
+        for (kind, buffer, patches) in &self.patches {
+            let Some((_, pipeline)) = pipelines.iter().find(|of| of.0 == *kind) else { continue };
+            pass.set_pipeline(pipeline);
+            pass.set_vertex_buffer(0, buffer.slice(..));
+            pass.draw(0..6, 0..*patches);
+            counts.draws += 1;
+            counts.triangles += 2 * u64::from(*patches);
+        }
+        counts
+    }
+
     fn draw_light(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -293,14 +307,8 @@ impl Renderer {
         let mut pass = begin(encoder, &targets.light, targets.resolved.as_ref(), Some(&targets.depth));
         pass.set_bind_group(0, &self.bound, &[]);
         self.draw_solids(&mut pass, &self.pipelines.surfaces, (moving, &shown), (Seen::Mirrored, eye_m), &mut counts);
-        for (kind, buffer, patches) in &self.patches {
-            let Some((_, pipeline)) = self.pipelines.defects.iter().find(|of| of.0 == *kind) else { continue };
-            pass.set_pipeline(pipeline);
-            pass.set_vertex_buffer(0, buffer.slice(..));
-            pass.draw(0..6, 0..*patches);
-            counts.draws += 1;
-            counts.triangles += 2 * u64::from(*patches);
-        }
+        let patches = self.draw_patches(&mut pass, &self.pipelines.defects);
+        counts = counts.and(patches);
         pass.set_pipeline(&self.pipelines.sky);
         pass.draw(0..3, 0..1);
         counts.draws += 1;
@@ -412,15 +420,24 @@ fn count(counts: &mut Counts, triangles: u32, copies: &Copies) {
 }
 
 /// A texture for a finished picture that can be read back, and shown in a window.
-pub fn picture_texture(gpu: &Gpu, (width, height): (u32, u32)) -> wgpu::Texture {
+pub fn picture_texture(gpu: &Gpu, size_px: (u32, u32)) -> wgpu::Texture {
+    colour_texture(gpu, size_px, (PICTURE, wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING))
+}
+
+/// A texture that is drawn into, and what else is done with it.
+fn colour_texture(
+    gpu: &Gpu,
+    (width, height): (u32, u32),
+    (format, also): (wgpu::TextureFormat, wgpu::TextureUsages),
+) -> wgpu::Texture {
     gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("picture"),
+        label: None,
         size: wgpu::Extent3d { width: width.max(1), height: height.max(1), depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: PICTURE,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | also,
         view_formats: &[],
     })
 }

@@ -156,12 +156,6 @@ impl Cockpit {
             return Ok(());
         }
         flight.drawn += 1;
-        if let (Some(stream), Some(panes)) = (&mut self.crew.stream, flight.panes())
-            && stream.is_due()
-            && let Some(picture) = panes.camera(screen)?
-        {
-            flight.listener.live().streams(stream.push(picture));
-        }
         if flight.first_drawn.is_none() {
             flight.first_drawn = Some(self.watch.elapsed());
             self.announce();
@@ -170,14 +164,22 @@ impl Cockpit {
         self.keep_picture(&shown, &text)
     }
 
-    /// Hands the camera's view to whoever watches elsewhere.
+    /// Hands the camera's view to whoever watches elsewhere: read back once, for all who want it now.
     fn hand_out(&mut self) -> Result<(), AppError> {
-        let panes = self.crew.flight.as_ref().and_then(Flight::panes);
-        let (Some(keeper), Some(screen), Some(panes)) = (&mut self.keeper, &self.screen, panes) else { return Ok(()) };
-        if keeper.is_due(self.watch.elapsed())
-            && let Some(picture) = panes.camera(screen)?
-        {
-            keeper.take(picture);
+        let (Some(screen), Some(flight)) = (&self.screen, &self.crew.flight) else { return Ok(()) };
+        let Some(panes) = flight.panes() else { return Ok(()) };
+        let stream = self.crew.stream.as_mut().filter(|stream| stream.is_due());
+        let now = self.watch.elapsed();
+        let keeper = self.keeper.as_mut().and_then(|keeper| keeper.is_due(now).then_some(keeper));
+        if stream.is_none() && keeper.is_none() {
+            return Ok(());
+        }
+        let Some(picture) = panes.camera(screen)? else { return Ok(()) };
+        if let Some(keeper) = keeper {
+            keeper.take(picture.clone());
+        }
+        if let Some(stream) = stream {
+            flight.listener.live().streams(stream.push(picture));
         }
         Ok(())
     }

@@ -8,7 +8,8 @@ use crate::app::net::{Arrival, Hub, SocketId};
 use crate::app::web::scenarios;
 use crate::app::web::state::lock;
 use crate::mav::codec::{Decoder, Encoder};
-use crate::mav::dialect::{HEARTBEAT_DATA, MavAutopilot, MavMessage, MavModeFlag, MavState, MavType};
+use crate::mav::dialect::{MavAutopilot, MavMessage};
+use crate::mav::station;
 use crate::report::plots::job::{job_plan, job_side, job_south};
 use crate::scenario::Scenario;
 use crate::site::Site;
@@ -90,7 +91,7 @@ impl Ear {
             }
             if due(beat, HEARTBEAT_EVERY) {
                 beat = Some(clock.elapsed());
-                self.say(&heartbeat());
+                self.say(&station::companion_heartbeat());
             }
             for order in orders.try_iter() {
                 self.orders.give(order);
@@ -190,15 +191,4 @@ fn draw(scenario: &Scenario, key: JobKey) -> Drawn {
         drawings.push(("From the south".to_owned(), job_south(scenario, &site).into_string()));
     }
     Drawn { key: format!("{:08x}-{}", key.crc, key.seed), title: scenario.title.clone(), drawings }
-}
-
-fn heartbeat() -> MavMessage {
-    MavMessage::HEARTBEAT(HEARTBEAT_DATA {
-        mavtype: MavType::MAV_TYPE_ONBOARD_CONTROLLER,
-        autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
-        base_mode: MavModeFlag::empty(),
-        system_status: MavState::MAV_STATE_ACTIVE,
-        mavlink_version: 3,
-        ..HEARTBEAT_DATA::default()
-    })
 }

@@ -1,5 +1,6 @@
 //! Both flights on the site and in time, tied together by one slider.
 
+use super::super::flight::slider;
 use super::super::series::LineUp;
 use super::super::{figure, legend};
 use crate::report::Review;
@@ -40,10 +41,7 @@ fn controls(line_ups: &[LineUp], key: &[(&str, String)]) -> Markup {
     html! {
         div.controls id="controls" {
             div.run hidden id="run" {
-                button type="button" id="play" aria-pressed="false" { "Play" }
-                label for="moment" { "Moment" }
-                input type="range" id="moment" min="0" max="0" value="0" step="1";
-                output id="moment-text" for="moment" { "0:00" }
+                (slider())
                 label { "Lined up at " select id="line-up" { @for (k, line_up) in line_ups.iter().enumerate() { option value=(k) { (line_up.name) } } } }
             }
             div.scroll id="readout" hidden tabindex="0" role="region" aria-label="Both sessions at the moment of the slider" {

@@ -1,9 +1,8 @@
 //! How labels are drawn in place of light: which element, which defect.
 
-use super::{Kind, LIGHT, Layouts, NEARER, build, copies, corners, module, patches, special};
+use super::{Kind, LIGHT, NEARER, build, copies, corners, module, patches, special};
 use crate::site::catalogue;
 use crate::view::gpu::device::Gpu;
-use crate::view::quality::Quality;
 
 /// Pipelines whose targets hold numbers: red the element, green the defect. Half floats hold whole numbers to 2048 exactly.
 pub struct LabelPipelines {
@@ -14,11 +13,10 @@ pub struct LabelPipelines {
 }
 
 impl LabelPipelines {
-    /// Compiles them.
-    pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
-        let layouts = Layouts::new(gpu, quality);
+    /// Compiles them for what is bound by the layout of the other pipelines' globals.
+    pub fn new(gpu: &Gpu, globals_layout: &wgpu::BindGroupLayout) -> Self {
         let [surface, defect] = ["surface", "defect"].map(|name| module(gpu, name, |text| text));
-        let globals = [Some(&layouts.globals)];
+        let globals = [Some(globals_layout)];
         let (solids, of_patches) = ([Some(corners()), Some(copies())], [Some(patches())]);
         let constants = [("MASK", 1.0)];
         let solid = Kind {

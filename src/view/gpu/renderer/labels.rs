@@ -1,6 +1,6 @@
 //! Labels of a shot in place of its light.
 
-use super::{Frustum, Renderer, solids};
+use super::{Frustum, Renderer, colour_texture, solids};
 use crate::view::gpu::device::{Gpu, GpuError};
 use crate::view::gpu::pass::{Copies, begin};
 use crate::view::gpu::pipelines::{DEPTH, LIGHT, LabelPipelines};
@@ -21,8 +21,8 @@ impl Renderer {
     pub fn labels(&mut self, gpu: &Gpu, shot: &Shot) -> Result<Masks, GpuError> {
         let globals = Globals::new(shot, self.water_m, &Maps { sun: &[], lamp: None }, false);
         gpu.queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
-        let pipelines = self.labels.take().unwrap_or_else(|| LabelPipelines::new(gpu, &self.quality));
-        let target = target(gpu, shot.size_px);
+        let pipelines = self.labels.take().unwrap_or_else(|| LabelPipelines::new(gpu, &self.pipelines.globals_layout));
+        let target = colour_texture(gpu, shot.size_px, (LIGHT, wgpu::TextureUsages::COPY_SRC));
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw_labels(gpu, &mut encoder, &pipelines, shot, &target);
         gpu.queue.submit([encoder.finish()]);
@@ -54,26 +54,8 @@ impl Renderer {
         for (solid, copies) in solids(&self.models, &moving).chain(still).chain(lake) {
             solid.draw(&mut pass, copies);
         }
-        for (kind, buffer, patches) in &self.patches {
-            let Some((_, pipeline)) = pipelines.defects.iter().find(|of| of.0 == *kind) else { continue };
-            pass.set_pipeline(pipeline);
-            pass.set_vertex_buffer(0, buffer.slice(..));
-            pass.draw(0..6, 0..*patches);
-        }
+        self.draw_patches(&mut pass, &pipelines.defects);
     }
-}
-
-fn target(gpu: &Gpu, (width, height): (u32, u32)) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("labels"),
-        size: wgpu::Extent3d { width: width.max(1), height: height.max(1), depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: LIGHT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
 }
 
 fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Masks, GpuError> {
