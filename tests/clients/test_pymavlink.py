@@ -19,6 +19,8 @@ CAMERA = 100
 POSITION_MODE = {M.MAV_AUTOPILOT_PX4: 3, M.MAV_AUTOPILOT_ARDUPILOTMEGA: 16}
 # A telemetry rate that a stick loop can live with, Hz of vehicle time.
 RATE_HZ = 50
+# The rate of what is only looked at, Hz.
+SLOW_HZ = 4
 EARTH_M_PER_DEG = 111_319.49  # WGS84 equatorial radius times pi / 180
 
 
@@ -30,7 +32,9 @@ class Client:
         beat = wait_for("a heartbeat", lambda: (b := self.link.wait_heartbeat(timeout=60)) and b.get_srcComponent() == 1 and b)
         self.autopilot = beat.autopilot
         if self.autopilot == M.MAV_AUTOPILOT_ARDUPILOTMEGA:
-            self.link.mav.request_data_stream_send(self.link.target_system, 1, M.MAV_DATA_STREAM_ALL, RATE_HZ, 1)
+            # Everything at the fast rate is more than pymavlink parses in time on a busy machine: sticks that answer old positions crash.
+            for group, rate_hz in ((M.MAV_DATA_STREAM_ALL, SLOW_HZ), (M.MAV_DATA_STREAM_POSITION, RATE_HZ), (M.MAV_DATA_STREAM_EXTRA1, RATE_HZ)):
+                self.link.mav.request_data_stream_send(self.link.target_system, 1, group, rate_hz, 1)
         self.state = {}
         self.texts = []
         self.beat_at = 0.0
