@@ -25,6 +25,8 @@ mod parquet;
 mod pilot;
 mod plan;
 mod ports;
+#[cfg(feature = "view")]
+mod priority;
 mod progress;
 mod questionnaire;
 mod rc;

@@ -73,16 +73,16 @@ pub struct Args {
     /// Part of the flight in the film, s of simulation time [default: all of it]
     #[arg(long, value_name = "FROM,TO", requires = "video")]
     span: Option<String>,
-    /// Where the eye is, m from the scenario's origin: east, north, up
+    /// Where the eye is, m from the scenario's origin: east, north, up; only of a scenario
     #[arg(long, value_name = "E,N,U", allow_hyphen_values = true, requires = "look")]
     from: Option<String>,
     /// What it looks at, m
     #[arg(long, value_name = "E,N,U", allow_hyphen_values = true, requires = "from")]
     look: Option<String>,
-    /// Horizontal field of view, deg; without it the aircraft's camera's
+    /// Horizontal field of view, deg; without it the aircraft's camera's; only of a scenario
     #[arg(long, value_name = "DEG")]
     fov: Option<f64>,
-    /// The lamp is on, at the eye
+    /// The lamp is on, at the eye; only of a scenario
     #[arg(long)]
     lamp: bool,
     /// Another start of the session, UTC, for another sun (2026-06-20T08:00:00Z); only of a scenario
@@ -94,6 +94,9 @@ pub struct Args {
     /// Aircraft of a scenario: a file, or the name of a shipped one
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
+    /// Leave the processor to others who want it
+    #[arg(long)]
+    nice: bool,
     /// Seed that places defects and traffic of a scenario without a seed of its own
     #[arg(long, value_name = "N", value_parser = args::seed)]
     seed: Option<u64>,
@@ -105,6 +108,9 @@ pub struct Args {
 /// When files are wrong, there is no such moment, or nothing to draw with.
 #[cfg(feature = "view")]
 pub fn run(args: &Args) -> Result<(), AppError> {
+    if args.nice {
+        super::priority::stand_back();
+    }
     draw::run(args)
 }
 

@@ -3,6 +3,7 @@
 mod course;
 mod flight;
 mod offers;
+mod photographs;
 mod window;
 
 use super::args::{self, JobArgs, TraineeId};
@@ -77,6 +78,12 @@ pub struct Args {
     /// Which key does what in the window (as `spandrel view --keys`)
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
+    /// Which controller flies from the window, by a part of its name or its id [default: the only one]
+    #[arg(long, value_name = "NAME", conflicts_with = "no_view")]
+    device: Option<String>,
+    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration]
+    #[arg(long, value_name = "DIR", conflicts_with = "no_view")]
+    profiles: Option<PathBuf>,
     #[command(flatten)]
     ports: PortArgs,
 }

@@ -34,16 +34,16 @@ pub struct Args {
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
     pub(super) listen: IpAddr,
     /// Fly from the window: sticks and commands go to the vehicle's port for ground stations
-    #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, group = "pilot")]
     pub(super) fly: Option<SocketAddr>,
     /// Which key does what (TOML: format = 1, push, [sticks], [actions], [window], [sound]); the same file as that of `spandrel rc --keyboard`
     #[arg(long, value_name = "FILE")]
     pub(super) keys: Option<PathBuf>,
     /// Which controller, by a part of its name or its id [default: the only one]
-    #[arg(long, value_name = "NAME", requires = "fly")]
+    #[arg(long, value_name = "NAME", requires = "pilot")]
     pub(super) device: Option<String>,
     /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration]
-    #[arg(long, value_name = "DIR", requires = "fly")]
+    #[arg(long, value_name = "DIR", requires = "pilot")]
     pub(super) profiles: Option<PathBuf>,
     /// How much a picture may cost: low, medium, high, ultra, or auto (high with a graphics card, low without)
     #[arg(long, value_name = "PRESET", default_value = "auto")]
@@ -77,7 +77,7 @@ pub struct Args {
     #[arg(long)]
     pub(super) leash: bool,
     /// Pages and flights as the parent process says them, a JSON line each on standard input; what is wished goes to standard output
-    #[arg(long, requires = "leash", hide = true)]
+    #[arg(long, requires = "leash", hide = true, group = "pilot")]
     pub(super) led: bool,
 }
 

@@ -29,6 +29,22 @@ fn describe(gamepad: gilrs::Gamepad) -> Device {
     Device { name: gamepad.os_name().to_owned(), id }
 }
 
+/// Waits for a device while there is none: the system is asked once and tells from then on.
+#[derive(Debug)]
+pub struct Watch(Gilrs);
+
+impl Watch {
+    /// Begins.
+    pub fn start() -> Result<Self, AppError> {
+        system().map(Self)
+    }
+
+    /// A device has come since the last look.
+    pub fn has_come(&mut self) -> bool {
+        std::iter::from_fn(|| self.0.next_event()).filter(|event| event.event == EventType::Connected).count() > 0
+    }
+}
+
 /// All devices that are connected.
 pub fn connected() -> Result<Vec<Device>, AppError> {
     Ok(system()?.gamepads().map(|(_, gamepad)| describe(gamepad)).collect())

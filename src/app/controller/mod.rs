@@ -71,6 +71,34 @@ impl Source {
 #[cfg(not(feature = "gamepad"))]
 const NO_GAMEPADS: &str = "this build reads no gamepads (build with --features gamepad; on Debian and Ubuntu that needs libudev-dev); --keyboard flies without one";
 
+/// Waits for a device while there is none.
+#[derive(Debug, Default)]
+#[cfg(feature = "view")]
+pub struct Watch {
+    #[cfg(feature = "gamepad")]
+    system: Option<gamepad::Watch>,
+}
+
+#[cfg(feature = "view")]
+impl Watch {
+    /// Begins to wait, where the system can tell.
+    pub fn start() -> Self {
+        Self {
+            // Why it cannot was told when a device was looked for.
+            #[cfg(feature = "gamepad")]
+            system: gamepad::Watch::start().ok(),
+        }
+    }
+
+    /// A device has come since the last look.
+    pub fn has_come(&mut self) -> bool {
+        #[cfg(feature = "gamepad")]
+        return self.system.as_mut().is_some_and(gamepad::Watch::has_come);
+        #[cfg(not(feature = "gamepad"))]
+        false
+    }
+}
+
 /// Which key does what: a file's, or the usual ones.
 ///
 /// # Errors

@@ -34,6 +34,9 @@ impl From<GpuError> for AppError {
 /// Draws what was asked for.
 pub fn run(args: &Args) -> Result<(), AppError> {
     masks::check(args)?;
+    if std::path::Path::new(&args.what).is_dir() {
+        only_of_scenarios(args)?;
+    }
     if args.snapshots {
         return snapshots::run(args);
     }
@@ -45,6 +48,24 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let path = std::path::Path::new(&args.what);
     let picture = if path.is_dir() { of_session(args, quality, size)? } else { of_scenario(args, quality, size)? };
     files::write(&args.out, &png(&picture)?)
+}
+
+/// Options that a session has an answer of its own for.
+fn only_of_scenarios(args: &Args) -> Result<(), AppError> {
+    let given = [
+        ("--from", args.from.is_some()),
+        ("--fov", args.fov.is_some()),
+        ("--lamp", args.lamp),
+        ("--utc", args.utc.is_some()),
+        ("--cloud", args.cloud.is_some()),
+        ("--seed", args.seed.is_some()),
+    ];
+    match given.into_iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((name, _)) => {
+            Err(AppError::wrong(format!("{name}: '{}' is a session, drawn as it was flown: {name} is for scenarios", args.what)))
+        }
+    }
 }
 
 /// The preset of a name.

@@ -14,7 +14,7 @@ use crate::view::stage;
 use crate::view::video::{Encoder, Mp4, Piece, VideoError, webvtt};
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Bits for a pixel of a picture (estimate: 1080p30 then has 6 Mbit/s, as small cameras record).
 const BITS_PX: f64 = 0.1;
@@ -63,6 +63,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     for piece in film.finish()? {
         file.write(&piece)?;
     }
+    file.finish()?;
     progress.end();
     let track = path.with_extension("vtt");
     replace(&track, webvtt::write(&chapters(&report::pictures(&recorded.folder)?, from, to)).as_bytes())?;
@@ -99,20 +100,35 @@ fn chapters(taken: &[Picture], from: SimTime, to: SimTime) -> Vec<webvtt::Chapte
         .collect()
 }
 
-/// The file.
+/// The file, under another name until it is whole: a film that was there before stays until then.
 struct Film<'a> {
     path: &'a Path,
+    part: PathBuf,
     file: File,
 }
 
 impl<'a> Film<'a> {
     fn create(path: &'a Path) -> Result<Self, AppError> {
-        let file = File::create(path).map_err(|error| AppError::wrong(format!("{}: {error}", path.display())))?;
-        Ok(Self { path, file })
+        let mut part = path.to_path_buf().into_os_string();
+        part.push(".part");
+        let part = PathBuf::from(part);
+        let file = File::create(&part).map_err(|error| AppError::wrong(format!("{}: {error}", part.display())))?;
+        Ok(Self { path, part, file })
     }
 
     fn write(&mut self, piece: &Piece) -> Result<(), AppError> {
         let written = self.file.seek(SeekFrom::Start(piece.at)).and_then(|_| self.file.write_all(&piece.bytes));
-        written.map_err(|error| AppError::failed(format!("{}: {error}", self.path.display())))
+        written.map_err(|error| AppError::failed(format!("{}: {error}", self.part.display())))
+    }
+
+    fn finish(self) -> Result<(), AppError> {
+        std::fs::rename(&self.part, self.path).map_err(|error| AppError::failed(format!("{}: {error}", self.path.display())))
+    }
+}
+
+impl Drop for Film<'_> {
+    fn drop(&mut self) {
+        // Finished, it is there no longer; otherwise it is half a film.
+        let _ = std::fs::remove_file(&self.part);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::flight::{Flight, Outcome};
 use super::offers;
+use super::photographs::Photographs;
 use super::window::Window;
 use super::{Args, USUAL, camera, tell};
 use crate::app::args::{self, TraineeId};
@@ -33,6 +34,7 @@ pub struct Course<'a> {
     window: Option<Window>,
     web: Option<Pages>,
     told: bool,
+    photographs: Photographs,
 }
 
 /// What comes after a flight.
@@ -47,7 +49,7 @@ enum Next {
 impl<'a> Course<'a> {
     /// Nothing is started yet.
     pub fn new(args: &'a Args, log: tracing::Level, stop: Stop) -> Self {
-        Self { args, log, stop, window: None, web: None, told: false }
+        Self { args, log, stop, window: None, web: None, told: false, photographs: Photographs::default() }
     }
 
     /// Flies as often as is asked for.
@@ -89,6 +91,7 @@ impl<'a> Course<'a> {
         if let (Some(session), false, true) = (&last, seen, result.is_ok()) {
             self.linger(session);
         }
+        self.photographs.finish(&self.stop);
         result
     }
 
@@ -190,6 +193,9 @@ impl<'a> Course<'a> {
             Outcome::Lost(error) => Err(error),
             Outcome::Over | Outcome::Restart => told,
         };
+        if self.window.as_mut().is_some_and(|window| window.is_open() || window.closed) && result.is_ok() {
+            self.photographs.draw(session);
+        }
         if self.window.is_some() {
             self.offer(choice);
             let web = self.web.as_ref().map(|web| web.server.address());

@@ -37,11 +37,17 @@ impl Window {
         if let Some(keys) = &args.keys {
             words.extend(["--keys".to_owned(), keys.display().to_string()]);
         }
+        if let Some(device) = &args.device {
+            words.extend(["--device".to_owned(), device.clone()]);
+        }
+        if let Some(profiles) = &args.profiles {
+            words.extend(["--profiles".to_owned(), profiles.display().to_string()]);
+        }
         words.extend(["--picture".to_owned(), super::camera(args).display().to_string()]);
         if args.no_sound {
             words.push("--no-sound".to_owned());
         }
-        let opened = Child::start_beside("view", &words, &spare_threads());
+        let opened = Child::start_beside("view", &words, &[spare_threads()]);
         let child = opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()?;
         Some(Self { child, over: false, closed: false, flies: false, complained: false })
     }
@@ -109,7 +115,7 @@ impl Window {
 }
 
 /// Mesa's software driver takes every processor unless it is told otherwise; half of them are the simulator's and the monitor's.
-fn spare_threads() -> [(&'static str, String); 1] {
+pub fn spare_threads() -> (&'static str, String) {
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    [("LP_NUM_THREADS", (all / 2).max(1).to_string())]
+    ("LP_NUM_THREADS", (all / 2).max(1).to_string())
 }

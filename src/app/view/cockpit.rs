@@ -20,6 +20,7 @@ use super::Args;
 use crate::app::controller;
 use crate::app::errors::AppError;
 use crate::app::files;
+use crate::app::priority;
 use crate::app::render::size;
 use crate::app::stop::Stop;
 use crate::view::flow::Flow;
@@ -66,7 +67,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         pilot.ask(Ask::Fly(vehicle));
     }
     // On Linux every thread has a niceness of its own, that of the thread which began it: sticks are sent by one that began before.
-    be_nice();
+    priority::stand_back();
     let speaker = Speaker::new(keys.sounds, !args.no_sound);
     Cockpit::new(plan, keys, flow, crew, speaker, stop).run()
 }
@@ -78,15 +79,3 @@ fn picture(args: &Args) -> Result<Option<window::Picture>, AppError> {
     }
     Ok(Some(window::Picture { path: path.clone(), after: Duration::from_secs_f64(after) }))
 }
-
-/// The simulator comes first, whoever draws: pictures take what is left of the processor.
-fn be_nice() {
-    #[cfg(unix)]
-    if let Err(error) = rustix::process::nice(NICENESS) {
-        tracing::debug!("the view keeps its priority: {error}");
-    }
-}
-
-/// Half way to the lowest priority.
-#[cfg(unix)]
-const NICENESS: i32 = 10;

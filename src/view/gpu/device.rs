@@ -1,5 +1,7 @@
 //! A graphics device, with or without a screen.
 
+use std::sync::{Arc, OnceLock};
+
 /// Why nothing can be drawn.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
@@ -27,6 +29,7 @@ pub struct Gpu {
     pub software: bool,
     /// Whose device it is.
     pub adapter: wgpu::Adapter,
+    fault: Arc<OnceLock<String>>,
 }
 
 impl Gpu {
@@ -56,6 +59,12 @@ impl Gpu {
         Self::request(instance, surface, false)
     }
 
+    /// What went wrong first since it was opened: what is drawn from then on is worth nothing.
+    #[must_use]
+    pub fn fault(&self) -> Option<GpuError> {
+        self.fault.get().cloned().map(GpuError::Failed)
+    }
+
     fn request(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>, software: bool) -> Result<Self, GpuError> {
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
@@ -69,7 +78,52 @@ impl Gpu {
         let descriptor = wgpu::DeviceDescriptor { label: Some("spandrel"), required_limits: limits, ..Default::default() };
         let (device, queue) =
             pollster::block_on(adapter.request_device(&descriptor)).map_err(|e| GpuError::NoDevice(e.to_string()))?;
+        let fault = watch(&device);
         let info = adapter.get_info();
-        Ok(Self { device, queue, name: info.name, software: info.device_type == wgpu::DeviceType::Cpu, adapter })
+        Ok(Self { fault, device, queue, name: info.name, software: info.device_type == wgpu::DeviceType::Cpu, adapter })
+    }
+}
+
+/// Keeps what goes wrong beside any call (an error that nobody asks for, a card that is pulled out or hangs); by itself that would end the
+/// program by a panic.
+fn watch(device: &wgpu::Device) -> Arc<OnceLock<String>> {
+    let fault = Arc::new(OnceLock::new());
+    // The first one counts: the others follow from it.
+    let keeps = fault.clone();
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| drop(keeps.set(error.to_string()))));
+    let keeps = fault.clone();
+    device.set_device_lost_callback(move |why, words| {
+        // Letting go of a device is no fault.
+        if why != wgpu::DeviceLostReason::Destroyed {
+            drop(keeps.set(format!("it is lost: {words}")));
+        }
+    });
+    fault
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_a_device_that_fails_is_told_and_no_panic() {
+        let Ok(gpu) = Gpu::open_software() else {
+            println!("skipped: no software Vulkan driver (Debian and Ubuntu: apt-get install mesa-vulkan-drivers)");
+            return;
+        };
+        assert_eq!(gpu.fault(), None);
+        let size = wgpu::Extent3d { width: 0, height: 1, depth_or_array_layers: 1 };
+        let _ = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("without a width"),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+            usage: wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let told = gpu.fault().expect("it failed").to_string();
+        assert!(told.contains("without a width"), "{told}");
     }
 }

@@ -14,7 +14,7 @@ const SMALL: f64 = 0.027;
 /// Flashes this often, Hz (two a second: seen, and far below what harms).
 const FLASH_HZ: f64 = 2.0;
 /// Telemetry older than this is a lost link, s.
-const SILENT_S: f64 = 1.5;
+pub const SILENT_S: f64 = 1.5;
 /// Metres a second in a mile an hour.
 const M_S_PER_MPH: f64 = crate::base::math::M_S_PER_MPH;
 /// Share of the picture, from its middle, in which a defect counts.
@@ -155,7 +155,7 @@ fn numbers(hud: &Hud, aspect: f64) -> Vec<Item> {
         lines.push(("zoom", format!("{:.1} x", hud.zoom)));
     }
     let step = 0.037;
-    let from = right - 0.2 / aspect;
+    let from = right - 0.225 / aspect;
     let bottom = top + step * lines.len() as f64 + 0.012;
     let mut items = vec![Item::Panel { from: at(from, top), to: at(right, bottom), colour: Colour::Shade }];
     for (k, (name, value)) in lines.into_iter().enumerate() {

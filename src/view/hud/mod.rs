@@ -7,7 +7,7 @@ mod map;
 mod marker;
 pub mod state;
 
-pub use layout::layout;
+pub use layout::{SILENT_S, layout};
 pub use marker::marker;
 pub use state::{Gnss, Hud, Track};
 

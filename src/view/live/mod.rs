@@ -13,9 +13,7 @@ use super::stage::{LIFT_OFF_M, Moment, Told};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Encoder, Received};
-use crate::mav::dialect::{
-    HEARTBEAT_DATA, MavAutopilot, MavCmd, MavMessage, MavType, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags,
-};
+use crate::mav::dialect::{MavCmd, MavMessage, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
 use crate::mav::station;
 use crate::scenario::Scenario;
 use crate::site::CameraPose;
@@ -42,6 +40,8 @@ const ASK_EVERY: SimTime = SimTime::from_ms(5_000);
 const INSTEAD: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
 /// SERVO_OUTPUT_RAW, asked for at this rate, Hz: the rotors are heard (a tenth of a second is a person's limit for sound and picture).
 const ROTORS: (u32, f32) = (36, 20.0);
+/// FLIGHT_INFORMATION: when the vehicle took off, for who begins to listen in flight.
+const FLIGHT: u32 = 264;
 /// Pulses of outputs that are at rest and full, µs (SERVO_OUTPUT_RAW).
 const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
 /// A clock that goes back by more is a restarted simulator, once so many samples in a row say so.
@@ -114,6 +114,8 @@ struct State {
     battery_pct: Option<f64>,
     field_of_view_rad: Option<f64>,
     begun: Option<SimTime>,
+    /// It flew already when it was first heard, and the vehicle is asked since when; when it is asked next.
+    since_when: Option<SimTime>,
     pictures: BTreeSet<(i32, Option<SimTime>)>,
     taken: Option<SimTime>,
     gates: Gates,
@@ -221,6 +223,12 @@ impl Live {
             self.state.outputs =
                 turn.then(|| pulses.map(|pulse| ((pulse - PULSE_US.0) / (PULSE_US.1 - PULSE_US.0)).clamp(0.0, 1.0)));
         }
+        if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.since_when)
+            && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
+        {
+            // A time since boot, whatever the field is called (MAVLink common).
+            (self.state.begun, self.state.since_when) = (Some(SimTime::from_us(took_off_us)), None);
+        }
         if !self.spoken
             && let Some(truth) = frame.message.as_ref().and_then(|message| self.estimate.take(message, &self.plane))
         {
@@ -276,6 +284,7 @@ impl Live {
         self.head.hear(wall, truth.time);
         if self.state.begun.is_none() && truth.position_m.up() - self.pad_up_m > LIFT_OFF_M {
             self.state.begun = Some(truth.time);
+            self.state.since_when = self.state.trace.newest().is_none().then_some(wall);
         }
         self.state.trace.push(truth);
     }
@@ -294,12 +303,7 @@ impl Live {
     pub fn handle_timeout(&mut self, wall: SimTime) {
         if wall >= self.next_beat {
             self.next_beat = wall + HEARTBEAT_EVERY;
-            self.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
-                mavtype: MavType::MAV_TYPE_ONBOARD_CONTROLLER,
-                autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
-                mavlink_version: 3,
-                ..HEARTBEAT_DATA::default()
-            }));
+            self.say(&station::companion_heartbeat());
             if let Some(video) = self.video {
                 self.say(&video.status());
             }
@@ -309,6 +313,12 @@ impl Live {
         {
             self.next_rotors = Some(wall + ASK_EVERY);
             self.say(&every(system, ROTORS));
+        }
+        if let (Some(system), Some(due)) = (self.system, self.state.since_when)
+            && wall >= due
+        {
+            self.state.since_when = Some(wall + ASK_EVERY);
+            self.say(&once(system, FLIGHT));
         }
         if let (Some(system), false, Some(due)) = (self.system, self.spoken, self.next_ask)
             && wall >= due
@@ -372,6 +382,12 @@ impl Live {
 fn every(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
     let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))
+}
+
+/// The question for a message, once.
+fn once(system: u8, id: u32) -> MavMessage {
+    let params = [id as f32, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_REQUEST_MESSAGE, params))
 }
 
 #[cfg(test)]

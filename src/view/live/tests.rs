@@ -1,7 +1,7 @@
 use super::*;
 use crate::mav::dialect::{
-    ATTITUDE_DATA, CAMERA_IMAGE_CAPTURED_DATA, GLOBAL_POSITION_INT_DATA, HIL_STATE_QUATERNION_DATA, ILLUMINATOR_STATUS_DATA,
-    MavBool, MavModeFlag, NAMED_VALUE_INT_DATA, SERVO_OUTPUT_RAW_DATA,
+    ATTITUDE_DATA, CAMERA_IMAGE_CAPTURED_DATA, FLIGHT_INFORMATION_DATA, GLOBAL_POSITION_INT_DATA, HEARTBEAT_DATA,
+    HIL_STATE_QUATERNION_DATA, ILLUMINATOR_STATUS_DATA, MavBool, MavModeFlag, NAMED_VALUE_INT_DATA, SERVO_OUTPUT_RAW_DATA,
 };
 
 const SCENARIO: &str = include_str!("../../../scenarios/two-bridges.toml");
@@ -181,4 +181,28 @@ fn exact_the_seed_and_the_scenario_are_heard() {
         wire.say(&MavMessage::NAMED_VALUE_INT(named), 10);
     }
     assert_eq!((wire.live.seed(), wire.live.scenario_crc()), (Some(7), Some(u32::MAX - 1)));
+}
+
+#[test]
+fn exact_who_begins_to_listen_in_flight_asks_since_when_it_flies() {
+    let mut wire = Wire::new();
+    wire.truth(300_000, 0, 0.0);
+    wire.truth(300_020, 20, 0.0);
+    assert_eq!(wire.now(20).unwrap().told.begun, Some(SimTime::from_ms(300_000)), "until it is known");
+    wire.live.handle_timeout(SimTime::from_ms(20));
+    let mut decoder = Decoder::new();
+    let asked = std::iter::from_fn(|| wire.live.poll_transmit()).any(|bytes| {
+        decoder.datagram(&bytes).iter().any(|frame| match &frame.message {
+            Some(MavMessage::COMMAND_LONG(said)) => {
+                said.command == MavCmd::MAV_CMD_REQUEST_MESSAGE && said.param1 == FLIGHT as f32
+            }
+            _ => false,
+        })
+    });
+    assert!(asked);
+    let flight = FLIGHT_INFORMATION_DATA { takeoff_time_utc: 12_500_000, ..Default::default() };
+    wire.say(&MavMessage::FLIGHT_INFORMATION(flight.clone()), 40);
+    assert_eq!(wire.now(40).unwrap().told.begun, Some(SimTime::from_ms(12_500)));
+    wire.say(&MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { takeoff_time_utc: 99_000_000, ..flight }), 60);
+    assert_eq!(wire.now(60).unwrap().told.begun, Some(SimTime::from_ms(12_500)), "a flight begins once");
 }

@@ -1,6 +1,6 @@
 //! The controller in the window: tried, calibrated, flown with.
 
-use crate::app::controller::{Hand, Profiles, Source};
+use crate::app::controller::{Hand, Profiles, Source, Watch};
 use crate::app::errors::AppError;
 use crate::base::time::SimTime;
 use crate::rc::link::Link;
@@ -10,8 +10,8 @@ use crate::view::flow::Controls;
 
 /// What is known of the device.
 enum Held {
-    /// There is none.
-    Nothing,
+    /// There is none; who waits for one.
+    Nothing(Watch),
     /// It has no profile yet.
     Raw(Source, Raw),
     /// It flies.
@@ -32,7 +32,8 @@ pub struct Desk {
 impl Desk {
     /// Looks for the device of this name, or the only one.
     pub fn new(wanted: Option<String>, profiles: Profiles) -> Self {
-        let mut desk = Self { wanted, profiles, held: Held::Nothing, mode: StickMode::Two, note: String::new() };
+        let mut desk =
+            Self { wanted, profiles, held: Held::Nothing(Watch::default()), mode: StickMode::Two, note: String::new() };
         desk.look();
         desk
     }
@@ -42,7 +43,7 @@ impl Desk {
         match Source::device(self.wanted.as_deref()) {
             Ok(source) => self.sit_down(source),
             Err(error) => {
-                self.held = Held::Nothing;
+                self.held = Held::Nothing(Watch::start());
                 // What follows is the command line's business.
                 let why = error.to_string();
                 let why = why.split(';').next().unwrap_or_default();
@@ -50,6 +51,16 @@ impl Desk {
                 self.note = signs.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), signs.as_str()));
             }
         }
+    }
+
+    /// Sits down with a device that has come where there was none. True when one has, whether it is calibrated or not.
+    pub fn welcome(&mut self) -> bool {
+        let Held::Nothing(watch) = &mut self.held else { return false };
+        if !watch.has_come() {
+            return false;
+        }
+        self.look();
+        !matches!(self.held, Held::Nothing(_))
     }
 
     fn sit_down(&mut self, source: Source) {
@@ -77,11 +88,15 @@ impl Desk {
 
     /// Begins to ask which axis is which stick.
     pub fn calibrate(&mut self) {
-        self.held = match std::mem::replace(&mut self.held, Held::Nothing) {
-            Held::Nothing => Held::Nothing,
+        self.held = match self.take() {
+            Held::Nothing(watch) => Held::Nothing(watch),
             Held::Raw(source, _) | Held::Asked(source, _) => self.ask(source),
             Held::Hand(hand) => self.ask(hand.let_go()),
         };
+    }
+
+    fn take(&mut self) -> Held {
+        std::mem::replace(&mut self.held, Held::Nothing(Watch::default()))
     }
 
     fn ask(&self, source: Source) -> Held {
@@ -98,7 +113,7 @@ impl Desk {
 
     /// Leaves the wizard; what was known before counts.
     pub fn cancel(&mut self) {
-        if let Held::Asked(source, _) = std::mem::replace(&mut self.held, Held::Nothing) {
+        if let Held::Asked(source, _) = self.take() {
             self.sit_down(source);
         }
     }
@@ -129,7 +144,7 @@ impl Desk {
     /// When it is given up.
     pub fn sticks(&mut self, link: &mut Link, now: SimTime) -> Result<Option<Sticks>, AppError> {
         match &mut self.held {
-            Held::Nothing => Ok(None),
+            Held::Nothing(_) => Ok(None),
             Held::Raw(source, raw) => {
                 std::iter::from_fn(|| source.next(now)).for_each(|event| raw.take(event));
                 Ok(None)
@@ -140,7 +155,7 @@ impl Desk {
                 wizard.handle_timeout(now);
                 if let Some(profile) = wizard.profile() {
                     self.keep(&profile);
-                    if let Held::Asked(source, _) = std::mem::replace(&mut self.held, Held::Nothing) {
+                    if let Held::Asked(source, _) = self.take() {
                         self.held = Held::Hand(Box::new(Hand::with(source, profile)));
                     }
                 }
@@ -151,7 +166,7 @@ impl Desk {
 
     /// Gives the device up.
     pub fn give_up(&mut self, why: &AppError) {
-        self.held = Held::Nothing;
+        self.held = Held::Nothing(Watch::start());
         self.note = format!("The controller is given up: {why}.");
     }
 
@@ -160,7 +175,7 @@ impl Desk {
         let plain = Controls { mode: self.mode.number(), note: self.note.clone(), keys: keys.to_owned(), ..Controls::default() };
         let from_rest = |(axis, value): (&u32, &f64)| (*axis, *value, (value.min(0.0), value.max(0.0)));
         match &self.held {
-            Held::Nothing => Controls { mode: 2, sticks: StickMode::Two.hands(keyboard), ..plain },
+            Held::Nothing(_) => Controls { mode: 2, sticks: StickMode::Two.hands(keyboard), ..plain },
             Held::Raw(source, raw) => {
                 Controls { device: Some(source.of().name.clone()), axes: raw.axes.iter().map(from_rest).collect(), ..plain }
             }

@@ -11,7 +11,7 @@ use crate::view::gaze::Gaze;
 use crate::view::live::Now;
 use crate::view::quality::Quality;
 use std::net::{IpAddr, SocketAddr};
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
 /// What stands between the vehicle and its picture.
@@ -82,11 +82,13 @@ impl Flight {
                 });
                 self.scene = Scene::Building(receiver);
             }
-            Scene::Building(receiver) => {
-                if let Ok(job) = receiver.try_recv() {
-                    self.scene = Scene::Drawn(Box::new(Panes::new(screen, quality, job)));
+            Scene::Building(receiver) => match receiver.try_recv() {
+                Ok(job) => self.scene = Scene::Drawn(Box::new(Panes::new(screen, quality, job))),
+                Err(TryRecvError::Empty) => {}
+                Err(TryRecvError::Disconnected) => {
+                    return Err(AppError::failed("the scene could not be built (its message stands above)"));
                 }
-            }
+            },
             Scene::Drawn(_) => {}
         }
         Ok(())

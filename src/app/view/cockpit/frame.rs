@@ -11,6 +11,7 @@ use crate::app::render::png;
 use crate::view::flow::pipe::Flying;
 use crate::view::flow::{Order, Page, Sheet};
 use crate::view::gpu::{Pictures, paint_sheet};
+use crate::view::hud;
 use crate::view::live::Now;
 use crate::view::sound::Heard;
 use serde_json::json;
@@ -25,6 +26,9 @@ const HELP_S: f64 = 25.0;
 impl Cockpit {
     /// Hears `train`, does what the pages order, draws.
     pub(super) fn frame(&mut self) -> Result<(), AppError> {
+        if let Some(fault) = self.screen.as_ref().and_then(|screen| screen.gpu.fault()) {
+            return Err(fault.into());
+        }
         while let Some(message) = self.crew.lead.as_mut().and_then(super::lead::Lead::poll) {
             self.flow.hear(message);
         }
@@ -47,7 +51,9 @@ impl Cockpit {
 
     /// What there is to hear now.
     fn sound(&mut self, now: Option<&Now>) {
-        let (Some(flight), Some(now), false) = (&self.crew.flight, now, self.flow.stands()) else {
+        // What was heard last is not what is to be heard: nobody knows how the rotors turn.
+        let now = now.filter(|now| now.told.silent_s <= hud::SILENT_S && !self.flow.stands());
+        let (Some(flight), Some(now)) = (&self.crew.flight, now) else {
             self.speaker.hush();
             return;
         };

@@ -142,6 +142,11 @@ impl Seat {
                     Err(TryRecvError::Disconnected) => return,
                 }
             }
+            if self.desk.welcome() {
+                let flies = if self.desk.flies() { "It flies." } else { "Keys fly until it is calibrated." };
+                // Nobody is left to hear it when the window is closed.
+                let _ = teller.send(format!("A controller is there. {} {flies}", self.desk.note()));
+            }
             let sticks = self.sticks(now);
             match self.vehicle {
                 Some(vehicle) => {

@@ -88,6 +88,16 @@ fn play(heard: &Arc<Mutex<Heard>>, settings: Settings) {
         "no sound ({}); Debian and Ubuntu: apt-get install pulseaudio-utils or alsa-utils; everything else goes on",
         tried.join("; ")
     );
+    speak(heard, settings);
+}
+
+/// Speaks until the window is gone: a voice needs no player.
+fn speak(heard: &Arc<Mutex<Heard>>, settings: Settings) {
+    let mut voice = Voice::new(settings.speech);
+    while Arc::strong_count(heard) > 1 && voice.on {
+        voice.hear(&locked(heard).clone());
+        std::thread::sleep(REST);
+    }
 }
 
 /// Plays until the window is gone.
@@ -102,7 +112,7 @@ fn play_by(name: &str, args: &[&str], heard: &Arc<Mutex<Heard>>, settings: Setti
     let (watch, mut made) = (Stopwatch::start(), Duration::ZERO);
     while Arc::strong_count(heard) > 1 {
         let now = locked(heard).clone();
-        voice.follow(if now.silent { 0 } else { now.cues });
+        voice.hear(&now);
         sound.set(now);
         // A machine that stood still does not make up for the silence.
         made = made.max(watch.elapsed());
@@ -135,6 +145,10 @@ struct Voice {
 impl Voice {
     fn new(on: bool) -> Self {
         Self { on, cues: 0, speaking: None }
+    }
+
+    fn hear(&mut self, now: &Heard) {
+        self.follow(if now.silent { 0 } else { now.cues });
     }
 
     fn follow(&mut self, cues: i32) {
