@@ -160,23 +160,34 @@ def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_
         screen.focus()
         # It flies a little: motors and take-off, asked again until it does; the filter settles first.
         again = asking.Again(lambda: (screen.tap("1"), screen.tap("t")))
+        photograph = asking.Again(lambda: screen.tap("p"))
 
         def flies():
             again.if_due()
             return "lift-off" in training.told().split("this attempt ended")[-1]
 
         spandrel.wait_for("lift-off", flies, LIMIT_S)
+
+        def taken():
+            photograph.if_due()
+            return '"event":"snapshot"' in (folders(training)[-1] / "events.jsonl").read_text(encoding="utf-8")
+
+        spandrel.wait_for("a photograph", taken, LIMIT_S)
         training.see("paused-again", paused, ESCAPE)
         screen.tap(UP)
         over = training.see("over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200, ENTER)
         assert focus(over)[0] > 0.5, "what comes next stands on the right"
         screen.tap(UP)
         screen.tap(ENTER)
+        # It ends once the photographs are drawn.
         assert training.process.wait(timeout=LIMIT_S) == 0, training.told()
     finally:
         training.close()
     sessions = [json.loads((folder / "session.json").read_text(encoding="utf-8")) for folder in folders(training)]
     assert [session["purpose"] for session in sessions] == ["practice"] * 2 and {session["trainee"] for session in sessions} == {"nina"}
+    drawn = sorted((folders(training)[1] / "snapshots").glob("*.jpg"))
+    assert drawn and all(Image.open(path).size[0] > 600 for path in drawn)
+    assert "data:image/jpeg;base64," in (folders(training)[1] / "report.html").read_text(encoding="utf-8")
     heard_propellers(tmp_path)
 
 

@@ -87,8 +87,14 @@ def test_wire_the_window_shows_both_views_and_flies_by_its_keys(screen, tmp_path
 
         link = asking.connect(watcher)
         spandrel.wait_for("it may arm", lambda: armable(link), DRAW_LIMIT_S)
-        screen.tap("1")
-        asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1 and b.base_mode & 128)
+        arm = asking.Again(lambda: screen.tap("1"), again_s=PRESS_AGAIN_S)
+
+        def armed():
+            arm.if_due()
+            beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=1)
+            return beat and beat.get_srcComponent() == 1 and beat.base_mode & 128
+
+        spandrel.wait_for("motors on", armed, DRAW_LIMIT_S)
         screen.key("w", True)
         asking.hear(link, "LOCAL_POSITION_NED", lambda p: p.z < -2.0)
         screen.key("w", False)

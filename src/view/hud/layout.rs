@@ -250,9 +250,9 @@ mod tests {
     #[test]
     fn regress_the_display_in_calm_flight() {
         let expected = "  2   6 White: 3.2 m/s\n  2  11 Grey: 7 mph, limit 10\n 98   6 Green: 76 %\n 50   5 White: Position   GNSS 14   link ok\n \
-                        88  13 Grey: height\n 98  13 White: 21.4 m\n 88  17 Grey: home\n 98  17 White: 118 m\n 88  21 Grey: gimbal\n \
-                        98  21 White: +20°\n 88  25 Grey: time left\n 98  25 White: 20:34\n 88  28 Grey: lamp\n 98  28 White: off\n \
-                        88  32 Grey: pictures\n 98  32 White: 3\n 89  88 Grey: 1\n 91  72 Grey: N\n";
+                        87  13 Grey: height\n 98  13 White: 21.4 m\n 87  17 Grey: home\n 98  17 White: 118 m\n 87  21 Grey: gimbal\n \
+                        98  21 White: +20°\n 87  25 Grey: time left\n 98  25 White: 20:34\n 87  28 Grey: lamp\n 98  28 White: off\n \
+                        87  32 Grey: pictures\n 98  32 White: 3\n 89  88 Grey: 1\n 91  72 Grey: N\n";
         assert_eq!(snapshot(&hud()), expected, "\n{}", snapshot(&hud()));
     }
 

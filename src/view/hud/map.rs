@@ -39,12 +39,15 @@ pub fn map(hud: &Hud, aspect: f64) -> Vec<Item> {
         to: at(centre.x + HALF / aspect, centre.y + HALF),
         colour: Colour::Shade,
     }];
+    let mut labels: Vec<Point> = Vec::new();
     for track in &hud.tracks {
         let mut points: Vec<Point> = track.path_m.iter().step_by(3).map(|p| place(*p)).collect();
         points.extend(track.path_m.last().filter(|_| !track.closed).or(track.path_m.first()).map(|p| place(*p)));
         let start = points[0];
         items.push(Item::Line { points, width: 0.004, colour: Colour::Blue });
-        items.push(text(at(start.x, start.y - 0.014), format!("{}", track.id)));
+        let label = beside(&labels, at(start.x, start.y - 0.014), aspect);
+        items.push(text(label, format!("{}", track.id)));
+        labels.push(label);
     }
     let pad = place(hud.pad_m);
     let side = 0.007;
@@ -58,6 +61,18 @@ pub fn map(hud: &Hud, aspect: f64) -> Vec<Item> {
     items
 }
 
+/// The place of a label: where it belongs, or to the right of those that stand there.
+fn beside(labels: &[Point], place: Point, aspect: f64) -> Point {
+    const HIGH: f64 = 0.02;
+    const WIDE: f64 = 0.018;
+    let covers = |there: &Point, here: Point| (there.x - here.x).abs() * aspect < WIDE - 1e-9 && (there.y - here.y).abs() < HIGH;
+    let mut here = place;
+    while labels.iter().any(|there| covers(there, here)) {
+        here = at(here.x + WIDE / aspect, here.y);
+    }
+    here
+}
+
 fn text(place: Point, words: String) -> Item {
     Item::Text { place, side: Side::Middle, height: 0.022, colour: Colour::Grey, words }
 }
@@ -67,4 +82,20 @@ fn arrow(tip: Point, heading_rad: f64, aspect: f64) -> Vec<Point> {
     let (s, c) = math::sin_cos(heading_rad);
     let turned = |x: f64, y: f64| at(tip.x + (x * c + y * s) / aspect, tip.y - (y * c - x * s));
     vec![turned(0.0, 0.016), turned(0.010, -0.011), turned(-0.010, -0.011)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_labels_of_paths_that_begin_at_one_place_stand_beside_each_other() {
+        let mut labels = Vec::new();
+        for _ in 0..3 {
+            labels.push(beside(&labels, at(0.9, 0.8), 2.0));
+        }
+        let gaps: Vec<f64> = labels.windows(2).map(|pair| 2.0 * (pair[1].x - pair[0].x)).collect();
+        assert!(gaps.iter().all(|gap| (gap - 0.018).abs() < 1e-9), "{gaps:?}");
+        assert_eq!(beside(&labels, at(0.9, 0.7), 2.0), at(0.9, 0.7), "elsewhere there is room");
+    }
 }
