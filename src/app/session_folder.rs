@@ -11,6 +11,7 @@ use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 
 /// An open session folder.
 #[derive(Debug)]
@@ -218,6 +219,29 @@ pub fn whose(path: &Path) -> Result<(String, u64), AppError> {
         (Some(trainee), Some(started_unix_us)) => Ok((trainee.to_owned(), started_unix_us)),
         (_, _) => Stored::read(path).map(|stored| (stored.trainee, stored.started_unix_us)),
     }
+}
+
+/// A session that is being flown.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Underway {
+    /// Who flies.
+    pub trainee: String,
+    /// CRC of the job.
+    pub crc: u32,
+    /// Its seed.
+    pub seed: u64,
+}
+
+/// What a session says of itself that has not ended, and whose telemetry has grown within this time; `None` of any other.
+pub fn underway(path: &Path, within: Duration) -> Option<Underway> {
+    let grown = path.join(TELEMETRY).metadata().and_then(|about| about.modified()).ok()?;
+    // A clock that was put back makes nothing old.
+    if path.join(ASSESSMENT).exists() || grown.elapsed().unwrap_or_default() > within {
+        return None;
+    }
+    let session = described(&path.join(SESSION)).ok()?;
+    let crc = u32::from_str_radix(session["scenario_crc"].as_str()?, 16).ok()?;
+    Some(Underway { trainee: session["trainee"].as_str()?.to_owned(), crc, seed: session["seed"].as_u64()? })
 }
 
 /// True for a folder that holds a session's telemetry.

@@ -57,6 +57,8 @@ pub struct Said {
     pub episodes: Vec<Episode>,
     /// Texts with their times, s since lift-off.
     pub texts: Vec<(f64, String)>,
+    /// What an instructor noted, with its time, s since lift-off; before it below zero. No trainee's screen showed it.
+    pub notes: Vec<(f64, String)>,
 }
 
 /// Plays a log to the sidecar and listens.
@@ -68,6 +70,10 @@ pub fn said(log: &[u8], scene: &Scene<'_>, track: &[Step]) -> Said {
     let mut open: [Option<f64>; KINDS.len()] = [None; KINDS.len()];
     for (time_s, event) in events(log, scene) {
         let t_s = time_s - first.time.s();
+        if let Some(note) = event["text"].as_str().filter(|_| event["event"] == "note") {
+            said.notes.push((t_s, note.to_owned()));
+            continue;
+        }
         if !(0.0..=end_s).contains(&t_s) {
             continue;
         }

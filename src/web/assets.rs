@@ -11,9 +11,13 @@ pub const FORM_NAME: &str = "form.js";
 /// Name of the live page's script.
 pub const LIVE_NAME: &str = "live.js";
 
+/// Name of the script of the page of one's own flight.
+pub const FLIGHT_NAME: &str = "flight.js";
+
 const STYLE: &str = include_str!("assets/web.css");
 const FORM: &str = include_str!("assets/form.js");
 const LIVE: &str = include_str!("assets/live.js");
+const FLIGHT: &str = include_str!("assets/flight.js");
 
 /// Text and type of a file; `None` when there is none of that name.
 #[must_use]
@@ -23,6 +27,7 @@ pub fn file(name: &str) -> Option<(String, &'static str)> {
         STYLE_NAME => Some((format!("{}{STYLE}", report::STYLE), "text/css; charset=utf-8")),
         FORM_NAME => Some((FORM.to_owned(), script)),
         LIVE_NAME => Some((LIVE.to_owned(), script)),
+        FLIGHT_NAME => Some((FLIGHT.to_owned(), script)),
         _ => None,
     }
 }
@@ -40,7 +45,7 @@ mod tests {
 
     #[test]
     fn exact_every_file_has_an_address_that_changes_with_it() {
-        for name in [STYLE_NAME, FORM_NAME, LIVE_NAME] {
+        for name in [STYLE_NAME, FORM_NAME, LIVE_NAME, FLIGHT_NAME] {
             let (text, _) = file(name).unwrap();
             assert_eq!(address(name), format!("/assets/{name}?v={}", &sha256_hex(text.as_bytes())[..12]));
         }

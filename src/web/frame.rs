@@ -4,9 +4,12 @@ use super::access::{Needs, Visitor};
 use super::assets;
 use maud::{DOCTYPE, Markup, html};
 
+/// For trainees: instructors have the live page.
+const OWN_FLIGHT: &str = "/flight";
 /// Places of the navigation: address, words, who sees it.
-const PLACES: [(&str, &str, Needs); 7] = [
+const PLACES: [(&str, &str, Needs); 8] = [
     ("/sessions", "Sessions", Needs::Login),
+    (OWN_FLIGHT, "My flight", Needs::Login),
     ("/live", "Live", Needs::Instructor),
     ("/trainees", "Trainees", Needs::Instructor),
     ("/cohort", "Cohort", Needs::Instructor),
@@ -57,7 +60,7 @@ fn bar(visitor: &Visitor, at: &str) -> Markup {
             a.brand href="/" { "Spandrel" }
             nav aria-label="Main" {
                 @for (address, words, needs) in PLACES {
-                    @if visitor.meets(needs) && !(visitor.open && address == "/account") {
+                    @if visitor.meets(needs) && !(visitor.open && address == "/account") && !(visitor.meets(Needs::Instructor) && address == OWN_FLIGHT) {
                         a href=(address) aria-current=[(address == at).then_some("page")] { (words) }
                     }
                 }

@@ -2,7 +2,7 @@
 
 use super::access::Visitor;
 use super::frame::{page, section};
-use crate::report::page::cohort::{in_short, sections};
+use crate::report::page::cohort::{Files, in_short, sections};
 use crate::training::cohort::Cohort;
 use maud::{Markup, html};
 
@@ -39,15 +39,16 @@ pub fn group(visitor: &Visitor, chosen: &Chosen<'_>, cohort: Option<&Cohort>) ->
             }
         }
         @if let Some(cohort) = cohort {
-            @for (id, name, body) in sections(cohort) { (section(id, name, &body)) }
+            @for (id, name, body) in sections(cohort, Files::At("/cohort/tables/", &format!("?{}", query(chosen)))) { (section(id, name, &body)) }
         }
     };
     page(visitor, "/cohort", "Cohort", &body)
 }
 
 fn query(chosen: &Chosen<'_>) -> String {
-    let scenarios: String = chosen.scenarios.iter().map(|name| format!("scenario={name}&")).collect();
-    format!("{scenarios}repetitions={}", chosen.repetitions)
+    let mut query = form_urlencoded::Serializer::new(String::new());
+    query.extend_pairs(chosen.scenarios.iter().map(|name| ("scenario", name)));
+    query.append_pair("repetitions", &chosen.repetitions.to_string()).finish()
 }
 
 #[cfg(test)]
@@ -67,6 +68,7 @@ mod tests {
         let chosen = Chosen { flown: &names, scenarios: &names, repetitions: 1 };
         let text = group(&administrator(), &chosen, Some(&cohort)).into_string();
         check(&text);
+        assert!(text.contains("href=\"/cohort/tables/t_tests.csv?scenario="), "{text}");
         assert!(text.contains("2 trainees, 2 sessions") && text.contains("class=\"histogram\""), "{text}");
         assert!(group(&administrator(), &chosen, None).into_string().contains("no session yet"));
     }

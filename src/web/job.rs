@@ -55,7 +55,7 @@ fn upload(visitor: &Visitor) -> Markup {
     }
 }
 
-/// One scenario.
+/// One scenario. The file itself is for instructors: it may say where the defects are, and its seed does.
 #[must_use]
 pub fn one(visitor: &Visitor, named: &Named, scenario: &Scenario, site: &Site, text: &str) -> Markup {
     let s = &scenario.scoring;
@@ -82,21 +82,41 @@ pub fn one(visitor: &Visitor, named: &Named, scenario: &Scenario, site: &Site, t
             (section("tasks", "Tasks", &table("Tasks and how far their paths reach", &[("Task", false), ("On the path within, m", true)], &rows)))
         }
         (section("site", "From above", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
-        (section("file", "The file", &html! {
+        @if visitor.meets(Needs::Instructor) { (section("file", "The file", &html! {
             details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="Text of the file" { pre { code { (text) } } } }
-            @if named.uploaded && visitor.meets(Needs::Instructor) {
+            @if named.uploaded {
                 form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Take this upload away" } }
             }
-        }))
+        })) }
     };
     page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
 }
 
-/// The form that takes in a recorded flight, with what was wrong before.
+/// What is told of a recording that was not taken in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Told<'a> {
+    /// What is wrong with it.
+    Wrong(&'a str),
+    /// It is a session already.
+    There {
+        /// Session.
+        id: &'a str,
+        /// Whose.
+        trainee: &'a str,
+    },
+}
+
+/// The form that takes in a recorded flight, with what became of the one before.
 #[must_use]
-pub fn recorded(visitor: &Visitor, scenarios: &[Named], vehicles: &[String], wrong: Option<&str>) -> Markup {
+pub fn recorded(visitor: &Visitor, scenarios: &[Named], vehicles: &[String], told: Option<Told<'_>>) -> Markup {
     let body = html! {
-        @if let Some(wrong) = wrong { (message("bad", wrong)) }
+        @match told {
+            None => {},
+            Some(Told::Wrong(words)) => (message("bad", words)),
+            Some(Told::There { id, trainee }) => p.message.good role="status" {
+                "This recording is here already: it is " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". Nothing was changed."
+            },
+        }
         section.narrow {
             p { "A tlog as ground stations and the monitor write it, with the simulator's truth in it. It is scored before it is kept." }
             form.stacked method="post" action="/upload" enctype="multipart/form-data" {
@@ -126,6 +146,10 @@ mod tests {
         assert!(text.contains("type=\"file\""));
         let trainee = Visitor { role: Role::Trainee, ..administrator() };
         assert!(!list(&trainee, &named, None).into_string().contains("type=\"file\""));
-        check(&recorded(&administrator(), &named, &[EVIL.into()], Some(EVIL)).into_string());
+        for told in [Told::Wrong(EVIL), Told::There { id: "s-1", trainee: EVIL }] {
+            check(&recorded(&administrator(), &named, &[EVIL.into()], Some(told)).into_string());
+        }
+        let there = recorded(&administrator(), &named, &[], Some(Told::There { id: "s-1", trainee: "anna" })).into_string();
+        assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session of anna"), "{there}");
     }
 }

@@ -88,6 +88,22 @@ pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, choice: &Choice) -> Markup
     scripted(visitor, "/live", "Live flight", Some(assets::LIVE_NAME), &body)
 }
 
+/// The page of the one who flies: his own camera's picture, which the script keeps fresh.
+#[must_use]
+pub fn own(visitor: &Visitor) -> Markup {
+    let body = html! {
+        div.own-flight data-flight {
+            p.lead role="status" data-state { "You are not flying now. This page follows as soon as you do." }
+            noscript { p.message.warn { "This page needs scripts: it follows the flight." } }
+            figure.camera data-camera hidden {
+                figcaption { "What your camera shows, about once a second" }
+                img alt="Your camera's view now" data-picture="";
+            }
+        }
+    };
+    scripted(visitor, "/flight", "My flight", Some(assets::FLIGHT_NAME), &body)
+}
+
 /// Links to the other vehicles.
 fn others(choice: &Choice) -> Markup {
     html! {
@@ -138,6 +154,16 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
 mod tests {
     use super::super::frame::tests::{EVIL, administrator, check};
     use super::*;
+
+    #[test]
+    fn exact_who_flies_sees_the_camera_and_no_map_or_action() {
+        let trainee = Visitor { role: crate::training::trainee::Role::Trainee, ..administrator() };
+        let text = own(&trainee).into_string();
+        check(&text);
+        assert!(text.contains("href=\"/flight\" aria-current=\"page\"") && text.contains("data-camera hidden"), "{text}");
+        assert!(!text.contains("class=\"map\"") && !text.contains("/live"), "{text}");
+        assert!(!own(&administrator()).into_string().contains("href=\"/flight\""), "instructors have the live page");
+    }
 
     #[test]
     fn exact_without_a_flight_there_is_nothing_to_act_in() {

@@ -4,12 +4,16 @@ use super::access::{Needs, Visitor};
 use super::frame::{page, section, table, token};
 use super::sessions::lines;
 use crate::base::calendar::minute;
-use crate::report::plots::lines::{Line, lines as plot};
+use crate::report::page::progress::on_job;
 use crate::report::words;
+use crate::training::cohort::by_job;
 use crate::training::plan::{Change, Plan};
 use crate::training::record::{Listed, Record};
 use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
 use maud::{Markup, html};
+
+/// Before the name of a field: what it was when the page was opened, so that nobody's change is lost.
+pub const BEFORE: &str = "before_";
 
 /// Everybody.
 #[must_use]
@@ -89,53 +93,13 @@ fn next(plan: &Plan) -> Markup {
     }
 }
 
+/// Each job by itself: practice on one says nothing of another.
 fn progress(records: &[Record]) -> Markup {
-    let pick = |name: &'static str, style: u8, value: fn(&Record) -> Option<f64>| Line {
-        name,
-        style,
-        values: records.iter().map(value).collect(),
-    };
-    let scores = [
-        pick("conformity", 1, |record| record.scores.conformity),
-        pick("efficiency", 2, |record| Some(record.scores.efficiency)),
-        pick("safety", 3, |record| Some(record.scores.safety)),
-        pick("accuracy", 4, |record| record.scores.accuracy),
-    ];
-    let maybe = |value: Option<f64>| value.map_or("n/a".to_owned(), |value| words::number(value, 1));
-    let heads = [
-        ("Session", true),
-        ("Scenario", false),
-        ("Conformity", true),
-        ("Efficiency", true),
-        ("Safety", true),
-        ("Accuracy", true),
-        ("Overall", true),
-        ("Crashes", true),
-    ];
     html! {
-        figure {
-            figcaption { "The four scores, session by session" }
-            ul.legend {
-                @for one in scores.iter().filter(|one| one.values.iter().any(Option::is_some)) { li { svg.swatch viewBox="0 0 14 14" aria-hidden="true" { rect class={ "dot-" (one.style) } x="1" y="1" width="12" height="12" rx="3" {} } (one.name) } }
-            }
-            (plot(&scores, 100.0, "Scores by session"))
-        }
-        details.numbers {
-            summary { "Numbers: progress" }
-            (table("Each session in numbers", &heads, &html! {
-                @for (k, record) in records.iter().enumerate() {
-                    tr {
-                        th.number scope="row" { (k + 1) }
-                        td { (record.scenario) }
-                        td.number { (maybe(record.scores.conformity)) }
-                        td.number { (maybe(Some(record.scores.efficiency))) }
-                        td.number { (maybe(Some(record.scores.safety))) }
-                        td.number { (maybe(record.scores.accuracy)) }
-                        td.number { (words::number(record.scores.overall, 1)) }
-                        td.number { (record.crashes().total()) }
-                    }
-                }
-            }))
+        @for job in by_job(records) {
+            @let times = job.progress.repetitions.len();
+            h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (times) @if times == 1 { " session" } @else { " sessions" } }
+            (on_job(&job))
         }
     }
 }
@@ -143,6 +107,7 @@ fn progress(records: &[Record]) -> Markup {
 fn details(visitor: &Visitor, person: &Trainee) -> Markup {
     let choice = |name: &str, label: &str, given: Option<&str>, all: &[&str]| {
         html! {
+            input type="hidden" name={ (BEFORE) (name) } value=(given.unwrap_or_default());
             label { (label)
                 select name=(name) {
                     option value="" selected[given.is_none()] { "not said" }
@@ -187,13 +152,20 @@ mod tests {
 
     #[test]
     fn exact_a_trainees_page_escapes_and_offers_erasure_to_administrators_alone() {
-        let records = [faultless(EVIL, 1), faultless(EVIL, 2)];
+        let mut records = vec![faultless(EVIL, 1), faultless(EVIL, 2), faultless(EVIL, 3)];
+        records[0].scenario = EVIL.into();
         let person = Trainee { age_band: Some(EVIL.into()), ..Trainee::new(EVIL) };
-        let plan = plan(&records, &read_rules("rules.toml", RULES).unwrap(), records[1].started_unix_us);
+        let plan = plan(&records, &read_rules("rules.toml", RULES).unwrap(), records[2].started_unix_us);
         let about = About { person: &person, records: &records, listed: &[], plan: plan.as_ref() };
         let text = one(&administrator(), &about).into_string();
         check(&text);
         assert!(text.contains("Erase for ever") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
+        assert_eq!(
+            (text.matches("class=\"job\"").count(), text.matches("class=\"lines\"").count()),
+            (2, 4),
+            "each job by itself"
+        );
+        assert!(text.contains(", 1 session<") && text.contains(", 2 sessions<"), "{text}");
         let instructor = Visitor { role: Role::Instructor, ..administrator() };
         assert!(!one(&instructor, &about).into_string().contains("Erase for ever"));
         check(&list(&administrator(), &[person]).into_string());

@@ -13,12 +13,16 @@ const STRANGERS: usize = 4_096;
 
 /// Random bytes of a token.
 pub type Secret = [u8; 32];
+/// Stands for a password and a role: a visit holds while it is the one of its login, wherever the change is made.
+pub type Credential = [u8; 32];
 
 /// One browser.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Visit {
     /// Who logged in.
     pub name: Option<String>,
+    /// By which password and in which role; a stranger has none.
+    pub credential: Option<Credential>,
     /// Goes with every form.
     pub token: String,
     began_us: u64,
@@ -55,11 +59,12 @@ impl Visits {
 
     /// Begins a visit: a stranger's, or that of somebody who has just logged in. The cookie is new in either case, so that one that was
     /// planted before the login opens nothing after it. Returns the cookie's text and the visit.
-    pub fn begin(&mut self, name: Option<&str>, [cookie, token]: [Secret; 2], now_us: u64) -> (String, Visit) {
-        if name.is_none() {
+    pub fn begin(&mut self, who: Option<(&str, Credential)>, [cookie, token]: [Secret; 2], now_us: u64) -> (String, Visit) {
+        if who.is_none() {
             self.make_room(now_us);
         }
-        let visit = Visit { name: name.map(str::to_owned), token: text_of(&token), began_us: now_us, used_us: now_us };
+        let (name, credential) = who.map(|(name, credential)| (name.to_owned(), credential)).unzip();
+        let visit = Visit { name, credential, token: text_of(&token), began_us: now_us, used_us: now_us };
         let cookie = text_of(&cookie);
         self.0.insert(key(&cookie), visit.clone());
         (cookie, visit)
@@ -68,6 +73,13 @@ impl Visits {
     /// Ends a visit.
     pub fn end(&mut self, cookie: &str) {
         self.0.remove(&key(cookie));
+    }
+
+    /// The visit of this cookie goes on under a new password or role: whoever has just changed his own stays logged in here.
+    pub fn renew(&mut self, cookie: &str, credential: Credential) {
+        if let Some(visit) = self.0.get_mut(&key(cookie)).filter(|visit| visit.name.is_some()) {
+            visit.credential = Some(credential);
+        }
     }
 
     /// Ends all visits of a person (a new password, an erasure) but that of one cookie.
@@ -104,6 +116,8 @@ pub fn same(a: &str, b: &str) -> bool {
 mod tests {
     use super::*;
 
+    const WORD: Credential = [1; 32];
+
     fn secrets(k: u32) -> [Secret; 2] {
         let mut a = [0; 32];
         a[..4].copy_from_slice(&k.to_le_bytes());
@@ -113,12 +127,12 @@ mod tests {
     #[test]
     fn exact_a_visit_lives_while_it_is_used_and_no_longer_than_a_day() {
         let mut visits = Visits::default();
-        let (cookie, visit) = visits.begin(Some("anna"), secrets(1), 0);
+        let (cookie, visit) = visits.begin(Some(("anna", WORD)), secrets(1), 0);
         assert_eq!(cookie.len(), 64);
         assert_eq!(visits.find(&cookie, IDLE_US).map(|visit| visit.name), Some(Some("anna".into())));
         assert_eq!(visits.find(&cookie, 2 * IDLE_US).map(|found| found.token), Some(visit.token));
         assert_eq!(visits.find(&cookie, 3 * IDLE_US + 1), None);
-        let (cookie, _) = visits.begin(Some("anna"), secrets(2), 0);
+        let (cookie, _) = visits.begin(Some(("anna", WORD)), secrets(2), 0);
         for k in 1..=6 {
             assert!(visits.find(&cookie, k * IDLE_US).is_some());
         }
@@ -129,9 +143,15 @@ mod tests {
     #[test]
     fn exact_a_new_password_ends_all_other_visits_of_that_person() {
         let mut visits = Visits::default();
-        let cookies = [("anna", 1), ("anna", 2), ("ben", 3)].map(|(name, k)| visits.begin(Some(name), secrets(k), 0).0);
+        let cookies = [("anna", 1), ("anna", 2), ("ben", 3)].map(|(name, k)| visits.begin(Some((name, WORD)), secrets(k), 0).0);
         visits.end_all_of("anna", Some(&cookies[0]));
         assert_eq!(cookies.each_ref().map(|cookie| visits.find(cookie, 1).is_some()), [true, false, true]);
+        visits.renew(&cookies[0], [2; 32]);
+        let credential = |visits: &mut Visits, cookie: &str| visits.find(cookie, 1).and_then(|visit| visit.credential);
+        assert_eq!((credential(&mut visits, &cookies[0]), credential(&mut visits, &cookies[2])), (Some([2; 32]), Some(WORD)));
+        let (stranger, _) = visits.begin(None, secrets(4), 0);
+        visits.renew(&stranger, WORD);
+        assert_eq!(credential(&mut visits, &stranger), None, "a stranger stays one");
         visits.end(&cookies[0]);
         assert_eq!(visits.find(&cookies[0], 1), None);
     }
@@ -139,7 +159,7 @@ mod tests {
     #[test]
     fn prop_strangers_fill_no_memory_and_put_nobody_out() {
         let mut visits = Visits::default();
-        let (anna, _) = visits.begin(Some("anna"), secrets(u32::MAX), 0);
+        let (anna, _) = visits.begin(Some(("anna", WORD)), secrets(u32::MAX), 0);
         for k in 0..20_000 {
             visits.begin(None, secrets(k), u64::from(k));
         }

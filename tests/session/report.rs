@@ -2,8 +2,10 @@
 
 use crate::inspection::{flown, phantom, two_bridges};
 use crate::job::*;
+use spandrel::mav::codec::Encoder;
+use spandrel::mav::note;
 use spandrel::monitor::assess_log;
-use spandrel::monitor::watch::build_site;
+use spandrel::monitor::watch::{COMPONENT, build_site};
 use spandrel::report::coverage::{Fate, REQUIRED_GSD_M};
 use spandrel::report::cues::KINDS;
 use spandrel::report::{About, Review, page};
@@ -28,6 +30,31 @@ fn review(tape: &Tape, job: &Scenario) -> Review {
 fn short() -> &'static Review {
     static SHORT: OnceLock<Review> = OnceLock::new();
     SHORT.get_or_init(|| review(&flown(&two_bridges(), 240.0, 6), &two_bridges()))
+}
+
+/// The same tape with a note of an instructor in its middle.
+fn noted(mut tape: Tape, text: &str) -> Tape {
+    let middle = tape.datagrams.len() / 2;
+    tape.datagrams.insert(middle, note::encode(&mut Encoder::new(252, 192), 1, COMPONENT, text));
+    tape
+}
+
+#[test]
+fn exact_an_instructors_note_stands_in_the_report_and_not_among_the_texts() {
+    let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
+    let plain = review(&tape, &job);
+    assert_eq!(plain.feedback.notes, []);
+    assert!(!page::session(&plain).contains("what the instructor noted"));
+    let review = review(&noted(tape, "watch the pier"), &job);
+    let [(t_s, text)] = review.feedback.notes.as_slice() else { panic!("{:?}", review.feedback.notes) };
+    assert!(text == "watch the pier" && (20.0..180.0).contains(t_s), "{t_s}");
+    assert_eq!(review.feedback.texts, plain.feedback.texts, "nobody's screen showed it");
+    let page = page::session(&review);
+    assert!(
+        page.contains("what the instructor noted")
+            && page.contains("note: watch the pier")
+            && page.contains("class=\"note-dot\"")
+    );
 }
 
 /// Attributes by which a browser fetches something.
@@ -94,7 +121,9 @@ fn exact_what_users_wrote_is_escaped_everywhere() {
     let about = About { trainee: EVIL.into(), started_utc: EVIL.into(), folder: EVIL.into(), ..About::default() };
     let mut vehicle = phantom();
     vehicle.name = EVIL.into();
-    let evil = Review::of(&flown(&job, 200.0, 9).log(0), &job, &vehicle, about).unwrap();
+    let tape = noted(flown(&job, 200.0, 9), EVIL);
+    let evil = Review::of(&tape.log(0), &job, &vehicle, about).unwrap();
+    assert_eq!(evil.feedback.notes.len(), 1);
     for page in [page::session(&evil), page::comparison(&evil, short())] {
         let page = own(&page);
         assert!(page.contains("alert(1)"), "it is told");

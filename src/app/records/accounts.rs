@@ -1,9 +1,11 @@
 //! Who may log in to `spandrel serve`.
 
 use super::database::Database;
-use super::trainees::{set, trainee};
+use super::trainees::{set_given, trainee};
 use crate::app::errors::AppError;
-use crate::training::trainee::Trainee;
+use crate::training::trainee::{Role, Trainee};
+use crate::web::visits::Credential;
+use sha2::{Digest, Sha256};
 use sqlx::Row;
 
 const ACCOUNT: &str = "SELECT trainees.pseudonym, role, age_band, drone_experience, gaming_experience, hash FROM trainees \
@@ -20,6 +22,15 @@ pub struct Account {
     pub hash: Option<String>,
 }
 
+impl Account {
+    /// What a visit rests on: another password or role is another one. `None` for who may not log in.
+    #[must_use]
+    pub fn credential(&self) -> Option<Credential> {
+        let hash = self.hash.as_ref()?;
+        Some(Sha256::digest(format!("{}\0{hash}", self.person.role.word()).as_bytes()).into())
+    }
+}
+
 impl Database {
     /// A person; `None` when nobody has this name.
     ///
@@ -32,17 +43,30 @@ impl Database {
         })
     }
 
-    /// Adds a person or sets his details, and his password, in one change.
+    /// Adds a person or sets his role, and his password, in one change; his details stay.
     ///
     /// # Errors
     /// When the database refuses.
-    pub fn set_account(&self, person: &Trainee, hash: &str) -> Result<(), AppError> {
+    pub fn set_login(&self, name: &str, role: Role, hash: &str) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
-            set(&mut change, person).await?;
-            let query = sqlx::query(SET_PASSWORD).bind(person.pseudonym.clone()).bind(hash.to_owned());
+            set_given(&mut change, name, Some(role), [None; 3]).await?;
+            let query = sqlx::query(SET_PASSWORD).bind(name.to_owned()).bind(hash.to_owned());
             query.execute(&mut *change).await?;
             change.commit().await
+        })
+    }
+
+    /// Changes somebody's password, if it still is the one that was checked; false when it is not.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn change_password(&self, name: &str, before: &str, after: &str) -> Result<bool, AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            let query = sqlx::query("UPDATE passwords SET hash = $1 WHERE pseudonym = $2 AND hash = $3");
+            let done = query.bind(after.to_owned()).bind(name.to_owned()).bind(before.to_owned()).execute(&mut *change).await?;
+            change.commit().await.map(|()| done.rows_affected() > 0)
         })
     }
 

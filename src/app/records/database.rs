@@ -27,7 +27,8 @@ pub(super) enum Kind {
 /// An open database with its tables made.
 #[derive(Debug)]
 pub struct Database {
-    runtime: tokio::runtime::Runtime,
+    /// Taken out when it ends.
+    runtime: Option<tokio::runtime::Runtime>,
     pub(super) pool: AnyPool,
     pub(super) kind: Kind,
     name: String,
@@ -62,7 +63,7 @@ impl Database {
         };
         let refused = |error: sqlx::Error| AppError::failed(format!("{name}: cannot be opened: {}", address::explained(&error)));
         let pool = runtime.block_on(open).map_err(refused)?;
-        let database = Self { runtime, pool, kind, name };
+        let database = Self { runtime: Some(runtime), pool, kind, name };
         database.run(database.migrate())?;
         Ok(database)
     }
@@ -97,7 +98,9 @@ impl Database {
     }
 
     pub(super) fn run<T>(&self, work: impl Future<Output = Result<T, sqlx::Error>>) -> Result<T, AppError> {
-        self.runtime.block_on(work).map_err(|error| AppError::failed(format!("{}: {error}", self.name)))
+        let ended = || AppError::failed(format!("{}: is being closed", self.name));
+        let runtime = self.runtime.as_ref().ok_or_else(ended)?;
+        runtime.block_on(work).map_err(|error| AppError::failed(format!("{}: {error}", self.name)))
     }
 
     pub(super) async fn begin(&self) -> Result<Transaction<'static, Any>, sqlx::Error> {
@@ -116,6 +119,15 @@ impl Database {
         match self.kind {
             Kind::Sqlite => self.pool.execute("PRAGMA wal_checkpoint(TRUNCATE)").await.map(|_| ()),
             Kind::Postgres => Ok(()),
+        }
+    }
+}
+
+impl Drop for Database {
+    fn drop(&mut self) {
+        // The last to let go of it may be a task of the web server, which must not wait: an ordinary end of a runtime does.
+        if let Some(runtime) = self.runtime.take() {
+            runtime.shutdown_background();
         }
     }
 }

@@ -1,9 +1,10 @@
 //! From session folders to records.
 
+use super::erased::Erased;
 use crate::app::assess;
 use crate::app::errors::AppError;
 use crate::app::questionnaire;
-use crate::app::session_folder::{Stored, is_session};
+use crate::app::session_folder::{Stored, is_session, whose};
 use crate::monitor::folder::{SCENARIO, TELEMETRY, VEHICLE};
 use crate::monitor::watch::build_site;
 use crate::training::questionnaire::ANSWERS;
@@ -66,6 +67,12 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<R
         placed: placed.unwrap_or_default(),
         answers: answers.as_ref(),
     })))
+}
+
+/// A folder's session was erased, or its trainee after it had begun: it does not come back. One that cannot be read is told by [`read`].
+pub fn is_erased(session: &Path, erased: &Erased) -> bool {
+    let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), whose(session)) else { return false };
+    erased.holds(&id, &trainee, started_unix_us)
 }
 
 fn hashes(session: &Path) -> Result<Hashes, AppError> {

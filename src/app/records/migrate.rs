@@ -4,7 +4,11 @@ use super::database::Database;
 use sqlx::{Executor, Row};
 
 /// Migrations in their order; a database of version n has seen the first n. What is released here never changes, a new one is added.
-const MIGRATIONS: &[&str] = &[include_str!("migrations/0001_first.sql"), include_str!("migrations/0002_passwords.sql")];
+const MIGRATIONS: &[&str] = &[
+    include_str!("migrations/0001_first.sql"),
+    include_str!("migrations/0002_passwords.sql"),
+    include_str!("migrations/0003_newest_and_erased.sql"),
+];
 
 impl Database {
     /// Runs what this database has not seen, under the lock of a change.

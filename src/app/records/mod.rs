@@ -4,6 +4,7 @@
 mod accounts;
 mod address;
 mod database;
+mod erased;
 mod import;
 mod migrate;
 mod people;
@@ -13,8 +14,9 @@ mod sessions;
 mod tests;
 mod trainees;
 
+pub use accounts::Account;
 pub use database::Database;
-pub use import::{id as session_id, read as read_session, session_folders};
+pub use import::{id as session_id, is_erased, read as read_session, session_folders};
 pub use people::{folders_where, forget, kept, remove};
 
 use super::args::TraineeId;
@@ -86,9 +88,9 @@ enum What {
         #[arg(value_name = "SESSION")]
         folders: Vec<PathBuf>,
     },
-    /// Make the database again from the session folders; trainees and their details stay
+    /// Make the sessions whose folders are here again; trainees and their details stay, and what was erased stays erased
     Rebuild {
-        /// Also when sessions are in the database whose folders are not here: they are lost
+        /// Also delete sessions whose folders are not here (other stations may have them)
         #[arg(long)]
         yes: bool,
     },
@@ -191,69 +193,96 @@ pub fn lines(records: &[Record]) -> Result<String, AppError> {
 fn take_in(place: &Place, named: &[PathBuf]) -> Result<(), AppError> {
     let folders = if named.is_empty() { import::session_folders(&place.sessions)? } else { named.to_vec() };
     let database = place.open()?;
-    let (changed, left_out) = import_into(&database, &folders)?;
-    println!(
-        "{}: {changed} new or changed, {} unchanged, {} left out",
-        database.name(),
-        folders.len() - changed - left_out,
-        left_out
-    );
-    if left_out > 0 && !named.is_empty() {
-        return Err(AppError::failed(format!("{left_out} of the sessions named were left out")));
+    let Taken { changed, left_out, erased } = import_into(&database, &folders)?;
+    let unchanged = folders.len() - changed - left_out - erased;
+    let note = erased_note(erased);
+    println!("{}: {changed} new or changed, {unchanged} unchanged, {left_out} left out{note}", database.name());
+    if left_out + erased > 0 && !named.is_empty() {
+        return Err(AppError::failed(format!("{} of the sessions named were left out", left_out + erased)));
     }
     Ok(())
 }
 
-/// Returns how many sessions were new or changed, and how many could not be read.
-fn import_into(database: &Database, folders: &[PathBuf]) -> Result<(usize, usize), AppError> {
-    let known = database.fingerprints()?;
-    let (mut changed, mut left_out) = (0, 0);
+fn erased_note(erased: usize) -> String {
+    if erased == 0 {
+        return String::new();
+    }
+    format!(", {erased} not taken in because they or their trainees were erased (records erase removes the folders, too)")
+}
+
+/// What became of some folders.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Taken {
+    /// New or changed.
+    changed: usize,
+    /// Not to be read.
+    left_out: usize,
+    /// Erased before.
+    erased: usize,
+}
+
+fn import_into(database: &Database, folders: &[PathBuf]) -> Result<Taken, AppError> {
+    let (known, erased) = (database.fingerprints()?, database.erased()?);
+    let mut taken = Taken::default();
     let mut progress = Progress::start("reading sessions");
     for (parcel, part) in folders.chunks(PARCEL).enumerate() {
         let mut records = Vec::new();
         for (k, folder) in part.iter().enumerate() {
             progress.tell(|| format!("session {} of {}", parcel * PARCEL + k + 1, folders.len()));
+            if import::is_erased(folder, &erased) {
+                taken.erased += 1;
+                continue;
+            }
             match import::read(folder, &known) {
                 Ok(record) => records.extend(record),
                 Err(error) => {
-                    left_out += 1;
+                    taken.left_out += 1;
                     tracing::warn!("left out: {error}");
                 }
             }
         }
-        changed += database.put(&records)?;
+        taken.changed += database.put(&records)?;
     }
     progress.end();
-    Ok((changed, left_out))
+    Ok(taken)
 }
 
 fn rebuild(place: &Place, yes: bool) -> Result<(), AppError> {
     let folders = import::session_folders(&place.sessions)?;
     let here = folders.iter().map(|folder| import::id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
     let database = place.open()?;
-    let lost = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).count();
-    if lost > 0 && !yes {
+    // What other stations add from now on is not among them.
+    let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
+    if !gone.is_empty() && !yes {
         return Err(AppError::wrong(format!(
-            "{}: {lost} sessions have no folder here and would be lost; name all folders with --sessions, or say --yes",
-            database.name()
+            "{}: {} sessions have no folder here and would be lost (such as {}); name all folders with --sessions, or say --yes to delete them",
+            database.name(),
+            gone.len(),
+            gone[0]
         )));
     }
+    let erased = database.erased()?;
     let mut progress = Progress::start("reading sessions");
     let mut records = Vec::new();
-    let mut left_out = 0;
+    let mut taken = Taken::default();
     for (k, folder) in folders.iter().enumerate() {
         progress.tell(|| format!("session {} of {}", k + 1, folders.len()));
+        if import::is_erased(folder, &erased) {
+            taken.erased += 1;
+            continue;
+        }
         match import::read(folder, &std::collections::BTreeMap::new()) {
             Ok(record) => records.extend(record),
             Err(error) => {
-                left_out += 1;
-                tracing::warn!("left out: {error}");
+                taken.left_out += 1;
+                tracing::warn!("left as it was: {error}");
             }
         }
     }
     progress.end();
-    let made = database.replace_all(&records)?;
-    println!("{}: {made} sessions, {left_out} left out", database.name());
+    let made = database.rebuild(&records, &gone)?;
+    let deleted = if gone.is_empty() { String::new() } else { format!(", {} without a folder here deleted", gone.len()) };
+    println!("{}: {made} sessions, {} left out{deleted}{}", database.name(), taken.left_out, erased_note(taken.erased));
     Ok(())
 }
 

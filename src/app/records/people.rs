@@ -39,33 +39,30 @@ pub struct Kept {
     folders: Vec<String>,
 }
 
+impl Kept {
+    /// The same with the folders' names alone: where they are on a server is nobody's business who asks by the web.
+    #[must_use]
+    pub fn without_places(mut self) -> Self {
+        for folder in &mut self.folders {
+            let name = Path::new(folder).file_name().map(|name| name.to_string_lossy().into_owned());
+            *folder = name.unwrap_or_default();
+        }
+        self
+    }
+}
+
 /// Shows a person, after setting what was given.
 ///
 /// # Errors
 /// When the database refuses, or there is neither such a person nor anything to set.
 pub fn set(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
-    let known = find(database, args.id.as_str())?;
-    let given =
-        args.role.is_some() || [&args.age_band, &args.drone_experience, &args.gaming_experience].iter().any(|v| v.is_some());
-    if known.is_none() && !given {
-        return Err(AppError::wrong(format!("{}: there is no '{}'", database.name(), args.id.as_str())));
+    let name = args.id.as_str();
+    let details = [&args.age_band, &args.drone_experience, &args.gaming_experience].map(|value| value.as_deref());
+    if args.role.is_some() || details.iter().any(Option::is_some) {
+        database.set_given(name, args.role.as_deref().and_then(Role::from_word), details)?;
     }
-    let mut person = known.unwrap_or_else(|| Trainee::new(args.id.as_str()));
-    if let Some(role) = args.role.as_deref().and_then(Role::from_word) {
-        person.role = role;
-    }
-    for (value, place) in [
-        (&args.age_band, &mut person.age_band),
-        (&args.drone_experience, &mut person.drone_experience),
-        (&args.gaming_experience, &mut person.gaming_experience),
-    ] {
-        if value.is_some() {
-            place.clone_from(value);
-        }
-    }
-    if given {
-        database.set_trainee(&person)?;
-    }
+    let person = find(database, name)?;
+    let person = person.ok_or_else(|| AppError::wrong(format!("{}: there is no '{name}'", database.name())))?;
     files::write("-", json_text(&person).as_bytes())
 }
 
@@ -133,7 +130,7 @@ pub fn forget(database: &Database, place: &Place, trainee: &str) -> Result<(bool
 }
 
 fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError> {
-    Ok(database.trainees()?.into_iter().find(|person| person.pseudonym == trainee))
+    Ok(database.account(trainee)?.map(|account| account.person))
 }
 
 fn folders_of(place: &Place, trainee: &str) -> Result<Vec<PathBuf>, AppError> {

@@ -1,12 +1,13 @@
 //! Sessions in the database: taken in, listed, deleted.
 
 use super::database::Database;
+use super::erased::{self, What};
 use crate::app::errors::AppError;
 use crate::training::record::{Listed, Record};
 use crate::training::trainee::Role;
 use sqlx::any::{AnyArguments, AnyRow};
 use sqlx::query::Query;
-use sqlx::{Any, Executor, Row, Transaction};
+use sqlx::{Any, Row, Transaction};
 use std::collections::BTreeMap;
 
 const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, \
@@ -22,11 +23,15 @@ const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     fingerprint = excluded.fingerprint, record = excluded.record \
     WHERE sessions.fingerprint <> excluded.fingerprint";
 const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
-const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason FROM sessions";
-const NEWEST: &str = "ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2";
+// The inner question is answered from an index alone; only what is shown is read whole.
+const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason FROM sessions WHERE id IN \
+    (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
+const LIST_OF_ONE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason FROM sessions WHERE id IN \
+    (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
 impl Database {
-    /// Takes records in, each with its trainee; a session that is there unchanged stays untouched. Returns how many were new or changed.
+    /// Takes records in, each with its trainee; a session that is there unchanged stays untouched, what was erased stays so. Returns how many
+    /// were new or changed.
     ///
     /// # Errors
     /// When the database refuses; then nothing is taken in.
@@ -38,18 +43,31 @@ impl Database {
         })
     }
 
-    /// Replaces all sessions by these; trainees and their details stay.
+    /// Makes these sessions anew and deletes those of the ids in `gone`; all others, which another station may have added meanwhile, stay,
+    /// and so do trainees and their details. Returns how many were made.
     ///
     /// # Errors
     /// When the database refuses; then all stays as it was.
-    pub fn replace_all(&self, records: &[Record]) -> Result<usize, AppError> {
+    pub fn rebuild(&self, records: &[Record], gone: &[String]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
-            for statement in ["DELETE FROM answers", "DELETE FROM sessions"] {
-                change.execute(statement).await?;
+            for id in records.iter().map(|record| &record.id).chain(gone) {
+                delete(&mut change, id).await?;
             }
-            let changed = put_all(&mut change, records).await?;
-            change.commit().await.map(|()| changed)
+            let made = put_all(&mut change, records).await?;
+            change.commit().await.map(|()| made)
+        })
+    }
+
+    /// The session that was made from this telemetry (SHA-256, hexadecimal), and its trainee.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn of_telemetry(&self, sha256: &str) -> Result<Option<(String, String)>, AppError> {
+        self.run(async {
+            let query = sqlx::query("SELECT id, trainee FROM sessions WHERE telemetry_sha256 = $1 ORDER BY id LIMIT 1");
+            let row = query.bind(sha256.to_owned()).fetch_optional(&self.pool).await?;
+            row.map(|row| Ok((row.try_get(0)?, row.try_get(1)?))).transpose()
         })
     }
 
@@ -118,12 +136,9 @@ impl Database {
     /// # Errors
     /// When the database refuses.
     pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<Listed>, AppError> {
-        let query = match trainee {
-            Some(_) => format!("{LIST} WHERE trainee = $3 {NEWEST}"),
-            None => format!("{LIST} {NEWEST}"),
-        };
+        let query = if trainee.is_some() { LIST_OF_ONE } else { LIST };
         self.run(async {
-            let query = sqlx::query(&query).bind(i64::from(most)).bind(i64::from(skip));
+            let query = sqlx::query(query).bind(i64::from(most)).bind(i64::from(skip));
             let query = if let Some(trainee) = trainee { query.bind(trainee.to_owned()) } else { query };
             query.fetch_all(&self.pool).await?.iter().map(listed).collect()
         })
@@ -141,7 +156,7 @@ impl Database {
         })
     }
 
-    /// Deletes sessions. Returns how many there were.
+    /// Erases sessions: they do not come back from a folder elsewhere. Returns how many there were.
     ///
     /// # Errors
     /// When the database refuses; then all stays as it was.
@@ -150,22 +165,23 @@ impl Database {
             let mut change = self.begin().await?;
             let mut deleted = 0;
             for id in ids {
-                sqlx::query("DELETE FROM answers WHERE session = $1").bind(id.clone()).execute(&mut *change).await?;
-                let done = sqlx::query("DELETE FROM sessions WHERE id = $1").bind(id.clone()).execute(&mut *change).await?;
-                deleted += done.rows_affected();
+                erased::mark(&mut change, What::Session, id).await?;
+                deleted += delete(&mut change, id).await?;
             }
             change.commit().await?;
             self.forget().await.map(|()| deleted)
         })
     }
 
-    /// Deletes a trainee with everything. Returns whether he was known, and how many sessions there were.
+    /// Erases a trainee with everything: what he has flown so far does not come back from a folder elsewhere. Returns whether he was known,
+    /// and how many sessions there were.
     ///
     /// # Errors
     /// When the database refuses; then all stays as it was.
     pub fn erase(&self, trainee: &str) -> Result<(bool, u64), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
+            erased::mark(&mut change, What::Trainee, trainee).await?;
             let answers = "DELETE FROM answers WHERE session IN (SELECT id FROM sessions WHERE trainee = $1)";
             sqlx::query(answers).bind(trainee.to_owned()).execute(&mut *change).await?;
             let by = |query: &'static str| sqlx::query(query).bind(trainee.to_owned());
@@ -186,8 +202,18 @@ async fn put_all(change: &mut Transaction<'static, Any>, records: &[Record]) -> 
     Ok(changed)
 }
 
+/// Deletes one session. Returns how many there were.
+async fn delete(change: &mut Transaction<'static, Any>, id: &str) -> Result<u64, sqlx::Error> {
+    sqlx::query("DELETE FROM answers WHERE session = $1").bind(id.to_owned()).execute(&mut **change).await?;
+    let done = sqlx::query("DELETE FROM sessions WHERE id = $1").bind(id.to_owned()).execute(&mut **change).await?;
+    Ok(done.rows_affected())
+}
+
 async fn put(change: &mut Transaction<'static, Any>, record: &Record) -> Result<bool, sqlx::Error> {
     record.check().map_err(|wrong| sqlx::Error::Encode(format!("session {}: {wrong}", record.id).into()))?;
+    if erased::holds(change, record).await? {
+        return Ok(false);
+    }
     let trainee = sqlx::query(ADD_TRAINEE).bind(record.trainee.clone()).bind(Role::Trainee.word().to_owned());
     trainee.execute(&mut **change).await?;
     let text = serde_json::to_string(record).map_err(|error| sqlx::Error::Encode(error.into()))?;

@@ -7,11 +7,11 @@ use super::passwords;
 use super::state::lock;
 use crate::app::clock;
 use crate::app::errors::AppError;
-use crate::app::records::Database;
-use crate::training::trainee::Role;
+use crate::app::records::{Account, Database};
+use crate::training::trainee::{Role, Trainee};
 use crate::web::access::Visitor;
 use crate::web::throttle::Throttle;
-use crate::web::visits::{Secret, Visits, same};
+use crate::web::visits::{Secret, Visit, Visits, same};
 use axum::http::{HeaderMap, header};
 use std::net::IpAddr;
 use std::sync::Mutex;
@@ -90,20 +90,25 @@ impl Guard {
     pub fn recognise(&self, database: &Database, cookie: Option<String>) -> Result<Recognised, Refusal> {
         let open = self.is_open(database)?;
         let now_us = clock::unix_us();
-        let found = cookie.and_then(|cookie| lock(&self.visits).find(&cookie, now_us).map(|visit| (cookie, visit, false)));
-        let (cookie, visit, fresh) = match found {
-            Some(found) => found,
-            None => {
-                let (cookie, visit) = lock(&self.visits).begin(None, secrets()?, now_us);
-                (cookie, visit, true)
+        let found = cookie.and_then(|cookie| lock(&self.visits).find(&cookie, now_us).map(|visit| (cookie, visit)));
+        // Asked for again with every request: who was degraded, erased or given another password is put out at once, whoever did it, here,
+        // by another server or at the command line.
+        let account = found.as_ref().and_then(|(_, visit)| visit.name.as_deref());
+        let account = account.map(|name| database.account(name)).transpose()?.flatten();
+        let over = |visit: &Visit| visit.name.is_some() && visit.credential != account.as_ref().and_then(Account::credential);
+        let found = match found {
+            Some((cookie, visit)) if over(&visit) => {
+                lock(&self.visits).end(&cookie);
+                None
             }
+            found => found,
         };
-        // The role is asked for again with every request: who was degraded or erased is so at once.
-        let account = visit.name.as_deref().map(|name| database.account(name)).transpose()?.flatten();
-        let known = account.filter(|account| account.hash.is_some()).map(|account| account.person);
-        let role = if open { Role::Administrator } else { known.as_ref().map_or(Role::Trainee, |person| person.role) };
-        let visitor = Visitor { name: known.map(|person| person.pseudonym), role, open, token: visit.token };
-        Ok(Recognised { visitor, cookie, fresh })
+        let Some((cookie, visit)) = found else {
+            let (cookie, visit) = lock(&self.visits).begin(None, secrets()?, now_us);
+            return Ok(Recognised { visitor: visitor(open, None, visit), cookie, fresh: true });
+        };
+        let person = account.map(|account| account.person);
+        Ok(Recognised { visitor: visitor(open, person, visit), cookie, fresh: false })
     }
 
     /// Logs in: checks name and password, ends the visit before, begins a new one. Returns the new cookie.
@@ -118,36 +123,38 @@ impl Guard {
         from: IpAddr,
     ) -> Result<String, Refusal> {
         let (name, password) = asked;
-        self.check(database, name, password, from)?;
+        let account = self.check(database, name, password, from)?;
+        let credential = account.credential().ok_or_else(no_fit)?;
         let mut visits = lock(&self.visits);
         before.iter().for_each(|cookie| visits.end(cookie));
-        let (cookie, _) = visits.begin(Some(name), secrets()?, clock::unix_us());
+        let (cookie, _) = visits.begin(Some((name, credential)), secrets()?, clock::unix_us());
         Ok(cookie)
     }
 
-    /// Checks a password, within the limits on failures.
+    /// Checks a password, within the limits on failures. Returns whose it is, as it was when it fitted.
     ///
     /// # Errors
     /// As [`Self::log_in`].
-    pub fn check(&self, database: &Database, name: &str, password: &str, from: IpAddr) -> Result<(), Refusal> {
+    pub fn check(&self, database: &Database, name: &str, password: &str, from: IpAddr) -> Result<Account, Refusal> {
         let now_us = clock::unix_us();
         if let Some(wait_us) = lock(&self.throttle).wait_us(from, name, now_us) {
             return Err(Refusal::Later(wait_us.div_ceil(1_000_000)));
         }
         // Counted before the slow part, so that a flood at once is a flood, too.
         lock(&self.throttle).failed(from, name, now_us);
-        let hash = database.account(name)?.and_then(|account| account.hash);
+        let account = database.account(name)?;
+        let hash = account.as_ref().and_then(|account| account.hash.as_deref());
         let turn = self.next.fetch_add(1, Ordering::Relaxed) % AT_ONCE;
         let fits = {
             let _one_at_a_time = lock(&self.hashing[turn]);
-            passwords::fits(password, hash.as_deref())
+            passwords::fits(password, hash)
         };
         if !fits {
             tracing::info!("a login from {from} failed");
-            return Err(Refusal::Forbidden("Name and password do not fit.".into()));
+            return Err(no_fit());
         }
         lock(&self.throttle).went_well(from, name);
-        Ok(())
+        account.ok_or_else(no_fit)
     }
 
     /// Ends a visit.
@@ -158,6 +165,13 @@ impl Guard {
     /// Ends all visits of a person but that of one cookie.
     pub fn put_out(&self, name: &str, but: Option<&str>) {
         lock(&self.visits).end_all_of(name, but);
+    }
+
+    /// The visit of a cookie goes on under this account's new password or role.
+    pub fn renew(&self, cookie: Option<&str>, account: &Account) {
+        if let (Some(cookie), Some(credential)) = (cookie, account.credential()) {
+            lock(&self.visits).renew(cookie, credential);
+        }
     }
 
     /// The token of a form is the visitor's.
@@ -189,6 +203,15 @@ impl Guard {
         let built = cookie::Cookie::build((self.cookie_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Lax).build().to_string()
     }
+}
+
+fn no_fit() -> Refusal {
+    Refusal::Forbidden("Name and password do not fit.".into())
+}
+
+fn visitor(open: bool, person: Option<Trainee>, visit: Visit) -> Visitor {
+    let role = if open { Role::Administrator } else { person.as_ref().map_or(Role::Trainee, |person| person.role) };
+    Visitor { name: person.map(|person| person.pseudonym), role, open, token: visit.token }
 }
 
 fn secrets() -> Result<[Secret; 2], Refusal> {

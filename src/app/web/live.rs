@@ -4,10 +4,13 @@
 mod act;
 mod ear;
 mod orders;
+mod own;
 mod picture;
 mod stream;
+mod whose;
 
 pub use act::act;
+pub use own::{camera as own_camera, now as own_now, page as own_page};
 pub use picture::show as camera;
 pub use stream::stream;
 
@@ -15,14 +18,13 @@ use super::answer::{Answer, Answered, Refusal};
 use super::asked::Asked;
 use super::state::{State, lock};
 use crate::app::errors::AppError;
-use crate::web::live::{self as pages, Drawn};
+use crate::web::live as pages;
 use crate::web::watch::Watch;
-use ear::{Ear, Places};
+use ear::{Ear, Known, Places};
 use orders::Order;
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Sender, channel};
-use std::sync::{Arc, Mutex};
 use tokio::sync::watch;
 
 /// A vehicle to watch.
@@ -40,7 +42,7 @@ pub struct Live {
     vehicle: SocketAddr,
     picture: Option<PathBuf>,
     moments: watch::Receiver<String>,
-    drawn: Arc<Mutex<Option<Drawn>>>,
+    known: Known,
     orders: Sender<Order>,
 }
 
@@ -53,11 +55,11 @@ impl Live {
         let Watched { vehicle, picture } = watched.clone();
         let (sender, moments) = watch::channel(Watch::new().moment(false).to_string());
         let (orders, received) = channel();
-        let drawn = Arc::new(Mutex::new(None));
+        let known = Known::default();
         let places = Places { sessions: sessions.to_vec(), scenarios: scenarios.to_path_buf(), picture: picture.clone() };
-        let mut ear = Ear::open(vehicle, drawn.clone(), places)?;
+        let mut ear = Ear::open(vehicle, known.clone(), places)?;
         std::thread::spawn(move || ear.listen(&sender, &received));
-        Ok(Self { vehicle, picture, moments, drawn, orders })
+        Ok(Self { vehicle, picture, moments, known, orders })
     }
 }
 
@@ -80,7 +82,7 @@ pub fn page(state: &State, asked: &Asked) -> Answered {
         return Ok(Answer::page(pages::live(&asked.visitor, None, &pages::Choice::default())));
     }
     let (number, live) = chosen(state, asked.word("vehicle"))?;
-    let drawn = lock(&live.drawn).clone();
+    let drawn = lock(&live.known.drawn).clone();
     let vehicles = state.live.iter().map(|live| live.vehicle.to_string()).collect();
     Ok(Answer::page(pages::live(&asked.visitor, drawn.as_ref(), &pages::Choice { vehicles, number })))
 }

@@ -7,6 +7,7 @@ mod assets;
 mod body;
 mod door;
 mod guard;
+mod leftovers;
 mod live;
 mod passwords;
 mod people;

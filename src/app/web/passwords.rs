@@ -2,7 +2,7 @@
 
 use crate::app::errors::AppError;
 use crate::app::records::Place;
-use crate::training::trainee::{Role, Trainee};
+use crate::training::trainee::Role;
 use crate::web::login;
 use argon2::Argon2;
 use argon2::password_hash::{PasswordHash, PasswordHasher, PasswordVerifier, SaltString};
@@ -39,9 +39,7 @@ pub fn set(place: &Place, name: &str, role: Role) -> Result<(), AppError> {
     let password = ask(name)?;
     login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;
     let database = place.open()?;
-    let mut person = database.account(name)?.map_or_else(|| Trainee::new(name), |account| account.person);
-    person.role = role;
-    database.set_account(&person, &hash(&password)?)?;
+    database.set_login(name, role, &hash(&password)?)?;
     println!("{}: '{name}' may log in as {}", database.name(), role.word());
     Ok(())
 }

@@ -8,7 +8,7 @@ use crate::app::records::{forget, kept};
 use crate::app::{clock, plan};
 use crate::monitor::export::json_text;
 use crate::report::{assets, page::cohort as report};
-use crate::training::cohort::{Cohort, Selection, cohort};
+use crate::training::cohort::{Cohort, Selection, TABLES, cohort, table};
 use crate::training::plan::plan as planned;
 use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
 use crate::web::{group, people as pages};
@@ -46,25 +46,30 @@ pub fn export(state: &State, asked: &Asked) -> Answered {
     let person = person(state, asked)?;
     let kept = kept(&state.database, &state.place, &person.pseudonym)?.ok_or(Refusal::NotFound)?;
     let name = format!("{}.json", person.pseudonym.parse::<TraineeId>().as_ref().map_or("trainee", TraineeId::as_str));
-    Ok(Answer::download(&name, "application/json", json_text(&kept).into_bytes()))
+    Ok(Answer::download(&name, "application/json", json_text(&kept.without_places()).into_bytes()))
 }
 
-/// What one tells of oneself.
+/// What one tells of oneself: field, and what it may be.
+const DETAILS: [(&str, &[&str]); 3] =
+    [("age_band", AGE_BANDS), ("drone_experience", EXPERIENCE), ("gaming_experience", EXPERIENCE)];
+
+/// Takes what one tells of oneself, unless somebody else has changed it since the page was opened.
 pub fn details(state: &State, asked: &Asked) -> Answered {
-    let mut person = person(state, asked)?;
-    for (field, allowed, place) in [
-        ("age_band", AGE_BANDS, &mut person.age_band),
-        ("drone_experience", EXPERIENCE, &mut person.drone_experience),
-        ("gaming_experience", EXPERIENCE, &mut person.gaming_experience),
-    ] {
+    let person = person(state, asked)?;
+    let (mut before, mut after) = ([""; 3], [""; 3]);
+    for (k, (field, allowed)) in DETAILS.into_iter().enumerate() {
         let given = asked.field(field).unwrap_or_default();
         if !given.is_empty() && !allowed.contains(&given) {
             let short: String = given.chars().take(60).collect();
             return Err(Refusal::Wrong(format!("{field} = {short}: unknown (allowed: {})", allowed.join(", "))));
         }
-        *place = (!given.is_empty()).then(|| given.to_owned());
+        let shown = format!("{}{field}", pages::BEFORE);
+        before[k] = asked.field(&shown).ok_or_else(|| Refusal::Wrong(format!("{shown}: missing")))?;
+        after[k] = given;
     }
-    state.database.set_trainee(&person)?;
+    if !state.database.set_details(&person.pseudonym, before, after)? {
+        return Err(Refusal::Wrong("somebody has changed these details meanwhile: open the page again and look at them".into()));
+    }
     Ok(Answer::to(&format!("/trainees/{}", asked.part("name"))))
 }
 
@@ -113,6 +118,14 @@ pub fn cohort_page(state: &State, asked: &Asked) -> Answered {
     let scenarios = cohort.as_ref().map_or(selection.scenarios, |cohort| cohort.scenarios.clone());
     let chosen = group::Chosen { flown: &flown, scenarios: &scenarios, repetitions: selection.repetitions };
     Ok(Answer::page(group::group(&asked.visitor, &chosen, cohort.as_ref())))
+}
+
+/// One of its tables as a file.
+pub fn cohort_table(state: &State, asked: &Asked) -> Answered {
+    let name = TABLES.into_iter().find(|name| *name == asked.part("name")).ok_or(Refusal::NotFound)?;
+    let (cohort, _) = figures(state, &chosen(asked)?)?;
+    let csv = cohort.as_ref().and_then(|cohort| table(cohort, name)).ok_or(Refusal::NotFound)?;
+    Ok(Answer::download(name, "text/csv; charset=utf-8", csv.into_bytes()))
 }
 
 /// The same as one page that opens offline.

@@ -6,7 +6,7 @@ use super::passwords;
 use super::state::State;
 use crate::app::args::TraineeId;
 use crate::app::clock;
-use crate::app::records::{folders_where, remove};
+use crate::app::records::{Account, folders_where, remove};
 use crate::training::trainee::{Role, Trainee};
 use crate::web::{login, settings as pages};
 
@@ -66,12 +66,15 @@ pub fn change_password(state: &State, asked: &Asked) -> Answered {
 }
 
 fn change(state: &State, asked: &Asked, name: &str) -> Result<(), Refusal> {
-    state.guard.check(&state.database, name, asked.needed("present")?, asked.from)?;
+    let mut account = state.guard.check(&state.database, name, asked.needed("present")?, asked.from)?;
     let new = asked.needed("new")?;
     login::check(new, name).map_err(Refusal::Wrong)?;
-    let person = state.database.account(name)?.ok_or(Refusal::NotFound)?.person;
-    state.database.set_account(&person, &passwords::hash(new)?)?;
+    let before = account.hash.replace(passwords::hash(new)?).unwrap_or_default();
+    if !state.database.change_password(name, &before, account.hash.as_deref().unwrap_or_default())? {
+        return Err(Refusal::Wrong("somebody has changed your password meanwhile: log in with that one".into()));
+    }
     state.guard.put_out(name, asked.cookie.as_deref());
+    state.guard.renew(asked.cookie.as_deref(), &account);
     Ok(())
 }
 
@@ -102,13 +105,17 @@ pub fn set_login(state: &State, asked: &Asked) -> Answered {
             "the first password must be an administrator's: with it everybody has to log in, and nobody else could set more";
         return Err(Refusal::Wrong(words.into()));
     }
-    let mut person = state.database.account(name)?.map_or_else(|| Trainee::new(name), |account| account.person);
-    if asked.visitor.name.as_deref() == Some(name) && role != Role::Administrator {
+    let own = asked.visitor.name.as_deref() == Some(name);
+    if own && role != Role::Administrator {
         return Err(Refusal::Wrong("you would shut yourself out: let another administrator change your role".into()));
     }
-    person.role = role;
-    state.database.set_account(&person, &passwords::hash(password)?)?;
+    let hash = passwords::hash(password)?;
+    state.database.set_login(name, role, &hash)?;
     state.guard.put_out(name, asked.cookie.as_deref());
+    if own {
+        let person = Trainee { role, ..Trainee::new(name) };
+        state.guard.renew(asked.cookie.as_deref(), &Account { person, hash: Some(hash) });
+    }
     if asked.visitor.open {
         state.guard.close();
         return Ok(Answer::to("/login"));

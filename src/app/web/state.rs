@@ -59,6 +59,7 @@ impl State {
             .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", first.display())))?;
         super::uploads::clear(&first)?;
         let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
+        super::leftovers::sweep(&place.sessions, &scenarios);
         let database = place.open()?;
         let guard = Guard::new(!database.with_password()?.is_empty(), secure, behind_proxy);
         let start = |watched: &Watched| Live::start(watched, &place.sessions, &scenarios);

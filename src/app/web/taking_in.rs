@@ -2,7 +2,7 @@
 //! folders stay the source: a kill at any moment, or a database that is away, costs nothing but a later look.
 
 use crate::app::errors::AppError;
-use crate::app::records::{Database, Place, read_session, session_folders, session_id};
+use crate::app::records::{Database, Place, is_erased, read_session, session_folders, session_id};
 use crate::monitor::folder::ASSESSMENT;
 use crate::training::questionnaire::ANSWERS;
 use crate::training::record::Record;
@@ -63,6 +63,8 @@ struct Looked {
     unreadable: BTreeSet<PathBuf>,
     /// Read, but refused by the database: tried again at every look.
     refused: BTreeSet<PathBuf>,
+    /// Erased, with the folder still here; told once.
+    erased: BTreeSet<PathBuf>,
 }
 
 impl Looked {
@@ -70,9 +72,9 @@ impl Looked {
     /// answers have changed.
     fn look(&mut self, database: &Database, sessions: &[PathBuf]) {
         let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
-        let (known, folders) = match (database.fingerprints(), session_folders(&here)) {
-            (Ok(known), Ok(folders)) => (known, folders),
-            (Err(error), _) | (_, Err(error)) => {
+        let (known, erased, folders) = match (database.fingerprints(), database.erased(), session_folders(&here)) {
+            (Ok(known), Ok(erased), Ok(folders)) => (known, erased, folders),
+            (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => {
                 tracing::warn!("no sessions are taken in now: {error}");
                 return;
             }
@@ -81,11 +83,25 @@ impl Looked {
             let is_known = session_id(&folder).is_ok_and(|id| known.contains_key(&id));
             let is_new = !is_known && folder.join(ASSESSMENT).is_file() && !self.unreadable.contains(&folder);
             let may_differ = is_known && !self.caught_up && folder.join(ANSWERS).is_file();
+            if is_new && (self.erased.contains(&folder) || is_erased(&folder, &erased)) {
+                self.leave(folder);
+                continue;
+            }
             if is_new || may_differ || self.refused.contains(&folder) {
                 self.take(database, &folder, &known);
             }
         }
         self.caught_up = true;
+    }
+
+    fn leave(&mut self, folder: PathBuf) {
+        if !self.erased.contains(&folder) {
+            tracing::warn!(
+                "{}: not taken in, it or its trainee was erased; spandrel records erase removes the folder, too",
+                folder.display()
+            );
+            self.erased.insert(folder);
+        }
     }
 
     /// Takes in one folder, unless `known` holds it unchanged.

@@ -9,6 +9,7 @@ use crate::app::errors::AppError;
 use crate::app::session_folder::SessionFolder;
 use crate::app::{assess, clock, files, report};
 use crate::monitor::export::json_text;
+use crate::monitor::folder::sha256_hex;
 use crate::monitor::watch::build_site;
 use crate::monitor::{Monitor, MonitorConfig, Record};
 use crate::telemetry::tlog;
@@ -24,31 +25,43 @@ pub fn page(state: &State, asked: &Asked) -> Answered {
     shown(state, asked, None)
 }
 
-fn shown(state: &State, asked: &Asked, wrong: Option<&str>) -> Answered {
+fn shown(state: &State, asked: &Asked, told: Option<pages::Told<'_>>) -> Answered {
     let named: Vec<_> = scenarios::all(&state.scenarios).into_iter().map(|job| job.named).collect();
     let vehicles: Vec<String> = files::vehicle_names().into_iter().map(str::to_owned).collect();
-    Ok(Answer::page(pages::recorded(&asked.visitor, &named, &vehicles, wrong)))
+    Ok(Answer::page(pages::recorded(&asked.visitor, &named, &vehicles, told)))
+}
+
+/// What became of an upload.
+enum Taken {
+    /// It is a session now.
+    Session(PathBuf),
+    /// It is one already: its id and trainee.
+    There(String, String),
 }
 
 /// Takes a recording in.
 pub fn recording(state: &State, asked: &Asked) -> Answered {
-    let taken = {
-        let _one_at_a_time = lock(&state.scoring);
-        take(state, asked)
-    };
-    match taken {
-        Ok(folder) => {
+    // The same recording twice at once is one session, too.
+    let _one_at_a_time = lock(&state.scoring);
+    match take(state, asked) {
+        Ok(Taken::Session(folder)) => {
             let id = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let record = crate::app::records::read_session(&folder, &std::collections::BTreeMap::new())?;
             state.database.put(&Vec::from_iter(record))?;
             Ok(Answer::to(&format!("/sessions/{id}")))
         }
-        Err(Refusal::Wrong(words)) => Ok(shown(state, asked, Some(&words))?.with_status(StatusCode::UNPROCESSABLE_ENTITY)),
+        Ok(Taken::There(id, trainee)) => {
+            let told = pages::Told::There { id: &id, trainee: &trainee };
+            Ok(shown(state, asked, Some(told))?.with_status(StatusCode::CONFLICT))
+        }
+        Err(Refusal::Wrong(words)) => {
+            Ok(shown(state, asked, Some(pages::Told::Wrong(&words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+        }
         Err(other) => Err(other),
     }
 }
 
-fn take(state: &State, asked: &Asked) -> Result<PathBuf, Refusal> {
+fn take(state: &State, asked: &Asked) -> Result<Taken, Refusal> {
     let trainee: TraineeId = asked.needed("trainee")?.parse().map_err(|wrong| Refusal::Wrong(format!("trainee: {wrong}")))?;
     let scenario = files::scenario(&scenarios::argument(&state.scenarios, asked.needed("scenario")?)?)?;
     let vehicle = asked.needed("vehicle")?;
@@ -57,10 +70,19 @@ fn take(state: &State, asked: &Asked) -> Result<PathBuf, Refusal> {
     }
     let vehicle = files::vehicle(vehicle)?;
     let log = &asked.upload.as_ref().ok_or_else(|| Refusal::Wrong("file: missing".into()))?.bytes;
+    // The telemetry is kept as it came, to its last whole record.
+    let kept = &log[..tlog::whole_len(log)];
+    if let Some((id, trainee)) = state.database.of_telemetry(&sha256_hex(kept))? {
+        return Ok(Taken::There(id, trainee));
+    }
     // What cannot be scored is the file's fault, whatever the scorer calls it.
     let unfit = |error: AppError| Refusal::Wrong(format!("this recording cannot be taken in: {error}"));
     let graded = assess::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
+    if state.database.erased()?.holds("", trainee.as_str(), started_unix_us) {
+        let words = format!("trainee = {}: was erased after this flight; it is not taken in again", trainee.as_str());
+        return Err(Refusal::Wrong(words));
+    }
     let first = state.place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
     let aside = first.join(ASIDE);
     let mut folder = SessionFolder::create(&aside, trainee.as_str(), started_unix_us, &scenario, &vehicle)?;
@@ -85,8 +107,7 @@ fn take(state: &State, asked: &Asked) -> Result<PathBuf, Refusal> {
         }
         while monitor.poll_transmit().is_some() {}
     }
-    // The telemetry is kept as it came, to its last whole record.
-    folder.record(Record::Telemetry(log[..tlog::whole_len(log)].to_vec()));
+    folder.record(Record::Telemetry(kept.to_vec()));
     folder.flush()?;
     if let Some(survey) = monitor.survey() {
         folder.resolve(graded.seed, survey.defects())?;
@@ -97,10 +118,18 @@ fn take(state: &State, asked: &Asked) -> Result<PathBuf, Refusal> {
     }
     folder.assessment(&json_text(&graded.assessment))?;
     // Whole, it takes its place among the others; a kill before leaves nothing there.
-    let place = first.join(folder.path().file_name().unwrap_or_default());
+    let place = free(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
     let moved = std::fs::rename(folder.path(), &place);
     moved.map_err(|error| Refusal::Failed(format!("{}: cannot be moved: {error}", place.display())))?;
-    Ok(place)
+    Ok(Taken::Session(place))
+}
+
+/// A place of this name, or of one like it: another recording of the same instant may be there.
+fn free(sessions: &Path, name: &str) -> PathBuf {
+    let stem = name.rsplit_once('-').map_or(name, |(stem, _)| stem);
+    let others = (1..).map(|k: u32| format!("{stem}-{}", &sha256_hex(format!("{name} {k}").as_bytes())[..6]));
+    let mut places = std::iter::once(name.to_owned()).chain(others).map(|name| sessions.join(name));
+    places.find(|place| !place.exists()).unwrap_or_else(|| sessions.join(name))
 }
 
 /// Removes what a killed server was taking in.
@@ -114,5 +143,24 @@ pub fn clear(sessions: &Path) -> Result<(), AppError> {
             Err(AppError::failed(format!("{}: cannot be removed: {error}", aside.display())))
         }
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_taken_name_gives_way_to_one_like_it() {
+        let sessions = tempfile::tempdir().unwrap();
+        let name = "20231114T221320Z-anna-two-bridges-1a2b3c";
+        assert_eq!(free(sessions.path(), name), sessions.path().join(name));
+        let mut seen = std::collections::BTreeSet::new();
+        for _ in 0..3 {
+            let place = free(sessions.path(), name);
+            std::fs::create_dir(&place).unwrap();
+            let name = place.file_name().unwrap().to_string_lossy().into_owned();
+            assert!(name.starts_with("20231114T221320Z-anna-two-bridges-") && seen.insert(name));
+        }
     }
 }

@@ -33,6 +33,7 @@ pub fn section(review: &Review) -> Markup {
             }
             p.note { "A stick answers when it moves by a tenth of its travel within five seconds. A hand that was moving already may answer by chance." }
         }
+        @if !review.feedback.notes.is_empty() { (notes(review).shown()) }
         (episodes(review).folded())
         (texts(review).folded())
     }
@@ -119,6 +120,20 @@ fn texts(review: &Review) -> Table {
         caption: "texts as they were sent",
         columns: vec!["time", "text"],
         rows: review.feedback.texts.iter().map(row).collect(),
+    }
+}
+
+/// What an instructor noted while he watched; the trainee's screen did not show it.
+fn notes(review: &Review) -> Table {
+    let row = |(t_s, text): &(f64, String)| {
+        let when = if *t_s < 0.0 { "before lift-off".into() } else { Cell::Clock(*t_s) };
+        vec![when, text.clone().into()]
+    };
+    Table {
+        name: "notes",
+        caption: "what the instructor noted",
+        columns: vec!["time", "note"],
+        rows: review.feedback.notes.iter().map(row).collect(),
     }
 }
 

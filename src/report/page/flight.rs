@@ -159,6 +159,10 @@ fn rows(review: &Review) -> Vec<Strip> {
         (format!("picture-dot {}", p.verdict.class()), p.t_s, format!("picture {}: {}", p.number, p.verdict.name()))
     };
     rows.push(Strip { name: "pictures".into(), stretches: Vec::new(), marks: review.pictures.iter().map(picture).collect() });
+    if !review.feedback.notes.is_empty() {
+        let note = |(t_s, text): &(f64, String)| ("note-dot".to_owned(), *t_s, format!("note: {text}"));
+        rows.push(Strip { name: "notes".into(), stretches: Vec::new(), marks: review.feedback.notes.iter().map(note).collect() });
+    }
     rows.push(gaps(review));
     rows
 }

@@ -56,11 +56,18 @@ pub fn boxes(named: &[Named<'_>], most: f64, title: &str) -> Markup {
                 path.median d=(line(&[(x - HALF, y(b.median)), (x + HALF, y(b.median))], false)) {}
                 path.mean d=(line(&[(x - 4.0, y(b.mean) - 4.0), (x + 4.0, y(b.mean) + 4.0)], false)) {}
                 path.mean d=(line(&[(x - 4.0, y(b.mean) + 4.0), (x + 4.0, y(b.mean) - 4.0)], false)) {}
-                @for value in &b.outliers { circle.outlier cx=(unit(x)) cy=(unit(y(*value))) r="3" {} }
+                @for place in places(&b.outliers, y) { circle.outlier cx=(unit(x)) cy=(place) r="3" {} }
                 text.tick x=(unit(x)) y=(unit(BOTTOM + 18.0)) text-anchor="middle" { (one.name) }
             }
         },
     )
+}
+
+/// Places of the outliers (ascending) on the sheet, to a whole unit: those that fall onto one another are one circle.
+fn places(outliers: &[f64], y: impl Fn(f64) -> f64) -> Vec<String> {
+    let mut places: Vec<String> = outliers.iter().map(|value| unit(y(*value).round())).collect();
+    places.dedup();
+    places
 }
 
 #[cfg(test)]
@@ -75,6 +82,7 @@ mod tests {
         assert_eq!((plot.q1, plot.median, plot.q3, plot.outliers.len()), (50.0, 55.0, 70.0, 1));
         let figure = boxes(&[Named { name: "<1>".into(), plot: &plot }], 100.0, "t").into_string();
         assert!(figure.contains("class=\"box\" x=\"53\" y=\"64\" width=\"30\" height=\"36\""), "{figure}");
+        assert_eq!(places(&[1.0, 1.4, 3.0], |value| value), ["1", "3"]);
         assert!(figure.contains("cy=\"190\"") && figure.contains("&lt;1&gt;"), "{figure}");
     }
 }

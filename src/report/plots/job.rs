@@ -1,7 +1,7 @@
 //! A job drawn without a flight: what a scenario's page shows, and the ground that a live flight moves on.
 
 use super::backdrop::{ground, lake};
-use super::map::{Map, extent, north, pad, references, scale, structure};
+use super::map::{Map, extent, nearness, north, pad, references, scale, structure};
 use super::sheet;
 use crate::base::frames::{Enu, Vec3};
 use crate::report::outline::View;
@@ -28,7 +28,7 @@ pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
             (references(scenario, &map, None))
             (pad(scenario, &map))
             (north(&map))
-            (drone(&map))
+            (drone(&map, None))
             (scale(&map))
         },
     )
@@ -60,7 +60,7 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
             (ground(scenario, site, &map, bridge))
             (structure(site, &map, Some(&prefix)))
             (references(scenario, &map, Some(&bridge.name)))
-            (drone(&map))
+            (drone(&map, Some(bridge)))
             (scale(&map))
         },
     )
@@ -74,15 +74,15 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     points.push(Vec3::new(pad_m.east() - BESIDE_M, pad_m.north(), pad_m.up()));
     points.push(Vec3::new(pad_m.east() + BESIDE_M, pad_m.north(), pad_m.up() + ABOVE_M));
     let map = Map::around(View::from_south(), &points);
-    let body = html! { (structure(site, &map, None)) (references(scenario, &map, None)) (pad(scenario, &map)) (drone(&map)) (scale(&map)) };
+    let body = html! { (structure(site, &map, None)) (references(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
     sheet(map.size, "The job from the south", "map", &body)
 }
 
-/// The drone and its trail, which a script moves; hidden until it does.
-fn drone(map: &Map) -> Markup {
+/// The drone and its trail, which a script moves; hidden until it does, and in the side view of a bridge that it is not near.
+fn drone(map: &Map, bridge: Option<&Bridge>) -> Markup {
     html! {
-        path.trail data-matrix=(map.matrix()) d="" {}
-        g.drone data-matrix=(map.matrix()) { circle r="7" {} circle.core r="2.5" {} }
+        path.trail data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] d="" {}
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] { circle r="7" {} circle.core r="2.5" {} }
     }
 }
 
@@ -101,11 +101,12 @@ mod tests {
     fn exact_drawings_show_members_paths_and_a_drone_to_move() {
         let (scenario, site) = job(include_str!("../../../scenarios/two-bridges.toml"));
         let plan = job_plan(&scenario, &site).into_string();
-        assert_eq!(plan.matches("reference path of task").count(), 4);
+        assert_eq!((plan.matches("reference path of task").count(), plan.matches("data-near").count()), (4, 0));
         assert!(plan.contains("class=\"lake\"") && plan.contains("class=\"structure\""));
         for bridge in &scenario.bridges {
             let side = job_side(&scenario, &site, bridge).into_string();
             assert!(side.contains("class=\"ground\"") && side.contains("data-matrix"));
+            assert_eq!(side.matches("data-near=").count(), 2, "drone and trail belong to flights near this bridge");
             assert!(side.matches("reference path of task").count() < 4, "only those at this bridge");
         }
         let (scenario, site) = job(include_str!("../../../scenarios/drill-hover.toml"));

@@ -1,22 +1,24 @@
-//! Scores over repetitions: one line per score, a point per session.
+//! Values over repetitions: one line per score or task, a point per session.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::words;
 use maud::{Markup, html};
 
-const SIZE: (f64, f64) = (640.0, 260.0);
-const LEFT: f64 = 40.0;
-const RIGHT: f64 = 610.0;
-const TOP: f64 = 12.0;
-const BOTTOM: f64 = 226.0;
+const SIZE: (f64, f64) = (420.0, 240.0);
+const LEFT: f64 = 36.0;
+const RIGHT: f64 = 408.0;
+const TOP: f64 = 10.0;
+const BOTTOM: f64 = 206.0;
+/// Colours that lines have.
+const COLOURS: usize = 4;
 
 /// One line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
     /// Name.
-    pub name: &'static str,
-    /// Style number, 1 to 4.
-    pub style: u8,
+    pub name: String,
+    /// Style number, 1 to 4; beyond it they come again, broken.
+    pub style: usize,
     /// A value for each session; `None` does not apply.
     pub values: Vec<Option<f64>>,
 }
@@ -50,11 +52,17 @@ pub fn lines(lines: &[Line], most: f64, title: &str) -> Markup {
             }
             @for one in lines {
                 @let points = points(one, count, most);
-                path class={ "line line-" (one.style) } d=(line(&points, false)) {}
-                @for (x, y) in &points { circle class={ "dot-" (one.style) } cx=(unit(*x)) cy=(unit(*y)) r="4" {} }
+                path class={ "line line-" (colour(one.style)) @if one.style > COLOURS { " broken" } } d=(line(&points, false)) {}
+                @for (x, y) in &points { circle class={ "dot-" (colour(one.style)) } cx=(unit(*x)) cy=(unit(*y)) r="4" {} }
             }
         },
     )
+}
+
+/// A style's colour, 1 to 4.
+#[must_use]
+pub fn colour(style: usize) -> usize {
+    (style.max(1) - 1) % COLOURS + 1
 }
 
 fn points(one: &Line, count: usize, most: f64) -> Vec<(f64, f64)> {
@@ -67,12 +75,13 @@ mod tests {
 
     #[test]
     fn exact_the_first_is_left_the_best_is_up_and_what_does_not_apply_is_left_out() {
-        assert_eq!(place(0, 3, 0.0, 100.0), (54.0, BOTTOM));
-        assert_eq!(place(2, 3, 100.0, 100.0), (596.0, TOP));
-        assert_eq!(place(0, 1, 50.0, 100.0), (325.0, 119.0));
-        let one = Line { name: "a", style: 1, values: vec![Some(0.0), None, Some(100.0)] };
+        assert_eq!(place(0, 3, 0.0, 100.0), (50.0, BOTTOM));
+        assert_eq!(place(2, 3, 100.0, 100.0), (394.0, TOP));
+        assert_eq!(place(0, 1, 50.0, 100.0), (222.0, 108.0));
+        let one = Line { name: "a".into(), style: 1, values: vec![Some(0.0), None, Some(100.0)] };
         let figure = lines(&[one], 100.0, "<t>").into_string();
-        assert!(figure.contains("d=\"M54 226L596 12\"") && figure.contains("&lt;t&gt;"), "{figure}");
+        assert!(figure.contains("d=\"M50 206L394 10\"") && figure.contains("&lt;t&gt;"), "{figure}");
         assert_eq!(figure.matches("<circle").count(), 2);
+        assert_eq!([1, 4, 5, 8, 9].map(colour), [1, 4, 1, 4, 1]);
     }
 }

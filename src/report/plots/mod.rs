@@ -6,11 +6,14 @@ pub mod bars;
 pub mod boxes;
 pub mod colours;
 pub mod histogram;
+pub mod intervals;
 pub mod job;
 pub mod likert;
 pub mod lines;
 pub mod map;
+pub mod model;
 pub mod overlay;
+pub mod practice;
 pub mod radar;
 pub mod strips;
 

@@ -8,8 +8,8 @@ use crate::training::record::Record;
 use crate::training::statistics::{Regression, least_squares, mean, quantile, sd, solve};
 use serde::Serialize;
 
-/// People for a power of 0.8 with medium effects by percentile resampling (Fritz and MacKinnon 2007).
-const SENSIBLE_N: usize = 78;
+/// People for a power of 0.8 with medium effects by percentile resampling (Fritz and MacKinnon 2007); fewer are warned of.
+pub const SENSIBLE_N: usize = 78;
 /// Draws of people with replacement.
 const RESAMPLES: usize = 2_000;
 /// Fewest draws, for cohorts so large that more would take seconds.

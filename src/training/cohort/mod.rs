@@ -3,15 +3,17 @@
 
 mod answers;
 mod causal;
+mod learning;
 mod progress;
 mod scores;
 mod tables;
 
 pub use answers::{Contradiction, Likert, SelfRating, SelfRatingPair};
-pub use causal::{Causal, Indirect};
-pub use progress::{Curve, Progress, Repetition};
+pub use causal::{Causal, Indirect, SENSIBLE_N};
+pub use learning::GroupCurve;
+pub use progress::{Curve, OnJob, Progress, Repetition, by_job};
 pub use scores::{Comparison, CrashRow, CrashTable, Distribution, GroupTest, Individual, RepetitionBox, TaskShare};
-pub use tables::tables;
+pub use tables::{TABLES, table, tables};
 
 use super::record::Record;
 use serde::Serialize;
@@ -63,6 +65,8 @@ pub struct Cohort {
     pub causal: Option<Causal>,
     /// Each person over the repetitions.
     pub progress: Vec<Progress>,
+    /// Learning curves of those who flew often enough for one, together; empty when nobody did.
+    pub learning: Vec<GroupCurve>,
     /// What to keep in mind.
     pub warnings: Vec<String>,
 }
@@ -106,6 +110,7 @@ pub fn cohort(records: &[Record], selection: &Selection) -> Cohort {
             group.len()
         ));
     }
+    let progress: Vec<Progress> = runs.iter().map(|(trainee, sessions)| progress::progress(trainee, sessions)).collect();
     let homogeneity = scores::homogeneity_of(&firsts, &group, &mut warnings);
     Cohort {
         sessions: runs.values().map(Vec::len).sum(),
@@ -121,7 +126,8 @@ pub fn cohort(records: &[Record], selection: &Selection) -> Cohort {
         likert: answers::likert(&firsts, &group, repetitions),
         self_rating: answers::self_rating(&firsts),
         causal,
-        progress: runs.iter().map(|(trainee, sessions)| progress::progress(trainee, sessions)).collect(),
+        learning: learning::learning(&progress),
+        progress,
         warnings,
         scenarios,
     }

@@ -4,6 +4,7 @@ use super::SCORES;
 use crate::training::record::{Crashes, Record};
 use crate::training::statistics::{LearningCurve, learning_curve};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// One trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -53,6 +54,51 @@ pub struct Curve {
     pub curve: LearningCurve,
 }
 
+/// One trainee on one job: practice on a drill says nothing about practice on another job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OnJob {
+    /// Scenario.
+    pub scenario: String,
+    /// Numbers and names of its tasks, as flown last.
+    pub tasks: Vec<(u32, String)>,
+    /// The sessions on it.
+    pub progress: Progress,
+}
+
+impl Repetition {
+    /// A score by its name; `None` when it does not apply.
+    #[must_use]
+    pub fn score(&self, name: &str) -> Option<f64> {
+        match name {
+            "conformity" => self.conformity,
+            "efficiency" => Some(self.efficiency),
+            "safety" => Some(self.safety),
+            "accuracy" => self.accuracy,
+            "overall" => Some(self.overall),
+            _ => None,
+        }
+    }
+}
+
+/// One trainee's sessions apart by scenario: the job with the most tasks first, then by name.
+#[must_use]
+pub fn by_job(records: &[Record]) -> Vec<OnJob> {
+    let mut jobs: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
+    for record in records {
+        jobs.entry(&record.scenario).or_default().push(record);
+    }
+    let on_job = |(scenario, mut sessions): (&str, Vec<&Record>)| {
+        sessions.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
+        let last = sessions.last()?;
+        let tasks = last.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
+        Some(OnJob { scenario: scenario.to_owned(), tasks, progress: progress(&last.trainee, &sessions) })
+    };
+    let mut found: Vec<OnJob> = jobs.into_iter().filter_map(on_job).collect();
+    found.sort_by_key(|job| std::cmp::Reverse(job.tasks.len()));
+    found
+}
+
+/// One trainee's sessions in their order.
 pub fn progress(trainee: &str, sessions: &[&Record]) -> Progress {
     let curve = |(score, pick): (&str, super::Pick)| {
         let values: Option<Vec<f64>> = sessions.iter().map(|record| pick(record)).collect();

@@ -4,26 +4,54 @@ use super::Cohort;
 use crate::training::statistics::{Regression, Tails};
 use std::fmt::Display;
 
+/// File names of all tables.
+pub const TABLES: [&str; 16] = [
+    "distributions.csv",
+    "histograms.csv",
+    "individuals.csv",
+    "conformity_by_task.csv",
+    "crashes.csv",
+    "repetitions.csv",
+    "t_tests.csv",
+    "homogeneity.csv",
+    "likert.csv",
+    "self_rating.csv",
+    "contradictions.csv",
+    "causal.csv",
+    "progress.csv",
+    "learning_curves.csv",
+    "learning_of_the_group.csv",
+    "warnings.csv",
+];
+
+/// One table by its file name; `None` when there is none of this name.
+#[must_use]
+pub fn table(cohort: &Cohort, name: &str) -> Option<String> {
+    Some(match name {
+        "distributions.csv" => distributions(cohort),
+        "histograms.csv" => histograms(cohort),
+        "individuals.csv" => individuals(cohort),
+        "conformity_by_task.csv" => conformity(cohort),
+        "crashes.csv" => crashes(cohort),
+        "repetitions.csv" => repetitions(cohort),
+        "t_tests.csv" => t_tests(cohort),
+        "homogeneity.csv" => homogeneity(cohort),
+        "likert.csv" => likert(cohort),
+        "self_rating.csv" => self_rating(cohort),
+        "contradictions.csv" => contradictions(cohort),
+        "causal.csv" => causal(cohort),
+        "progress.csv" => progress(cohort),
+        "learning_curves.csv" => curves(cohort),
+        "learning_of_the_group.csv" => learning(cohort),
+        "warnings.csv" => Table::new(&["warning"]).rows(cohort.warnings.iter().map(|words| vec![text(words)])),
+        _ => return None,
+    })
+}
+
 /// File names and contents.
 #[must_use]
 pub fn tables(cohort: &Cohort) -> Vec<(&'static str, String)> {
-    vec![
-        ("distributions.csv", distributions(cohort)),
-        ("histograms.csv", histograms(cohort)),
-        ("individuals.csv", individuals(cohort)),
-        ("conformity_by_task.csv", conformity(cohort)),
-        ("crashes.csv", crashes(cohort)),
-        ("repetitions.csv", repetitions(cohort)),
-        ("t_tests.csv", t_tests(cohort)),
-        ("homogeneity.csv", homogeneity(cohort)),
-        ("likert.csv", likert(cohort)),
-        ("self_rating.csv", self_rating(cohort)),
-        ("contradictions.csv", contradictions(cohort)),
-        ("causal.csv", causal(cohort)),
-        ("progress.csv", progress(cohort)),
-        ("learning_curves.csv", curves(cohort)),
-        ("warnings.csv", Table::new(&["warning"]).rows(cohort.warnings.iter().map(|words| vec![text(words)]))),
-    ]
+    TABLES.iter().filter_map(|name| Some((*name, table(cohort, name)?))).collect()
 }
 
 struct Table(String);
@@ -227,6 +255,16 @@ fn curves(cohort: &Cohort) -> String {
         let c = &one.curve;
         let figures = vec![number(c.n), number(c.first), number(c.exponent), maybe(c.r_squared), number(c.next)];
         [vec![text(trainee), text(&one.score)], figures].concat()
+    }))
+}
+
+fn learning(cohort: &Cohort) -> String {
+    let columns = ["score", "people", "repetition", "mean", "fitted", "first", "exponent", "r_squared"];
+    let rows = cohort.learning.iter().flat_map(|one| one.means.iter().enumerate().map(move |(k, mean)| (one, k + 1, *mean)));
+    Table::new(&columns).rows(rows.map(|(one, repetition, mean)| {
+        let c = &one.curve;
+        let curve = vec![number(c.at(repetition as f64)), number(c.first), number(c.exponent), maybe(c.r_squared)];
+        [vec![text(&one.score), number(one.people), number(repetition), number(mean)], curve].concat()
     }))
 }
 

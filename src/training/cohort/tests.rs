@@ -124,6 +124,49 @@ fn exact_four_repetitions_make_a_learning_curve() {
 }
 
 #[test]
+fn exact_the_groups_curve_goes_through_the_means_of_those_who_flew_often_enough() {
+    let safety = |first: f64, k: usize| first * crate::base::math::pow(k as f64, 0.3);
+    let mut records = Vec::new();
+    // Two people with curves of one exponent: their mean has it, too. Of the longer series only what both flew counts; a third person
+    // flew too seldom, a fourth has no accuracy once.
+    for (who, first, times) in [("anna", 30.0, 6), ("ben", 50.0, 4), ("cleo", 90.0, 3), ("dan", 40.0, 4)] {
+        for k in 1..=times {
+            let mut record = faultless(who, k);
+            record.scores.safety = safety(first, k);
+            if who == "dan" && k == 2 {
+                record.scores.accuracy = None;
+            }
+            records.push(record);
+        }
+    }
+    let learning = worked(&records).learning;
+    let of = |score: &str| learning.iter().find(|one| one.score == score).unwrap();
+    assert_eq!((of("safety").people, of("safety").means.len(), of("accuracy").people), (3, 4, 2));
+    assert!((of("safety").curve.exponent - 0.3).abs() < 1e-9 && (of("safety").curve.first - 40.0).abs() < 1e-6);
+    assert!((of("safety").curve.at(3.0) - of("safety").means[2]).abs() < 1e-6);
+    assert!(worked(&pilot()).learning.is_empty(), "three repetitions make no curve");
+}
+
+#[test]
+fn exact_one_trainees_jobs_are_kept_apart() {
+    let mut records: Vec<Record> = (1..=9).map(|k| faultless("anna", k)).collect();
+    for record in records.iter_mut().step_by(2) {
+        record.scenario = "drill-gap".into();
+        record.tasks.truncate(1);
+        record.scores.safety = 10.0;
+    }
+    records.reverse();
+    let jobs = by_job(&records);
+    let told: Vec<(&str, usize, usize)> =
+        jobs.iter().map(|job| (job.scenario.as_str(), job.tasks.len(), job.progress.repetitions.len())).collect();
+    assert_eq!(told, [("two-bridges", 4, 4), ("drill-gap", 1, 5)], "the job before its drills");
+    assert!(jobs[0].progress.repetitions.iter().all(|one| one.safety == 100.0));
+    assert!(jobs[1].progress.repetitions.windows(2).all(|pair| pair[0].started_unix_us < pair[1].started_unix_us));
+    assert_eq!((jobs[0].progress.curves.len(), jobs[1].progress.curves.len()), (5, 5));
+    assert!(by_job(&[]).is_empty());
+}
+
+#[test]
 fn exact_small_and_empty_cohorts_are_described_and_warned_of() {
     let none = worked(&[]);
     assert_eq!((none.trainees, none.causal, none.tests.len()), (0, None, 0));

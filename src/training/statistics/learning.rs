@@ -28,6 +28,14 @@ pub struct LearningCurve {
     pub next: f64,
 }
 
+impl LearningCurve {
+    /// What the curve says of the n-th repetition (from 1; between two for drawing).
+    #[must_use]
+    pub fn at(&self, repetition: f64) -> f64 {
+        self.first * math::pow(repetition, self.exponent)
+    }
+}
+
 /// Fits the curve to repetitions in their order by least squares on the values themselves (zeros are allowed).
 ///
 /// # Errors

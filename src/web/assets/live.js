@@ -19,6 +19,25 @@ function onSheet(matrix, [e, n, u]) {
   return [m[0] * e + m[1] * n + m[2] * u + m[3], m[4] * e + m[5] * n + m[6] * u + m[7]];
 }
 
+// In the side view of a bridge only what is near it is shown: middle, axis along the bridge, and how far along and beside counts, m.
+function isNear(node, [e, n]) {
+  if (!node.dataset.near) return true;
+  const [east, north, alongEast, alongNorth, along, beside] = node.dataset.near.split(" ").map(Number);
+  const x = (e - east) * alongEast + (n - north) * alongNorth;
+  const y = (e - east) * alongNorth - (n - north) * alongEast;
+  return Math.abs(x) <= along && Math.abs(y) <= beside;
+}
+
+function drawTrail(line) {
+  let data = "", drawing = false;
+  for (const point of trail) {
+    const near = isNear(line, point);
+    if (near) data += (drawing ? "L" : "M") + onSheet(line.dataset.matrix, point).map((x) => x.toFixed(1)).join(" ");
+    drawing = near;
+  }
+  line.setAttribute("d", data);
+}
+
 function move(place) {
   const last = trail.at(-1);
   const far = !last || Math.hypot(...place.map((x, k) => x - last[k])) > 0.5;
@@ -27,12 +46,10 @@ function move(place) {
   for (const drone of root.querySelectorAll(".drone")) {
     const [x, y] = onSheet(drone.dataset.matrix, place);
     drone.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+    drone.classList.toggle("away", !isNear(drone, place));
   }
   if (!far) return;
-  for (const line of root.querySelectorAll(".trail")) {
-    const points = trail.map((point) => onSheet(line.dataset.matrix, point).map((x) => x.toFixed(1)).join(" "));
-    line.setAttribute("d", `M${points.join("L")}`);
-  }
+  root.querySelectorAll(".trail").forEach(drawTrail);
 }
 
 function tell(words) {

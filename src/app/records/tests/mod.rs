@@ -1,5 +1,6 @@
 //! The same tests on SQLite and on a real PostgreSQL.
 
+mod changes;
 mod server;
 mod tls;
 
@@ -35,6 +36,7 @@ fn every_behaviour(target: &str) {
     lets_people_in_and_forgets_them(target);
     counts_and_finds_sessions(target);
     replaces_all_or_nothing(target);
+    changes::every_one(target);
     takes_strangers_in_any_order(target);
     loses_nothing_when_stations_write_at_once(target);
 }
@@ -75,7 +77,7 @@ fn takes_in_once_and_gives_back_the_same(target: &str) {
 fn keeps_people_and_erases_them(target: &str) {
     let database = Database::open(target).unwrap();
     let someone = Trainee { age_band: Some("25-34".into()), role: Role::Instructor, ..Trainee::new("anna") };
-    database.set_trainee(&someone).unwrap();
+    database.set_given("anna", Some(Role::Instructor), [Some("25-34"), None, None]).unwrap();
     database.put(&[record("anna", 9)]).unwrap();
     assert_eq!(database.trainees().unwrap(), [someone, Trainee::new("o'brien")], "a new session changes no details");
     assert_eq!(database.erase("anna"), Ok((true, 2)));
@@ -88,9 +90,9 @@ fn lets_people_in_and_forgets_them(target: &str) {
     let database = Database::open(target).unwrap();
     assert_eq!(database.account("nobody").unwrap(), None);
     let ada = Trainee { role: Role::Administrator, ..Trainee::new("ada") };
-    database.set_account(&ada, "first").unwrap();
-    database.set_account(&ada, "second").unwrap();
-    database.set_account(&Trainee::new("o'brien"), "'; DELETE FROM passwords; --").unwrap();
+    database.set_login("ada", Role::Instructor, "first").unwrap();
+    database.set_login("ada", Role::Administrator, "second").unwrap();
+    database.set_login("o'brien", Role::Trainee, "'; DELETE FROM passwords; --").unwrap();
     // What another process sees.
     let again = Database::open(target).unwrap();
     assert_eq!(again.with_password().unwrap(), ["ada", "o'brien"]);
@@ -102,7 +104,7 @@ fn lets_people_in_and_forgets_them(target: &str) {
     // Who is erased logs in no more, under the same name neither.
     assert_eq!(database.erase("o'brien"), Ok((true, 1)));
     assert_eq!((database.with_password().unwrap(), database.account("o'brien").unwrap()), (vec![], None));
-    database.set_trainee(&Trainee::new("o'brien")).unwrap();
+    database.set_given("o'brien", None, [None; 3]).unwrap();
     assert_eq!(database.account("o'brien").unwrap().unwrap().hash, None);
     assert_eq!((database.erase("o'brien"), database.erase("ada")), (Ok((true, 0)), Ok((true, 0))));
 }
@@ -141,16 +143,20 @@ fn takes_strangers_in_any_order(target: &str) {
 
 fn replaces_all_or_nothing(target: &str) {
     let database = Database::open(target).unwrap();
+    let there: Vec<String> = database.fingerprints().unwrap().into_keys().collect();
     let records = [record("ben", 1), record("ben", 2)];
-    assert_eq!(database.replace_all(&records), Ok(2));
+    assert_eq!(database.rebuild(&records, &there), Ok(2));
     assert_eq!(database.records(None).unwrap(), records);
     // One bad record makes the whole change fail; what was there stays.
     let mut broken = record("ben", 3);
     broken.seconds = f64::NAN;
-    assert!(database.replace_all(&[record("ben", 4), broken.clone()]).unwrap_err().to_string().contains("seconds = NaN"));
+    let gone: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
+    let wrong = database.rebuild(&[record("ben", 4), broken.clone()], &gone).unwrap_err().to_string();
+    assert!(wrong.contains("seconds = NaN"), "{wrong}");
     assert!(database.put(&[record("ben", 4), broken]).is_err());
     assert_eq!(database.records(None).unwrap(), records);
-    assert_eq!(database.replace_all(&[]), Ok(0));
+    assert_eq!(database.rebuild(&[], &gone), Ok(0));
+    assert_eq!(database.records(None).unwrap(), []);
 }
 
 fn loses_nothing_when_stations_write_at_once(target: &str) {
@@ -191,7 +197,8 @@ fn exact_twenty_stations_may_make_the_same_new_file_at_once() {
 
 fn readers_do_not_wait_for_a_writer(target: &str) {
     let writer = Database::open(target).unwrap();
-    writer.replace_all(&[record("anna", 1)]).unwrap();
+    let there: Vec<String> = writer.fingerprints().unwrap().into_keys().collect();
+    writer.rebuild(&[record("rita", 1)], &there).unwrap();
     writer.keep_writing().unwrap();
     let reader = Database::open(target).unwrap();
     assert_eq!(reader.records(None).unwrap().len(), 1);
@@ -220,6 +227,18 @@ fn exact_what_is_erased_is_gone_from_the_file() {
     let traces = |path: PathBuf| std::fs::read(path).unwrap().windows(16).any(|bytes| bytes == b"somebody-special");
     let found: Vec<PathBuf> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert!(!found.into_iter().any(traces));
+}
+
+/// The web server's last task lets go of the database while it may not wait.
+#[test]
+fn exact_a_database_may_be_let_go_of_where_nobody_may_wait() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("records.sqlite").display().to_string();
+    let database = Database::open(&file).unwrap();
+    database.put(&[record("anna", 1)]).unwrap();
+    let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
+    runtime.block_on(async move { drop(database) });
+    assert_eq!(Database::open(&file).unwrap().records(None).unwrap().len(), 1);
 }
 
 #[test]

@@ -54,12 +54,15 @@ impl Server {
             .stderr(log)
             .spawn()
             .unwrap();
-        let server = Self { process, folder };
+        let mut server = Self { process, folder };
         // pg_isready asks the server itself and waits for its answer.
         let place = ["-h".to_owned(), at(&home), "-p".to_owned(), port.to_string()];
         let ready = || Command::new(programs.join("pg_isready")).args(&place).args(["-t", "1"]).output().unwrap().status;
         while !ready().success() {
-            std::thread::yield_now();
+            if let Some(status) = server.process.try_wait().unwrap() {
+                let said = std::fs::read_to_string(server.folder.path().join("log.txt")).unwrap_or_default();
+                panic!("PostgreSQL has ended ({status}): {said}");
+            }
         }
         server
     }

@@ -1,7 +1,7 @@
 //! The thread that hears one vehicle: it is one more subscriber of the payload port.
 
-use super::orders::{Order, Orders};
-use super::picture;
+use super::orders::{COMPONENT, Order, Orders, SYSTEM};
+use super::{picture, whose};
 use crate::app::clock::Stopwatch;
 use crate::app::errors::AppError;
 use crate::app::net::{Arrival, Hub, SocketId};
@@ -23,9 +23,6 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::sync::watch;
 
-/// Who we are on the wire: a system of our own, a companion computer, which no vehicle takes for the ground station whose loss it fears.
-const SYSTEM: u8 = 252;
-const COMPONENT: u8 = 192;
 /// Moments a second.
 const EVERY: Duration = Duration::from_millis(200);
 /// Longest wait for a datagram.
@@ -58,8 +55,19 @@ pub struct Ear {
     orders: Orders,
     /// A job that was looked for and not found, and when.
     unknown: Option<(JobKey, Duration)>,
-    drawn: Arc<Mutex<Option<Drawn>>>,
+    /// When it was last looked whose flight it is.
+    asked_whose: Option<Duration>,
+    known: Known,
     places: Places,
+}
+
+/// What pages know of the flight.
+#[derive(Debug, Clone, Default)]
+pub struct Known {
+    /// Its job, drawn.
+    pub drawn: Arc<Mutex<Option<Drawn>>>,
+    /// Who flies it.
+    pub trainee: Arc<Mutex<Option<String>>>,
 }
 
 impl Ear {
@@ -67,7 +75,7 @@ impl Ear {
     ///
     /// # Errors
     /// When none can be opened.
-    pub fn open(vehicle: SocketAddr, drawn: Arc<Mutex<Option<Drawn>>>, places: Places) -> Result<Self, AppError> {
+    pub fn open(vehicle: SocketAddr, known: Known, places: Places) -> Result<Self, AppError> {
         let ip: IpAddr = match vehicle.ip() {
             ip if ip.is_loopback() => ip,
             IpAddr::V4(_) => Ipv4Addr::UNSPECIFIED.into(),
@@ -76,7 +84,7 @@ impl Ear {
         let mut hub = Hub::new();
         let socket = hub.bind(ip, 0, "--vehicle")?;
         let (watch, encoder, orders) = (Watch::new(), Encoder::new(SYSTEM, COMPONENT), Orders::default());
-        Ok(Self { hub, socket, vehicle, watch, encoder, orders, unknown: None, drawn, places })
+        Ok(Self { hub, socket, vehicle, watch, encoder, orders, unknown: None, asked_whose: None, known, places })
     }
 
     /// Listens until nobody hears any more.
@@ -98,10 +106,11 @@ impl Ear {
             }
             self.carry_out(clock.elapsed());
             self.look_for_the_job(clock.elapsed());
+            let lives = heard.is_some_and(|heard: Duration| clock.elapsed() < heard + SILENT);
+            self.look_for_the_trainee(lives, clock.elapsed());
             if due(told, EVERY) {
                 told = Some(clock.elapsed());
-                let heard = heard.is_some_and(|heard: Duration| clock.elapsed() < heard + SILENT);
-                moments.send_replace(self.moment(heard).to_string());
+                moments.send_replace(self.moment(lives).to_string());
             }
         }
     }
@@ -126,7 +135,7 @@ impl Ear {
             for frame in Decoder::new().datagram(&bytes) {
                 self.watch.take(&frame);
                 if let Some(words) = self.orders.hear(&frame) {
-                    self.watch.say("info", words);
+                    self.watch.say("warn", words);
                 }
                 spoke = true;
             }
@@ -162,8 +171,18 @@ impl Ear {
             return;
         };
         let drawn = draw(&scenario, key);
-        *lock(&self.drawn) = Some(drawn);
+        *lock(&self.known.drawn) = Some(drawn);
         self.watch.set_job(key, &scenario);
+    }
+
+    /// Finds out whose flight it is, now and then: the next one may be another's.
+    fn look_for_the_trainee(&mut self, lives: bool, now: Duration) {
+        if self.asked_whose.is_some_and(|at| now < at + SILENT) {
+            return;
+        }
+        self.asked_whose = Some(now);
+        let flown = self.watch.wanted().filter(|_| lives);
+        *lock(&self.known.trainee) = flown.and_then(|key| whose::trainee(&self.places.sessions, key));
     }
 
     fn scenario_of(&self, crc: u32) -> Option<Scenario> {

@@ -2,7 +2,7 @@
 //! is answered.
 
 use crate::mav::codec::{Encoder, Received};
-use crate::mav::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamType, MavResult, PARAM_SET_DATA};
+use crate::mav::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
 use crate::mav::{note, station};
 use crate::monitor::watch::COMPONENT as MONITOR;
 use std::collections::VecDeque;
@@ -12,6 +12,9 @@ use std::time::Duration;
 const AGAIN: Duration = Duration::from_millis(500);
 /// And given up after so many times.
 const TRIES: u32 = 20;
+/// Who asks: a system of our own, a companion computer, which no vehicle takes for the ground station whose loss it fears.
+pub const SYSTEM: u8 = 252;
+pub const COMPONENT: u8 = 192;
 /// FAILURE_TYPE: whole, and gone.
 const WHOLE: f32 = 0.0;
 const OFF: f32 = 1.0;
@@ -136,28 +139,66 @@ impl Orders {
         (frames, words)
     }
 
-    /// Hears whether the step under way is answered; words when it is refused.
+    /// Hears whether the step under way is answered; words when it is refused, with which the order ends.
     pub fn hear(&mut self, frame: &Received) -> Option<String> {
         let task = self.0.front_mut()?;
-        let refused = match (task.steps.front()?, frame.message.as_ref()?) {
-            // The old value is no answer: it may have been asked for by somebody else.
-            (Step::Parameter(name, number), MavMessage::PARAM_VALUE(value))
-                if value.param_id.to_str().is_ok_and(|id| id == *name) && number.is(value.param_value) =>
-            {
+        match answer(task.steps.front()?, frame.message.as_ref()?)? {
+            Ok(()) => {
+                task.steps.pop_front();
+                (task.asked, task.tries) = (None, 0);
                 None
             }
-            (Step::Inject { .. }, MavMessage::COMMAND_ACK(ack)) if ack.command == MavCmd::MAV_CMD_INJECT_FAILURE => {
-                (ack.result != MavResult::MAV_RESULT_ACCEPTED).then(|| format!("{}: refused", task.words))
+            Err(why) => {
+                let words = format!("{}: refused, {why}", task.words);
+                self.0.pop_front();
+                Some(words)
             }
-            _ => return None,
-        };
-        if refused.is_some() {
-            self.0.pop_front();
-            return refused;
         }
-        task.steps.pop_front();
-        (task.asked, task.tries) = (None, 0);
-        None
+    }
+}
+
+/// Whether a message answers a step: done, or refused and why. What answers somebody else answers nothing here.
+fn answer(step: &Step, message: &MavMessage) -> Option<Result<(), &'static str>> {
+    let ours = |system: u8, component: u8| (system, component) == (SYSTEM, COMPONENT);
+    match (step, message) {
+        // The old value is no answer: it may have been asked for by somebody else.
+        (Step::Parameter(name, number), MavMessage::PARAM_VALUE(value)) => {
+            let done = value.param_id.to_str().is_ok_and(|id| id == *name) && number.is(value.param_value);
+            done.then_some(Ok(()))
+        }
+        (Step::Parameter(name, _), MavMessage::PARAM_ERROR(error)) => {
+            let it = error.param_id.to_str().is_ok_and(|id| id == *name) && ours(error.target_system, error.target_component);
+            it.then(|| Err(error_words(error.error)))
+        }
+        (Step::Inject { .. }, MavMessage::COMMAND_ACK(ack))
+            if ack.command == MavCmd::MAV_CMD_INJECT_FAILURE && ours(ack.target_system, ack.target_component) =>
+        {
+            result(ack.result)
+        }
+        _ => None,
+    }
+}
+
+/// What a command came to; `None` while it goes on.
+fn result(result: MavResult) -> Option<Result<(), &'static str>> {
+    match result {
+        MavResult::MAV_RESULT_ACCEPTED => Some(Ok(())),
+        MavResult::MAV_RESULT_IN_PROGRESS => None,
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED => Some(Err("not now")),
+        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("this vehicle does not know it")),
+        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denies it")),
+        _ => Some(Err("it failed")),
+    }
+}
+
+fn error_words(error: MavParamError) -> &'static str {
+    match error {
+        MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST => "this vehicle has no such parameter",
+        MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE => "the value is out of range",
+        MavParamError::MAV_PARAM_ERROR_READ_ONLY | MavParamError::MAV_PARAM_ERROR_PERMISSION_DENIED => {
+            "the parameter may not be set"
+        }
+        _ => "the vehicle does not take the value",
     }
 }
 
@@ -186,7 +227,7 @@ fn frame(step: &Step, encoder: &mut Encoder, system: u8, cast: bool) -> Vec<u8> 
 mod tests {
     use super::*;
     use crate::mav::codec::Decoder;
-    use crate::mav::dialect::{COMMAND_ACK_DATA, PARAM_VALUE_DATA};
+    use crate::mav::dialect::{COMMAND_ACK_DATA, PARAM_ERROR_DATA, PARAM_VALUE_DATA};
 
     fn told(message: &MavMessage) -> Received {
         Decoder::new().datagram(&Encoder::new(1, 1).encode(message)).remove(0)
@@ -195,6 +236,17 @@ mod tests {
     fn sent(orders: &mut Orders, now_ms: u64) -> (Vec<Received>, Vec<String>) {
         let (frames, words) = orders.due(Duration::from_millis(now_ms), &mut Encoder::new(252, 192), 1, false);
         (frames.iter().map(|frame| Decoder::new().datagram(frame).remove(0)).collect(), words)
+    }
+
+    fn acked(result: MavResult, (target_system, target_component): (u8, u8)) -> MavMessage {
+        let command = MavCmd::MAV_CMD_INJECT_FAILURE;
+        MavMessage::COMMAND_ACK(COMMAND_ACK_DATA {
+            command,
+            result,
+            target_system,
+            target_component,
+            ..COMMAND_ACK_DATA::default()
+        })
     }
 
     fn value(name: &str, param_value: f32) -> Received {
@@ -229,20 +281,49 @@ mod tests {
         sent(&mut orders, 0);
         orders.hear(&value("SYS_FAILURE_EN", f32::from_bits(1)));
         sent(&mut orders, 1);
-        let ack = COMMAND_ACK_DATA {
-            command: MavCmd::MAV_CMD_INJECT_FAILURE,
-            result: MavResult::MAV_RESULT_DENIED,
-            ..COMMAND_ACK_DATA::default()
-        };
         assert_eq!(
-            orders.hear(&told(&MavMessage::COMMAND_ACK(ack))),
-            Some("instructor: satellite navigation fails: refused".into())
+            orders.hear(&told(&acked(MavResult::MAV_RESULT_DENIED, (SYSTEM, COMPONENT)))),
+            Some("instructor: satellite navigation fails: refused, the vehicle denies it".into())
         );
         let (frames, words) = sent(&mut orders, 2);
         assert_eq!((note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
         orders.give(Order::Wind { speed_m_s: 1.0, from_deg: 0.0 });
         let told: Vec<String> = (0..30).flat_map(|k| sent(&mut orders, 1_000 + 500 * k).1).collect();
         assert_eq!(told, ["instructor: wind 1 m/s from 0°: not answered"]);
+    }
+
+    #[test]
+    fn wire_a_refused_parameter_is_told_at_once_and_answers_to_others_count_for_nothing() {
+        let mut orders = Orders::default();
+        orders.give(Order::Wind { speed_m_s: 8.0, from_deg: 270.0 });
+        sent(&mut orders, 0);
+        let error = |name: &str, (target_system, target_component): (u8, u8)| {
+            told(&MavMessage::PARAM_ERROR(PARAM_ERROR_DATA {
+                target_system,
+                target_component,
+                param_id: name.into(),
+                error: MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE,
+                ..PARAM_ERROR_DATA::default()
+            }))
+        };
+        for other in
+            [error("SIM_WIND_DIR", (255, 190)), error("SIM_WIND_DIR", (SYSTEM, 1)), error("SIM_WIND_SPD", (SYSTEM, COMPONENT))]
+        {
+            assert_eq!(orders.hear(&other), None);
+        }
+        let refused = orders.hear(&error("SIM_WIND_DIR", (SYSTEM, COMPONENT)));
+        assert_eq!(refused.as_deref(), Some("instructor: wind 8 m/s from 270°: refused, the value is out of range"));
+        assert_eq!(sent(&mut orders, 10_000), (vec![], vec![]), "the order has ended");
+
+        orders.give(Order::Failure { unit: 5.0, words: "Compass", fails: true });
+        sent(&mut orders, 10_000);
+        orders.hear(&value("SYS_FAILURE_EN", f32::from_bits(1)));
+        sent(&mut orders, 10_001);
+        assert_eq!(orders.hear(&told(&acked(MavResult::MAV_RESULT_DENIED, (255, 190)))), None, "somebody else's");
+        assert_eq!(orders.hear(&told(&acked(MavResult::MAV_RESULT_IN_PROGRESS, (SYSTEM, COMPONENT)))), None);
+        assert_eq!(sent(&mut orders, 10_600).0.len(), 1, "it still waits for its own");
+        assert_eq!(orders.hear(&told(&acked(MavResult::MAV_RESULT_ACCEPTED, (SYSTEM, COMPONENT)))), None);
+        assert_eq!(sent(&mut orders, 10_601).1, ["instructor: compass fails"]);
     }
 
     #[test]

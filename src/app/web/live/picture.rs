@@ -1,5 +1,6 @@
 //! The camera's view, as a window keeps it in a file about once a second.
 
+use super::Live;
 use crate::app::web::answer::{Answer, Answered, Refusal};
 use crate::app::web::asked::Asked;
 use crate::app::web::state::State;
@@ -26,6 +27,14 @@ pub fn version(path: &Path) -> Option<u64> {
 /// The picture, for those who may watch the flight.
 pub fn show(state: &State, asked: &Asked) -> Answered {
     let (_, live) = super::chosen(state, asked.word("vehicle"))?;
+    of(live)
+}
+
+/// The picture of a flight.
+///
+/// # Errors
+/// When there is none of now.
+pub fn of(live: &Live) -> Answered {
     let path = live.picture.as_deref().filter(|path| version(path).is_some()).ok_or(Refusal::NotFound)?;
     let bytes = std::fs::read(path).map_err(|_| Refusal::NotFound)?;
     // Whatever else the file may hold, a browser gets pictures from here alone.

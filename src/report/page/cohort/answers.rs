@@ -1,6 +1,7 @@
 //! The questionnaire's answers, and how they stand to what was measured.
 
 use super::super::{figure, legend};
+use super::{many, people_shown};
 use crate::report::plots::likert::{Question, likert};
 use crate::report::table::{Cell, Table};
 use crate::report::words;
@@ -55,21 +56,25 @@ fn asked(one: &Likert) -> String {
 /// Self-rating beside the measured share.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rating = &cohort.self_rating;
-    let rows = rating
-        .people
-        .iter()
-        .map(|one| vec![one.trainee.clone().into(), Cell::Number(one.self_rating, 2), Cell::Number(one.measured_pct, 1)]);
-    let table = Table {
-        name: "self_rating",
-        caption: "self-rating and measured share",
-        columns: vec!["trainee", "self-rating, 1 to 5", "measured, %"],
-        rows: rows.collect(),
-    };
     html! {
         @if let Some(overall) = &rating.overall {
             p { "Spearman's correlation of self-rating and overall score: " (words::number(overall.r, 2)) ", " (overall.n) " people." }
         }
-        @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.words) } } } }
-        (table.folded())
+        @if people_shown(cohort) {
+            @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.words) } } } }
+            (rated(cohort).folded())
+        } @else { (many::self_rating(cohort)) }
+    }
+}
+
+fn rated(cohort: &Cohort) -> Table {
+    let people = cohort.self_rating.people.iter();
+    let rows =
+        people.map(|one| vec![one.trainee.clone().into(), Cell::Number(one.self_rating, 2), Cell::Number(one.measured_pct, 1)]);
+    Table {
+        name: "self_rating",
+        caption: "self-rating and measured share",
+        columns: vec!["trainee", "self-rating, 1 to 5", "measured, %"],
+        rows: rows.collect(),
     }
 }

@@ -1,21 +1,13 @@
 //! The first sessions: distributions, people and tasks, crashes.
 
+use super::super::kinds::{KINDS, counted, segments};
 use super::super::{figure, legend};
+use super::{many, people_shown};
 use crate::report::plots::bars::{Counts, Row, counts, shares};
 use crate::report::plots::histogram::histogram;
 use crate::report::table::{Cell, Table};
 use crate::training::cohort::Cohort;
-use crate::training::record::Crashes;
 use maud::{Markup, html};
-
-/// Kinds of crashes: style and name.
-const KINDS: [(&str, &str); 5] = [
-    ("k-bridge", "bridge"),
-    ("k-terrain", "ground"),
-    ("k-water", "water"),
-    ("k-other", "other"),
-    ("k-grave", "person or vehicle"),
-];
 
 /// How the scores are distributed.
 pub fn distributions(cohort: &Cohort) -> Markup {
@@ -40,8 +32,12 @@ pub fn distributions(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Each person's scores and tasks.
+/// Each person's scores and tasks; of too many people how they are distributed.
 pub fn people(cohort: &Cohort) -> Markup {
+    if people_shown(cohort) { one_by_one(cohort) } else { many::tasks(cohort) }
+}
+
+fn one_by_one(cohort: &Cohort) -> Markup {
     let rows: Vec<Row> = cohort
         .individuals
         .iter()
@@ -89,28 +85,27 @@ pub fn people(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Counts in the order of [`KINDS`].
-fn kinds(crashes: &Crashes) -> [usize; 5] {
-    [crashes.bridge, crashes.terrain, crashes.water, crashes.other, crashes.person + crashes.vehicle]
-}
-
 /// What was hit, where, by whom.
 pub fn crashes(cohort: &Cohort) -> Markup {
     let table = &cohort.crashes;
-    let segments = KINDS.iter().zip(kinds(&table.by_kind)).map(|((class, _), count)| (*class, count)).collect();
     let key: Vec<(&str, String)> =
-        KINDS.iter().zip(kinds(&table.by_kind)).map(|((class, name), count)| (*class, format!("{name}: {count}"))).collect();
+        KINDS.iter().zip(counted(&table.by_kind)).map(|((class, name), count)| (*class, format!("{name}: {count}"))).collect();
     let names = table.tasks.iter().map(|id| format!("task {id}")).chain(["outside".to_owned()]);
     let by_task: Vec<Counts> =
         names.zip(&table.by_task).map(|(name, count)| Counts { name, kinds: vec![("k-bridge", *count)] }).collect();
-    let people: Vec<Counts> =
-        table.rows.iter().map(|row| Counts { name: row.trainee.clone(), kinds: vec![("k-bridge", row.total)] }).collect();
+    let all = Counts { name: "all".into(), kinds: segments(&table.by_kind) };
     html! {
         p { (table.total) " crashes in the first sessions." }
         div.split {
-            (figure("By what was hit", &html! { (legend(&key)) (counts(&[Counts { name: "all".into(), kinds: segments }], "Crashes by kind")) }))
+            (figure("By what was hit", &html! { (legend(&key)) (counts(&[all], "Crashes by kind")) }))
             (figure("By task", &counts(&by_task, "Crashes by task")))
         }
-        details.numbers { summary { "Person by person" } (figure("Crashes by person", &counts(&people, "Crashes by person"))) }
+        @if people_shown(cohort) {
+            details.numbers { summary { "Person by person" } (figure("Crashes by person", &counts(&by_person(cohort), "Crashes by person"))) }
+        } @else { (many::crashes(cohort)) }
     }
+}
+
+fn by_person(cohort: &Cohort) -> Vec<Counts> {
+    cohort.crashes.rows.iter().map(|row| Counts { name: row.trainee.clone(), kinds: vec![("k-bridge", row.total)] }).collect()
 }

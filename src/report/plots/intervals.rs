@@ -1,0 +1,97 @@
+//! Estimates with their intervals, one below the other about a line at zero.
+
+use super::{line, sheet, ticks, unit};
+use crate::report::words;
+use maud::{Markup, html};
+
+const WIDTH: f64 = 620.0;
+const LEFT: f64 = 220.0;
+const RIGHT: f64 = 600.0;
+const ROW: f64 = 34.0;
+/// Room beyond the farthest end, as a share of the axis.
+const ROOM: f64 = 0.08;
+
+/// One estimate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// What it is of.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+    /// Its interval; absent when there is none.
+    pub interval: Option<[f64; 2]>,
+}
+
+/// Ends of the axis: all estimates, their intervals and zero, with some room.
+#[must_use]
+pub fn ends(estimates: &[Estimate]) -> (f64, f64) {
+    let all = estimates.iter().flat_map(|one| [Some(one.value), one.interval.map(|i| i[0]), one.interval.map(|i| i[1])]);
+    let (low, high) = all.flatten().fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
+    let room = if high > low { ROOM * (high - low) } else { 1.0 };
+    (low - room, high + room)
+}
+
+/// Where a value lies between the ends.
+#[must_use]
+pub fn x_of(value: f64, (low, high): (f64, f64)) -> f64 {
+    LEFT + (RIGHT - LEFT) * if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }
+}
+
+/// All estimates on one axis; `axis` names it.
+#[must_use]
+pub fn intervals(estimates: &[Estimate], axis: &str, title: &str) -> Markup {
+    let ends = ends(estimates);
+    let bottom = ROW * estimates.len() as f64 + 4.0;
+    let reach = ends.0.abs().max(ends.1.abs());
+    let ticks = ticks(reach, 4);
+    let below = ticks.iter().skip(1).map(|tick| -tick);
+    let marks: Vec<f64> = below.chain(ticks.iter().copied()).filter(|tick| (ends.0..=ends.1).contains(tick)).collect();
+    let digits = if reach < 1.0 { 2 } else { 1 };
+    sheet(
+        (WIDTH, bottom + 42.0),
+        title,
+        "intervals",
+        &html! {
+            @for tick in &marks {
+                path.grid d=(line(&[(x_of(*tick, ends), 0.0), (x_of(*tick, ends), bottom)], false)) {}
+                text.tick x=(unit(x_of(*tick, ends))) y=(unit(bottom + 15.0)) text-anchor="middle" { (words::number(*tick, digits)) }
+            }
+            path.zero d=(line(&[(x_of(0.0, ends), 0.0), (x_of(0.0, ends), bottom)], false)) {}
+            text.tick x=(unit(0.5 * (LEFT + RIGHT))) y=(unit(bottom + 34.0)) text-anchor="middle" { (axis) }
+            @for (k, one) in estimates.iter().enumerate() {
+                @let y = ROW * k as f64 + 0.5 * ROW;
+                text.label x=(unit(LEFT - 12.0)) y=(unit(y + 5.0)) text-anchor="end" { (one.name) }
+                @if let Some([low, high]) = one.interval {
+                    path.whisker d={
+                        (line(&[(x_of(low, ends), y), (x_of(high, ends), y)], false))
+                        (line(&[(x_of(low, ends), y - 6.0), (x_of(low, ends), y + 6.0)], false))
+                        (line(&[(x_of(high, ends), y - 6.0), (x_of(high, ends), y + 6.0)], false))
+                    } {}
+                }
+                circle.dot-1 cx=(unit(x_of(one.value, ends))) cy=(unit(y)) r="5" { title { (one.name) ": " (words::number(one.value, 2)) } }
+            }
+        },
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn estimate(value: f64, interval: Option<[f64; 2]>) -> Estimate {
+        Estimate { name: "<a>".into(), value, interval }
+    }
+
+    #[test]
+    fn exact_the_axis_holds_every_interval_and_zero() {
+        let all = [estimate(-2.0, Some([-4.0, -1.0])), estimate(0.5, Some([0.0, 1.0])), estimate(0.2, None)];
+        assert_eq!(ends(&all), (-4.4, 1.4));
+        assert_eq!((x_of(-4.4, ends(&all)), x_of(1.4, ends(&all))), (220.0, 600.0));
+        let figure = intervals(&all, "points", "t").into_string();
+        assert_eq!((figure.matches("class=\"whisker\"").count(), figure.matches("<circle").count()), (2, 3));
+        assert_eq!(figure.matches("class=\"grid\"").count(), 3, "-4, -2 and 0 once, none beyond the ends: {figure}");
+        assert!(figure.contains("class=\"zero\"") && figure.contains("&lt;a&gt;"), "{figure}");
+        assert_eq!(ends(&[estimate(0.0, None)]), (-1.0, 1.0));
+        assert_eq!(ends(&[]), (-1.0, 1.0));
+    }
+}

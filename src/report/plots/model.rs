@@ -1,0 +1,115 @@
+//! The causal model as a drawing: demand acts on strain, strain on performance, feedback on the first of the two.
+
+use super::{line, sheet, unit};
+use maud::{Markup, html};
+
+const SIZE: (f64, f64) = (854.0, 268.0);
+/// Width and height of a box.
+const BOX: (f64, f64) = (150.0, 54.0);
+const ROW: f64 = 128.0;
+const DEMAND: f64 = 12.0;
+const STRAIN: f64 = 352.0;
+const PERFORMANCE: f64 = 692.0;
+const FEEDBACK: (f64, f64) = (182.0, 10.0);
+/// Half of an arrow head.
+const HEAD: f64 = 5.0;
+
+/// An arrow's words: the estimate, and whether zero lies in its interval.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Effect {
+    /// Estimate and interval.
+    pub words: String,
+    /// Zero lies in the interval.
+    pub may_be_none: bool,
+}
+
+/// The four effects.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Effects {
+    /// Demand on strain.
+    pub on_strain: Effect,
+    /// Strain on performance.
+    pub on_performance: Effect,
+    /// Demand on performance past strain.
+    pub direct: Effect,
+    /// Feedback on the first.
+    pub moderation: Effect,
+}
+
+/// The drawing.
+#[must_use]
+pub fn model(effects: &Effects, title: &str) -> Markup {
+    let middle = ROW + 0.5 * BOX.1;
+    let (from, to) = (DEMAND + BOX.0, STRAIN);
+    let crossing = 0.5 * (from + to);
+    sheet(
+        SIZE,
+        title,
+        "model-drawing",
+        &html! {
+            (named((DEMAND, ROW), "Demand", "mental, physical"))
+            (named((STRAIN, ROW), "State", "pressure, frustration"))
+            (named((PERFORMANCE, ROW), "Performance", "overall score, %"))
+            (named(FEEDBACK, "Feedback", "how much it helped"))
+            (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
+            (said((crossing, middle + 24.0), &effects.on_strain))
+            (arrow(&[(STRAIN + BOX.0, middle), (PERFORMANCE, middle)], &effects.on_performance))
+            (said((0.5 * (STRAIN + BOX.0 + PERFORMANCE), middle + 24.0), &effects.on_performance))
+            (arrow(&[(crossing, FEEDBACK.1 + BOX.1), (crossing, middle - 2.0)], &effects.moderation))
+            text.value x=(unit(crossing + 10.0)) y=(unit(FEEDBACK.1 + BOX.1 + 28.0)) { (effects.moderation.words) }
+            @let (down, low) = (ROW + BOX.1, SIZE.1 - 30.0);
+            (arrow(&[(DEMAND + 0.5 * BOX.0, down), (DEMAND + 0.5 * BOX.0, low), (PERFORMANCE + 0.5 * BOX.0, low), (PERFORMANCE + 0.5 * BOX.0, down)], &effects.direct))
+            (said((0.5 * SIZE.0, low + 20.0), &effects.direct))
+        },
+    )
+}
+
+fn named((x, y): (f64, f64), name: &str, what: &str) -> Markup {
+    html! {
+        rect.node x=(unit(x)) y=(unit(y)) width=(unit(BOX.0)) height=(unit(BOX.1)) rx="8" {}
+        text.label x=(unit(x + 0.5 * BOX.0)) y=(unit(y + 23.0)) text-anchor="middle" { (name) }
+        text.tick x=(unit(x + 0.5 * BOX.0)) y=(unit(y + 41.0)) text-anchor="middle" { (what) }
+    }
+}
+
+fn said((x, y): (f64, f64), effect: &Effect) -> Markup {
+    html! { text.value x=(unit(x)) y=(unit(y)) text-anchor="middle" { (effect.words) } }
+}
+
+fn arrow(points: &[(f64, f64)], effect: &Effect) -> Markup {
+    let head = head(points);
+    html! {
+        path class={ "arrow" @if effect.may_be_none { " may-be-none" } } d=(line(points, false)) {}
+        path.arrow-head d=(line(&head, true)) {}
+    }
+}
+
+/// The three corners of the head at the end of a line whose last part runs along an axis.
+fn head(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let [.., (x0, y0), (x, y)] = points else { return Vec::new() };
+    let (dx, dy) = ((x - x0).signum() * f64::from(u8::from(x != x0)), (y - y0).signum() * f64::from(u8::from(y != y0)));
+    let (back_x, back_y) = (x - 2.0 * HEAD * dx, y - 2.0 * HEAD * dy);
+    vec![(*x, *y), (back_x + HEAD * dy, back_y + HEAD * dx), (back_x - HEAD * dy, back_y - HEAD * dx)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_heads_point_along_the_last_part_and_what_may_be_nothing_is_dashed() {
+        assert_eq!(head(&[(0.0, 0.0), (50.0, 0.0)]), [(50.0, 0.0), (40.0, 5.0), (40.0, -5.0)]);
+        assert_eq!(head(&[(0.0, 9.0), (0.0, 50.0)]), [(0.0, 50.0), (5.0, 40.0), (-5.0, 40.0)]);
+        assert!(head(&[(0.0, 0.0)]).is_empty());
+        let effect = |words: &str, may_be_none| Effect { words: words.into(), may_be_none };
+        let effects = Effects {
+            on_strain: effect("0.7 <a>", false),
+            on_performance: effect("b", true),
+            direct: effect("c", true),
+            moderation: effect("d", false),
+        };
+        let figure = model(&effects, "t").into_string();
+        assert_eq!((figure.matches("may-be-none").count(), figure.matches("arrow-head").count()), (2, 4));
+        assert!(figure.contains("0.7 &lt;a&gt;"), "{figure}");
+    }
+}
