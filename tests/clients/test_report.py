@@ -1,5 +1,6 @@
 """The report of a session in a real browser: no error, no request, the slider moves what it should, wide and narrow, light and dark."""
 
+import json
 import os
 import pathlib
 import re
@@ -213,11 +214,20 @@ def test_made_again_it_is_the_same_and_small(session, tmp_path):
 
 
 def test_two_sessions_compared(browser, session, tmp_path):
-    spandrel.run("report", str(session), str(session), "--out", str(tmp_path / "both.html"))
+    """Two flights that differ: each has its own shape, track and drone."""
+    spandrel.run("demo", "--seed", "5", "--skill", "trained", "--speed", "max", "--trainee", "other", "--sessions", str(tmp_path / "sessions"))
+    other = next(path for path in (tmp_path / "sessions").iterdir() if (path / "telemetry.tlog").is_file())
+    spandrel.run("report", str(session), str(other), "--out", str(tmp_path / "both.html"))
     page = browser.new_context(viewport={"width": 1280, "height": 900}).new_page()
     wrong = []
     page.on("console", lambda message: wrong.append(message.text))
     page.goto((tmp_path / "both.html").as_uri())
     keep(page, "comparison")
     assert page.locator(".shape-1").count() == 1 and page.locator(".shape-2").count() == 1
+    drawn = lambda of: page.locator(of).first.get_attribute("d")
+    assert drawn(".shape-1") != drawn(".shape-2"), "a novice and a trained pilot score alike"
+    assert drawn(".overlaid.line-1") != drawn(".overlaid.line-2"), "two flights are one track"
+    overall = [json.loads((folder / "assessment.json").read_text(encoding="utf-8"))["scores"]["overall"] for folder in (session, other)]
+    text = page.inner_text("main") + page.inner_text("header")
+    assert all(f"{score:.0f}" in text for score in overall) and "other" in text, overall
     assert wrong == []

@@ -1,10 +1,12 @@
 """From a flight to the next one: questionnaire, records, plan, as a person types them."""
 
+import contextlib
 import csv
 import json
 import os
 import pathlib
 import random
+import sqlite3
 import subprocess
 
 import pytest
@@ -79,7 +81,7 @@ def test_csv_tables_are_read_by_others(sessions, tmp_path):
     spandrel.run("records", "import", *place)
     spandrel.run("cohort", "--repetitions", "2", "--csv", str(tmp_path / "tables"), *place)
     tables = {path.name: list(csv.DictReader(path.open(encoding="utf-8"))) for path in (tmp_path / "tables").iterdir()}
-    assert len(tables) == 15
+    assert len(tables) == 16
     assert [row["repetition"] for row in tables["progress.csv"]] == ["1", "2"]
     assert [row["task"] for row in tables["conformity_by_task.csv"]] == ["1", "2", "3", "4"]
     assert all(None not in row and None not in row.values() for rows in tables.values() for row in rows)
@@ -130,10 +132,13 @@ def test_rebuild_does_not_forget_another_stations_sessions(sessions, tmp_path):
     code, _, errors = run_with("", "records", "rebuild", "--sessions", str(other), *database)
     assert code == 2 and "2 sessions have no folder here" in errors
     assert len(json.loads(spandrel.run("records", "list", "--json", *database))) == 2
+    # Who says so deletes them; they were not erased, and come back with their folders.
+    assert "0 sessions, 0 left out, 2 without a folder here deleted" in spandrel.run("records", "rebuild", "--yes", "--sessions", str(other), *database)
+    assert "2 new or changed" in spandrel.run("records", "import", "--sessions", str(sessions), *database)
 
 
 def test_a_killed_import_leaves_whole_records_and_goes_on(tmp_path):
-    """Two hundred sessions (copies of one), the importing program killed at twenty random moments."""
+    """Two hundred sessions (copies of one), the importing program killed twenty times: at random moments, and right after a parcel."""
     spandrel.run("demo", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--sessions", str(tmp_path / "one"))
     original = folders(tmp_path / "one")[0]
     many = tmp_path / "many"
@@ -143,18 +148,33 @@ def test_a_killed_import_leaves_whole_records_and_goes_on(tmp_path):
         for file in ("telemetry.tlog", "scenario.toml", "vehicle.toml", "session.json"):
             os.link(original / file, copy / file)
     place = ["--sessions", str(many), "--database", str(tmp_path / "records.sqlite")]
-    chance = random.Random(1)
-    counts = []
-    for _ in range(20):
-        process = subprocess.Popen([spandrel.PROGRAM, "records", "import", *place], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def stored():
         try:
-            process.wait(timeout=chance.uniform(0.0, 0.6))
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+            with contextlib.closing(sqlite3.connect(f"file:{tmp_path / 'records.sqlite'}?mode=ro", uri=True)) as database:
+                return database.execute("SELECT COUNT(*) FROM sessions").fetchone()[0]
+        except sqlite3.Error:
+            return 0  # Not made yet.
+
+    chance = random.Random(1)
+    counts, killed = [], 0
+    for turn in range(20):
+        process = subprocess.Popen([spandrel.PROGRAM, "records", "import", *place], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        if turn % 2:
+            # At any moment.
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(timeout=chance.uniform(0.0, 0.6))
+        else:
+            # Right after another parcel is in, in the middle of the work.
+            before = counts[-1] if counts else 0
+            spandrel.wait_for("another parcel", lambda: stored() > before or process.poll() is not None)
+        killed += process.poll() is None
+        process.kill()
+        process.wait()
         records = json.loads(spandrel.run("records", "list", "--json", *place))
         assert len({record["id"] for record in records}) == len(records) and all(len(record["tasks"]) == 1 for record in records)
         counts.append(len(records))
+    assert killed and any(0 < count < 200 for count in counts), f"no kill fell into an import: {counts}"
     assert counts == sorted(counts), "nothing that was taken in is lost"
     spandrel.run("records", "import", *place)
     assert len(json.loads(spandrel.run("records", "list", "--json", *place))) == 200

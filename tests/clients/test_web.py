@@ -35,11 +35,12 @@ def browser():
 
 @pytest.fixture(scope="module")
 def sessions(tmp_path_factory):
-    """Anna flew twice, Ben once."""
+    """Anna flew twice, Ben once, Lena four times."""
     folder = tmp_path_factory.mktemp("web") / "sessions"
-    webserver.flown(folder, "anna", "anna", "ben")
+    webserver.flown(folder, "anna", "anna", "ben", "lena", "lena", "lena", "lena")
     spandrel.run("records", "import", "--sessions", str(folder))
-    for name, role in [("anna", "trainee"), ("ben", "trainee"), ("ida", "instructor"), ("ada", "administrator")]:
+    people = [("anna", "trainee"), ("ben", "trainee"), ("lena", "trainee"), ("ida", "instructor"), ("ada", "administrator")]
+    for name, role in people:
         webserver.set_password(folder, name, role)
     return folder
 
@@ -53,7 +54,10 @@ def server(sessions):
 
 
 def ids(sessions, trainee):
-    return sorted(path.name for path in sessions.iterdir() if f"-{trainee}-" in path.name)
+    """A trainee's sessions in the order of their starts: two flights of one second differ in their names by chance."""
+    folders = [path for path in sessions.iterdir() if f"-{trainee}-" in path.name]
+    started = lambda path: json.loads((path / "session.json").read_text(encoding="utf-8"))["started_unix_us"]
+    return [path.name for path in sorted(folders, key=started)]
 
 
 class Person:
@@ -107,9 +111,9 @@ def test_every_page_passes_axe_wide_and_narrow_light_and_dark(browser, server, s
     anna = ids(sessions, "anna")
     pages = {
         "sessions": "/sessions", "session": f"/sessions/{anna[0]}", "questions": f"/sessions/{anna[0]}/questions", "trainees": "/trainees",
-        "trainee": "/trainees/anna", "cohort": "/cohort?scenario=drill-hover&repetitions=2", "scenarios": "/scenarios",
+        "trainee": "/trainees/anna", "practised": "/trainees/lena", "cohort": "/cohort?scenario=drill-hover&repetitions=2", "scenarios": "/scenarios",
         "scenario": "/scenarios/two-bridges", "upload": "/upload", "settings": "/settings", "account": "/account", "live": "/live",
-        "missing": "/sessions/none",
+        "flight": "/flight", "missing": "/sessions/none",
     }
     for name, path in pages.items():
         answer = person.go(path)
@@ -123,6 +127,34 @@ def test_every_page_passes_axe_wide_and_narrow_light_and_dark(browser, server, s
     assert stranger.page.url.endswith("/login")
     stranger.keep(f"login-{size}-{scheme}")
     stranger.check()
+
+
+def test_practice_is_shown_repetition_by_repetition_and_the_cohorts_tables_download(browser, server, tmp_path):
+    """The paper's participant 18: scores, on-path by task and crashes over the repetitions; learning curves from the fourth on."""
+    person = Person(browser, server, "lena")
+    page = person.page
+    person.go("/trainees/lena")
+    progress = page.locator("#progress")
+    assert progress.locator("svg.lines").count() == 2 and progress.locator("svg.practice").count() >= 3
+    # The drill has one task: a point for each of the four repetitions.
+    assert progress.locator("svg.lines").nth(1).locator("circle").count() == 4
+    with page.expect_download() as download:
+        progress.locator("summary", has_text="each repetition").click()
+        progress.locator("details[open] a[download]").first.click()
+    download.value.save_as(tmp_path / "progress.csv")
+    lines = (tmp_path / "progress.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0].startswith("repetition,scenario,conformity") and [line.split(",")[0] for line in lines[1:]] == ["1", "2", "3", "4"]
+    assert person.wrong == []
+    ida = Person(browser, server, "ida")
+    ida.go("/trainees/anna")
+    assert ida.page.locator("#progress svg.practice").count() == 0, "two repetitions make no curve"
+    ida.go("/cohort?scenario=drill-hover&repetitions=2")
+    assert ida.page.locator("#learning svg.practice").count() >= 3
+    with ida.page.expect_download() as download:
+        ida.page.click("a:text-is('learning_of_the_group.csv')")
+    download.value.save_as(tmp_path / "group.csv")
+    assert (tmp_path / "group.csv").read_text(encoding="utf-8").startswith("score,people,repetition,mean,fitted")
+    assert ida.wrong == []
 
 
 def test_a_trainee_answers_leaves_and_returns(browser, server, sessions):
@@ -316,7 +348,8 @@ def test_a_trainee_is_exported_and_erased(browser, server, sessions, tmp_path):
         person.page.click("text=Download everything")
     download.value.save_as(tmp_path / "gone.json")
     kept = json.loads((tmp_path / "gone.json").read_text(encoding="utf-8"))
-    assert kept["trainee"]["pseudonym"] == "gone" and len(kept["sessions"]) == len(kept["folders"]) == 1
+    assert kept["trainee"]["pseudonym"] == "gone" and len(kept["sessions"]) == 1
+    assert kept["folders"] == ids(sessions, "gone") and str(sessions) not in (tmp_path / "gone.json").read_text(encoding="utf-8")
     person.page.click("summary:has-text('Erase')")
     person.page.fill("[name=again]", "anna")
     person.page.click("text=Erase for ever")
@@ -349,12 +382,22 @@ def test_a_scenario_is_uploaded_checked_and_taken_away(browser, server, tmp_path
         expect(person.page.locator(".message")).to_contain_text(said)
         person.keep(f"upload-{said.split()[0]}")
     person.page.click(f"a:has-text('{name}')")
+    # The file may say where defects are: a trainee sees what the job is, and not the file.
+    trainee = Person(browser, server, "anna")
+    trainee.go(f"/scenarios/{name}")
+    expect(trainee.page.locator("#facts")).to_be_visible()
+    assert trainee.page.locator("pre").count() == 0 and person.page.locator("pre").count() == 1
     person.page.click("text=Take this upload away")
-    expect(person.page.locator("main")).not_to_contain_text(name)
+    person.page.wait_for_url("**/scenarios")
+    expect(person.page.locator("main")).to_contain_text("drill-hover")
+    assert name not in person.page.inner_text("main")
 
 
-def test_a_recorded_flight_is_taken_in(browser, server, sessions):
-    log = sessions / ids(sessions, "anna")[1] / "telemetry.tlog"
+def test_a_recorded_flight_is_taken_in(browser, server, sessions, tmp_path):
+    source = sessions / ids(sessions, "anna")[1]
+    # A recording that nobody has taken in: the flight again, without its last record.
+    log = tmp_path / "telemetry.tlog"
+    log.write_bytes((source / "telemetry.tlog").read_bytes()[:-1])
     person = Person(browser, server, "ida")
     person.go("/upload")
     person.page.fill("[name=trainee]", "carl")
@@ -363,12 +406,25 @@ def test_a_recorded_flight_is_taken_in(browser, server, sessions):
     person.page.click("text=Take in >> nth=-1")
     person.page.wait_for_url("**/sessions/*-carl-*")
     taken = sessions / ids(sessions, "carl")[0]
-    source = log.parent
     ours, theirs = (json.loads((folder / "assessment.json").read_text(encoding="utf-8")) for folder in (taken, source))
-    assert ours == theirs
-    assert (taken / "telemetry.tlog").read_bytes() == log.read_bytes()
+    assert ours["scores"] == theirs["scores"] and ours["tasks"] == theirs["tasks"]
+    kept, sent = (taken / "telemetry.tlog").read_bytes(), log.read_bytes()
+    assert sent.startswith(kept) and 0 < len(sent) - len(kept) < 400, "to its last whole record"
     assert "lift_off" in (taken / "events.jsonl").read_text(encoding="utf-8")
+    # The same once more is not another session: it is said where it is.
+    for trainee in ("carl", "carlotta"):
+        person.go("/upload")
+        person.page.fill("[name=trainee]", trainee)
+        person.page.select_option("[name=scenario]", "drill-hover")
+        person.page.set_input_files("[name=file]", log)
+        person.page.click("text=Take in >> nth=-1")
+        expect(person.page.locator(".message.good")).to_contain_text("is here already")
+        person.keep("upload-again")
+    person.page.click(".message a")
+    person.page.wait_for_url("**/sessions/2*")
+    assert len(ids(sessions, "carl")) == 1 and ids(sessions, "carlotta") == []
     # A flight of another job is refused, and leaves nothing behind.
+    log.write_bytes(log.read_bytes()[:-600])
     person.go("/upload")
     person.page.fill("[name=trainee]", "carl")
     person.page.select_option("[name=scenario]", "two-bridges")
@@ -391,6 +447,34 @@ def test_everybody_changes_the_own_password(browser, server, sessions):
     assert person.go("/account").status == 200
     elsewhere.log_in("dora", "another long word")
     assert elsewhere.page.url.endswith("/sessions")
+    # Set at the command line, by another program: all of her visits end.
+    webserver.set_password(sessions, "dora", "trainee", password="yet another long word")
+    for one in (person, elsewhere):
+        one.go("/sessions")
+        assert one.page.url.endswith("/login")
+    # Another role is another login, too.
+    person.log_in("dora", "yet another long word")
+    assert person.page.url.endswith("/sessions")
+    spandrel.run("records", "trainee", "dora", "--role", "instructor", "--sessions", str(sessions))
+    person.go("/sessions")
+    assert person.page.url.endswith("/login")
+
+
+def test_nobodys_change_of_details_is_lost(browser, server, sessions):
+    """Two pages of one trainee are filled in at once: the second is told, and nothing of the first is lost; nor is a role set meanwhile."""
+    webserver.set_password(sessions, "emil", "trainee")
+    first, second = Person(browser, server, "emil"), Person(browser, server, "ida")
+    for one in (first, second):
+        one.go("/trainees/emil")
+    spandrel.run("records", "trainee", "emil", "--drone-experience", "some", "--sessions", str(sessions))
+    first.page.select_option("[name=age_band]", "25-34")
+    first.page.click("text=Save")
+    expect(first.page.locator("main")).to_contain_text("meanwhile")
+    second.go("/trainees/emil")
+    second.page.select_option("[name=age_band]", "35-44")
+    second.page.click("text=Save")
+    second.page.wait_for_url("**/trainees/emil")
+    assert second.page.input_value("[name=age_band]") == "35-44" and second.page.input_value("[name=drone_experience]") == "some"
 
 
 def test_on_one_machine_nobody_logs_in_until_somebody_has_a_password(browser, tmp_path):
@@ -467,6 +551,45 @@ def test_an_instructor_watches_and_acts(browser, tmp_path):
     finally:
         server.close()
         spandrel.end(pilot)
+        flight.close()
+
+
+def test_a_trainee_sees_the_camera_of_his_own_flight_alone(browser, tmp_path):
+    """The picture is one that a window keeps; here the test does."""
+    picture = tmp_path / "camera.jpg"
+    photograph = (spandrel.ROOT / "docs" / "window.jpg").read_bytes()
+    flight = spandrel.Flight(tmp_path, scenario="drill-hover", speed=1)
+    flight.sessions.mkdir(exist_ok=True)
+    for name in ("client-test", "anna"):
+        webserver.set_password(flight.sessions, name, "trainee")
+    server = webserver.Server(flight.sessions, "--picture", str(picture), vehicle=f"127.0.0.1:{flight.payload_port}")
+    try:
+        pilot, anna = webserver.Browser(server.address), webserver.Browser(server.address)
+        assert pilot.log_in("client-test") == 303 and anna.log_in("anna") == 303
+        flying = lambda who: json.loads(who.ask("/flight/now.json")[2])
+        spandrel.wait_for("the flight's owner", lambda: flying(pilot)["flying"])
+        assert flying(pilot)["picture"] is None and pilot.ask("/flight/camera.jpg")[0] == 404
+        picture.write_bytes(photograph)
+        now = flying(pilot)
+        status, headers, _ = pilot.ask(f"/flight/camera.jpg?v={now['picture']}")
+        assert now["picture"] and status == 200 and headers["Content-Type"] == "image/jpeg"
+        assert flying(anna) == {"flying": False, "picture": None} and anna.ask("/flight/camera.jpg")[0] == 404
+        assert pilot.ask("/live")[0] == pilot.ask("/live/camera.jpg")[0] == 403, "map and actions stay the instructor's"
+        for size, scheme in [("desktop", "light"), ("phone", "dark")]:
+            person = Person(browser, server, "client-test", size, scheme)
+            page = person.page
+            picture.write_bytes(photograph)
+            page.click("text=My flight")
+            page.wait_for_function("() => document.querySelector('[data-camera] img').naturalWidth > 0")
+            expect(page.locator("[data-state]")).to_have_text("You are flying.")
+            person.keep(f"own-flight-{size}-{scheme}")
+            person.check()
+        # The flight ends, and with it what is shown of it.
+        spandrel.end(flight.monitor)
+        expect(page.locator("[data-state]")).to_contain_text("not flying", timeout=PATIENCE_MS)
+        assert pilot.ask("/flight/camera.jpg")[0] == 404
+    finally:
+        server.close()
         flight.close()
 
 

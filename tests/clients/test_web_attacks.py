@@ -133,6 +133,36 @@ def test_a_script_in_any_field_stays_words(server, sessions):
     ada.post("/scenarios/evil-title", "/scenarios/evil-title/remove", {})
 
 
+def test_a_hostile_name_of_a_task_stays_words_from_the_flight_to_the_cohort(server, sessions, tmp_path):
+    """A task that calls itself a script is flown, twice and again, and shown wherever its name is."""
+    job = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
+    evil = re.sub(r'(\[\[tasks\]\](?:\n(?!\[).*)*?\nname = )"[^"]*"', lambda found: f'{found.group(1)}"{EVIL}"', job)
+    evil = evil.replace('name = "drill-hover"', 'name = "evil-task"')
+    assert evil.count(EVIL) == 1 and 'name = "evil-task"' in evil, "the scenario has changed: this test no longer plants its name"
+    (tmp_path / "evil.toml").write_text(evil, encoding="utf-8")
+    before = set(sessions.iterdir())
+    for seed in ("1", "2", "3", "4"):
+        spandrel.run("demo", "--scenario", str(tmp_path / "evil.toml"), "--skill", "novice", "--seed", seed, "--speed", "max",
+                     "--trainee", "mallory", "--sessions", str(sessions))
+    first, second, *_ = sorted(path.name for path in set(sessions.iterdir()) - before if (path / "telemetry.tlog").is_file())
+    ida = logged_in(server, "ida")
+    flown = lambda: ida.ask("/trainees/mallory")[2].count('href="/sessions/') >= 4
+    spandrel.wait_for("the server to take the flights in", flown)
+    shown = {
+        "session": f"/sessions/{first}", "report": f"/sessions/{first}/report", "questions": f"/sessions/{first}/questions",
+        "comparison": f"/compare?first={first}&second={second}", "trainee": "/trainees/mallory",
+        "cohort": "/cohort?scenario=evil-task&repetitions=2", "cohort's page": "/cohort/report.html?scenario=evil-task&repetitions=2",
+    }
+    for name, path in shown.items():
+        status, _, text = ida.ask(path)
+        assert status == 200 and "alert(1)" in text, f"{name}: the name is not shown, nothing is tried"
+        assert EVIL not in text, name
+    for path in ["/sessions?trainee=mallory", "/trainees/mallory/export.json", "/cohort/tables/conformity_by_task.csv?scenario=evil-task"]:
+        status, headers, text = ida.ask(path)
+        assert status == 200 and (EVIL not in text or headers.get_content_type() != "text/html"), path
+    assert logged_in(server, "ada").post("/trainees/mallory", "/trainees/mallory/erase", {"again": "mallory"})[0] == 303
+
+
 def test_no_path_leads_out(server, sessions):
     secret = sessions.parent / "secret"
     secret.mkdir(exist_ok=True)
@@ -328,7 +358,15 @@ def test_two_hundred_kills_lose_no_finished_session(tmp_path):
     generator = random.Random(SEED)
     # By folder and question: what was sent last, what the server said it has, and what must be there after the kill.
     sent, confirmed, held = {}, {}, {}
-    taken = set()
+    taken, cut_off = set(), 0
+    # How long a recording takes when nobody is killed: kills fall around it, so that some get through and some do not.
+    undisturbed = webserver.Server(tmp_path / "other")
+    begin = time.monotonic()
+    status, _, _ = webserver.Browser(undisturbed.address).upload(
+        "/upload", "/upload", {"trainee": "carl", "scenario": "drill-hover", "vehicle": "phantom2"}, log)
+    upload_s = time.monotonic() - begin
+    assert status == 303
+    undisturbed.close()
     keys = ["frustration", "feedback", "time_pressure", "calibration.performance", "landing.performance"]
     for kill in range(KILLS):
         server = webserver.Server(sessions)
@@ -341,7 +379,9 @@ def test_two_hundred_kills_lose_no_finished_session(tmp_path):
                 token = browser.token(page)
                 # Now and then a recording, which takes longer than an answer.
                 if kill % 10 == 0:
-                    status, headers, _ = browser.upload(page, "/upload", {"trainee": "carl", "scenario": "drill-hover", "vehicle": "phantom2"}, log)
+                    # Each is another one, for the same twice is one session.
+                    other = log[: len(log) - 300 * (1 + kill // 10)]
+                    status, headers, _ = browser.upload(page, "/upload", {"trainee": "carl", "scenario": "drill-hover", "vehicle": "phantom2"}, other)
                     if status == 303:
                         taken.add(headers["Location"].rsplit("/", 1)[1])
                 for k in range(40):
@@ -358,10 +398,12 @@ def test_two_hundred_kills_lose_no_finished_session(tmp_path):
         with concurrent.futures.ThreadPoolExecutor(1) as pool:
             working = pool.submit(work)
             if kill % 10 == 0:
-                stop = generator.uniform(0.0, 0.6)
+                stop = generator.uniform(0.0, 2.5 * upload_s)
+            before_kill = len(taken)
             time.sleep(stop)  # The moment of the kill, not a wait for anything.
             server.kill()
             working.result()
+            cut_off += kill % 10 == 0 and len(taken) == before_kill
         last = {}
         for folder in flown:
             path = folder / "answers.json"
@@ -373,6 +415,7 @@ def test_two_hundred_kills_lose_no_finished_session(tmp_path):
             assert found in (held.get((folder, key)), value), (kill, key, found)
             held[(folder, key)] = sent[(folder, key)] = found
     assert len(confirmed) >= len(keys), "answers got through"
+    assert taken and cut_off, f"{len(taken)} recordings got through and {cut_off} were cut off: both must happen"
     spandrel.run("records", "import", "--sessions", str(sessions))
     after = {record["id"]: record for record in json.loads(spandrel.run("records", "list", "--json", "--sessions", str(sessions)))}
     for record in before:

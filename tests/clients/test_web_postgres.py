@@ -1,6 +1,7 @@
 """`spandrel serve` over PostgreSQL, as a training centre runs it: several programs, one database."""
 
 import json
+import pathlib
 import subprocess
 
 import pytest
@@ -72,6 +73,23 @@ def test_two_servers_and_a_station_share_one_database(sessions, database, tmp_pa
         assert status == 303 and listed(here) == {"anna", "ben"}
         records = json.loads(spandrel.run("records", "list", "--json", "--sessions", str(station), "--database", database.url))
         assert {record["trainee"] for record in records} == {"anna", "ben"}
+        # The station has Carl's folder still: neither its import nor its rebuild nor a server over it brings him back.
+        place = ["--sessions", str(station), "--database", database.url]
+        assert "0 new or changed, 0 unchanged, 0 left out, 1 not taken in" in spandrel.run("records", "import", *place)
+        assert "2 sessions, 0 left out, 1 not taken in" in spandrel.run("records", "rebuild", "--yes", "--sessions", str(station), "--sessions", str(sessions), "--database", database.url)
+        third = serve(station, database)
+        try:
+            told = lambda: "was erased" in pathlib.Path(third.log.name).read_text(encoding="utf-8")
+            spandrel.wait_for("the third server to look", told)
+            assert listed(here) == listed(there) == {"anna", "ben"}
+        finally:
+            third.close()
+        assert "is erased: 0 sessions" in spandrel.run("records", "erase", "--trainee", "carl", "--yes", *place)
+        assert not any("-carl-" in path.name for path in station.iterdir())
+        # A new password ends the visits that other servers hold.
+        webserver.set_password(sessions, "ada", "administrator", "--database", database.url, password="quite another one")
+        assert here.ask("/sessions")[0] == there.ask("/sessions")[0] == 303
+        webserver.set_password(sessions, "ada", "administrator", "--database", database.url)
     finally:
         first.close()
         second.close()

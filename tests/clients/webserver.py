@@ -2,6 +2,7 @@
 
 import json
 import os
+import pathlib
 import re
 import subprocess
 import urllib.error
@@ -30,10 +31,12 @@ class Server:
         self.address = json.loads(line)["address"]
 
     def close(self):
-        """Ends it as a parent that goes away."""
+        """Ends it as a parent that goes away; whatever was under way, it ends in peace."""
         self.process.stdin.close()
         self.process.wait(timeout=PATIENCE_S)
         self.log.close()
+        said = pathlib.Path(self.log.name).read_text(encoding="utf-8")
+        assert self.process.returncode == 0 and "panicked" not in said and "fault of the program" not in said, said
 
     def kill(self):
         """Ends it as a power cut."""
