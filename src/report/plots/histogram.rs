@@ -6,7 +6,7 @@ use crate::training::statistics::Bin;
 use maud::{Markup, html};
 
 const SIZE: (f64, f64) = (312.0, 150.0);
-const LEFT: f64 = 28.0;
+const LEFT: f64 = 44.0;
 const RIGHT: f64 = 290.0;
 const TOP: f64 = 8.0;
 const BOTTOM: f64 = 122.0;
@@ -47,9 +47,9 @@ mod tests {
     fn exact_a_bar_is_as_tall_as_its_count() {
         let bins = [Bin { from: 0.0, to: 50.0, count: 1 }, Bin { from: 50.0, to: 100.0, count: 2 }];
         let figure = histogram(&bins, 75.0, "t").into_string();
-        assert!(figure.contains("x=\"28.5\" y=\"65\" width=\"130\" height=\"57\""), "{figure}");
-        assert!(figure.contains("x=\"159.5\" y=\"8\" width=\"130\" height=\"114\""), "{figure}");
-        assert!(figure.contains("M224.5 8L224.5 122"), "{figure}");
+        assert!(figure.contains("x=\"44.5\" y=\"65\" width=\"122\" height=\"57\""), "{figure}");
+        assert!(figure.contains("x=\"167.5\" y=\"8\" width=\"122\" height=\"114\""), "{figure}");
+        assert!(figure.contains("M228.5 8L228.5 122"), "{figure}");
         assert!(!histogram(&[], 0.0, "t").into_string().contains("NaN"));
     }
 }
