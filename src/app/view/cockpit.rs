@@ -2,6 +2,7 @@
 //! leads it, and the loop that draws.
 
 mod desk;
+mod display;
 mod flight;
 mod frame;
 mod keeper;
@@ -10,6 +11,7 @@ mod lead;
 mod listener;
 mod panes;
 mod pilot;
+mod plan;
 mod screen;
 mod sound;
 mod stream;
@@ -40,9 +42,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
     let keys = controller::keys(args.keys.as_deref())?;
-    let plan = window::Plan {
+    let plan = plan::Plan {
         listen: args.listen,
-        quality: window::quality(&args.quality)?,
+        quality: plan::quality(&args.quality)?,
         size_px: size(&args.size)?,
         map: !args.no_map,
         picture: picture(args)?,
@@ -72,10 +74,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Cockpit::new(plan, keys, flow, crew, speaker, stop).run()
 }
 
-fn picture(args: &Args) -> Result<Option<window::Picture>, AppError> {
+fn picture(args: &Args) -> Result<Option<plan::Picture>, AppError> {
     let (Some(path), Some(after)) = (&args.screenshot, args.after) else { return Ok(None) };
     if !(0.0..=AFTER_MAX_S).contains(&after) {
         return Err(AppError::wrong(format!("--after {after}: give seconds, 0 to {AFTER_MAX_S}")));
     }
-    Ok(Some(window::Picture { path: path.clone(), after: Duration::from_secs_f64(after) }))
+    Ok(Some(plan::Picture { path: path.clone(), after: Duration::from_secs_f64(after) }))
 }

@@ -1,10 +1,12 @@
 //! The window's loop: events in, pages and views out.
 
+use super::display;
 use super::flight::Flight;
 use super::keeper::Keeper;
 use super::keys::{self, Change, Held};
 use super::lead::Lead;
 use super::pilot::{Ask, Pilot};
+use super::plan::Plan;
 use super::screen::Screen;
 use super::sound::Speaker;
 use super::stream::Stream;
@@ -19,12 +21,10 @@ use crate::view::gaze::Gaze;
 use crate::view::gpu::Pictures;
 use crate::view::hud;
 use crate::view::quality::{PRESETS, Quality};
-use std::net::IpAddr;
-use std::path::PathBuf;
 use std::time::Duration;
 use winit::application::ApplicationHandler;
 use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::window::WindowId;
 
 /// No more pictures than this, 1/s: what a screen shows; without a graphics card, what a person still sees as motion.
@@ -37,39 +37,6 @@ const REST: f64 = 0.25;
 const TURN_RAD_PX: f64 = 0.003;
 /// A notch of the wheel zooms so many times.
 const ZOOM_NOTCH: f64 = 1.15;
-
-/// What is asked for on the command line.
-#[derive(Debug, Clone)]
-pub struct Plan {
-    /// Local address to bind.
-    pub listen: IpAddr,
-    /// A preset; `None`: by the device.
-    pub quality: Option<Quality>,
-    /// Size of the window.
-    pub size_px: (u32, u32),
-    /// The map may be shown.
-    pub map: bool,
-    /// A picture to keep.
-    pub picture: Option<Picture>,
-    /// Where the camera's view is kept for others.
-    pub keep: Option<PathBuf>,
-    /// Say on standard output when both views are drawn.
-    pub announce: bool,
-}
-
-/// A picture of the window.
-#[derive(Debug, Clone)]
-pub struct Picture {
-    /// Where it goes.
-    pub path: PathBuf,
-    /// When, from the first drawn view.
-    pub after: Duration,
-}
-
-/// The preset of a name; `None` for auto.
-pub fn quality(name: &str) -> Result<Option<Quality>, AppError> {
-    if name == "auto" { Ok(None) } else { crate::app::render::quality(name).map(Some) }
-}
 
 /// Who stands behind the window.
 pub struct Crew {
@@ -136,7 +103,7 @@ impl Cockpit {
 
     /// Opens the window and stays until it is closed.
     pub fn run(mut self) -> Result<(), AppError> {
-        let events = display()?;
+        let events = display::open()?;
         events.run_app(&mut self).map_err(|error| AppError::failed(format!("the window broke off: {error}")))?;
         self.land();
         self.failed.map_or(Ok(()), Err)
@@ -308,21 +275,4 @@ impl ApplicationHandler for Cockpit {
         }
         events.set_control_flow(ControlFlow::wait_duration(self.due.saturating_sub(now)));
     }
-}
-
-/// The display's events.
-fn display() -> Result<EventLoop<()>, AppError> {
-    // The library for keyboards is looked for when it is first used, and its absence is a panic there: here it is one more thing that is
-    // missing.
-    let told = std::panic::take_hook();
-    std::panic::set_hook(Box::new(|_| {}));
-    let opened = std::panic::catch_unwind(EventLoop::new);
-    std::panic::set_hook(told);
-    let why = match opened {
-        Ok(Ok(events)) => return Ok(events),
-        Ok(Err(error)) => error.to_string(),
-        Err(_) => "a library is missing; Debian and Ubuntu: apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 libxrandr2"
-            .to_owned(),
-    };
-    Err(AppError::failed(format!("there is no display to open a window on ({why}); everything else works without")))
 }

@@ -1,0 +1,78 @@
+//! What a person does, what is shown, and what the window is told to do.
+
+use super::pipe::{Flying, FromWindow};
+
+/// What a person did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Press {
+    /// One row up.
+    Up,
+    /// One row down.
+    Down,
+    /// The value before.
+    Left,
+    /// The next value.
+    Right,
+    /// Do it.
+    Enter,
+    /// Back, or on, whatever is harmless.
+    Escape,
+    /// Without the last sign.
+    Backspace,
+    /// A sign was typed.
+    Sign(char),
+    /// A row was clicked.
+    Row(usize),
+    /// An arrow beside a row's value was clicked: back, or on.
+    Step(usize, bool),
+}
+
+/// What is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Page {
+    /// Nothing is known yet.
+    Opening,
+    /// Who flies what.
+    Start,
+    /// The controller is tried.
+    Controls,
+    /// And calibrated.
+    Calibrating,
+    /// So many pages of the tutorial have been turned; whether a flight follows.
+    Tutorial(usize, bool),
+    /// The simulator starts.
+    Waiting,
+    /// The flight itself.
+    Flight,
+    /// It stands still.
+    Paused,
+    /// Scores.
+    Over,
+}
+
+/// What the window is to do.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Order {
+    /// Say this to `train`.
+    Tell(FromWindow),
+    /// Show this flight.
+    Fly(Box<Flying>),
+    /// Let go of the flight.
+    Land,
+    /// Look for a controller again.
+    Look,
+    /// Begin to calibrate.
+    Calibrate,
+    /// The wizard's Enter.
+    Confirm,
+    /// Leave the wizard.
+    Cancel,
+    /// Change and keep the profile: stick mode, dead band, expo.
+    Profile(i64, f64, f64),
+    /// Show an address in a browser.
+    Open(String),
+    /// Sound on or off.
+    Sound(bool),
+    /// Close the window.
+    Close,
+}
