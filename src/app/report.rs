@@ -125,6 +125,7 @@ fn about(session: &Path, stored: &Stored) -> About {
     About {
         trainee: stored.trainee.clone(),
         started_unix_us: stored.started_unix_us,
+        purpose: stored.purpose.clone(),
         started_utc: clock::utc(stored.started_unix_us).0,
         folder: name.unwrap_or_default(),
         scenario_sha256: sha256_hex(stored.scenario.text.as_bytes()),

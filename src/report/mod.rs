@@ -37,6 +37,8 @@ use crate::vehicle::Vehicle;
 pub struct About {
     /// Who flew.
     pub trainee: String,
+    /// `practice` or `assessment`, where somebody chose.
+    pub purpose: Option<String>,
     /// Wall time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// The same for people, UTC.
@@ -161,6 +163,7 @@ fn next(about: &About, scenario: &Scenario, vehicle: &Vehicle, graded: &Graded, 
     let record = record(&Source {
         id: &about.folder,
         trainee: &about.trainee,
+        purpose: about.purpose.as_deref(),
         started_unix_us: about.started_unix_us,
         spandrel_version: env!("CARGO_PKG_VERSION"),
         scenario,

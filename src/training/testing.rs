@@ -12,6 +12,7 @@ pub fn faultless(trainee: &str, number: usize) -> Record {
         id: format!("session-{trainee}-{number:03}"),
         fingerprint: format!("f{number}"),
         trainee: trainee.to_owned(),
+        purpose: None,
         started_unix_us: 1_700_000_000_000_000 + 259_200_000_000 * number as u64,
         spandrel_version: "0.1.0".into(),
         scorer_version: 1,

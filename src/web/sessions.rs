@@ -61,7 +61,8 @@ pub fn list(visitor: &Visitor, listing: &Listing<'_>) -> Markup {
 #[must_use]
 pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
     let all = visitor.meets(Needs::Instructor);
-    let mut heads = vec![("Started", false), ("Trainee", false), ("Scenario", false), ("Overall", true), ("End", false)];
+    let mut heads =
+        vec![("Started", false), ("Trainee", false), ("Scenario", false), ("Purpose", false), ("Overall", true), ("End", false)];
     if !all {
         heads.remove(1);
     }
@@ -74,6 +75,7 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
                     th scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
                     @if all { td { a href={ "/trainees/" (one.trainee) } { (one.trainee) } } }
                     td { (one.scenario) }
+                    td { (one.purpose.as_deref().unwrap_or("–")) }
                     td.number { (words::number(one.overall, 1)) " of " (words::number(one.overall_max, 0)) }
                     td { (one.end_reason.replace('_', " ")) }
                 }
@@ -96,7 +98,8 @@ pub struct Beside<'a> {
 pub fn session(visitor: &Visitor, record: &Record, beside: &Beside<'_>) -> Markup {
     let body = html! {
         p.lead {
-            a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle) " · "
+            a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
+            @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
             (words::duration(record.seconds)) " of flight, end: " (record.end_reason.replace('_', " "))
         }
         (actions(record, beside))
@@ -249,6 +252,7 @@ mod tests {
             overall: 1.0,
             overall_max: 400.0,
             end_reason: EVIL.into(),
+            purpose: Some(EVIL.into()),
         };
         let others = [other];
         check(&session(&administrator(), &record, &Beside { folder: true, others: &others }).into_string());

@@ -55,6 +55,7 @@ fn recorded(graded: &Graded, scenario: &Scenario) -> Record {
     record(&Source {
         id: "20231114T221320Z-anna-test-job-000000",
         trainee: "anna",
+        purpose: None,
         started_unix_us: 1_000_000,
         spandrel_version: "0.1.0",
         scenario,

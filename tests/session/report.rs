@@ -118,7 +118,13 @@ fn exact_what_users_wrote_is_escaped_everywhere() {
     for task in &mut job.tasks {
         task.name = EVIL.into();
     }
-    let about = About { trainee: EVIL.into(), started_utc: EVIL.into(), folder: EVIL.into(), ..About::default() };
+    let about = About {
+        trainee: EVIL.into(),
+        purpose: Some(EVIL.into()),
+        started_utc: EVIL.into(),
+        folder: EVIL.into(),
+        ..About::default()
+    };
     let mut vehicle = phantom();
     vehicle.name = EVIL.into();
     let tape = noted(flown(&job, 200.0, 9), EVIL);

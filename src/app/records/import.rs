@@ -58,6 +58,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<R
     Ok(Some(record(&Source {
         id: &id,
         trainee: &stored.trainee,
+        purpose: stored.purpose.as_deref(),
         started_unix_us: stored.started_unix_us,
         spandrel_version: &stored.spandrel_version,
         scenario,

@@ -12,21 +12,21 @@ use std::collections::BTreeMap;
 
 const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, \
     telemetry_sha256, spandrel_version, scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, \
-    overall_max, fingerprint, record) \
-    VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18, $19, $20) \
+    overall_max, fingerprint, record, purpose) \
+    VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18, $19, $20, $21) \
     ON CONFLICT (id) DO UPDATE SET trainee = excluded.trainee, started_unix_us = excluded.started_unix_us, \
     scenario = excluded.scenario, scenario_sha256 = excluded.scenario_sha256, vehicle = excluded.vehicle, \
     vehicle_sha256 = excluded.vehicle_sha256, telemetry_sha256 = excluded.telemetry_sha256, \
     spandrel_version = excluded.spandrel_version, scorer_version = excluded.scorer_version, end_reason = excluded.end_reason, \
     seconds = excluded.seconds, conformity = excluded.conformity, efficiency = excluded.efficiency, safety = excluded.safety, \
     accuracy = excluded.accuracy, overall = excluded.overall, overall_max = excluded.overall_max, \
-    fingerprint = excluded.fingerprint, record = excluded.record \
+    fingerprint = excluded.fingerprint, record = excluded.record, purpose = excluded.purpose \
     WHERE sessions.fingerprint <> excluded.fingerprint";
 const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
 // The inner question is answered from an index alone; only what is shown is read whole.
-const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason FROM sessions WHERE id IN \
+const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose FROM sessions WHERE id IN \
     (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
-const LIST_OF_ONE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason FROM sessions WHERE id IN \
+const LIST_OF_ONE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose FROM sessions WHERE id IN \
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
 impl Database {
@@ -255,6 +255,7 @@ fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &Record, text: Stri
         .bind(scores.overall_max)
         .bind(record.fingerprint.clone())
         .bind(text)
+        .bind(record.purpose.clone())
 }
 
 fn listed(row: &AnyRow) -> Result<Listed, sqlx::Error> {
@@ -267,6 +268,7 @@ fn listed(row: &AnyRow) -> Result<Listed, sqlx::Error> {
         overall: row.try_get(4)?,
         overall_max: row.try_get(5)?,
         end_reason: row.try_get(6)?,
+        purpose: row.try_get(7)?,
     })
 }
 

@@ -57,6 +57,7 @@ fn files(review: &Review) -> Table {
         rows: vec![
             row("session", about.folder.clone().into()),
             row("trainee", about.trainee.clone().into()),
+            row("purpose", about.purpose.clone().unwrap_or_else(|| "not said".into()).into()),
             row("started", about.started_utc.clone().into()),
             row("scenario", review.scenario.name.clone().into()),
             row("scenario, SHA-256", about.scenario_sha256.clone().into()),

@@ -19,7 +19,10 @@ pub fn header(review: &Review) -> Markup {
             div {
                 p.kicker { "Session report" }
                 h1 { (review.scenario.title) }
-                p { b { (review.about.trainee) } " · " (utc(&review.about.started_utc)) " · " (review.vehicle.name) }
+                p {
+                    b { (review.about.trainee) } " · " (utc(&review.about.started_utc)) " · " (review.vehicle.name)
+                    @if let Some(purpose) = &review.about.purpose { " · " (purpose) }
+                }
                 p { (words::duration(end.seconds)) " of flight, " (words::end(end.reason)) ". " (cover(review)) }
             }
             div.overall {

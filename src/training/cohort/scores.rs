@@ -28,6 +28,9 @@ pub struct Individual {
     pub trainee: String,
     /// Session.
     pub session: String,
+    /// `practice` or `assessment`, where somebody chose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub purpose: Option<String>,
     /// 0 to 100.
     pub conformity: Option<f64>,
     /// 0 to 100.
@@ -153,6 +156,7 @@ pub fn individual(record: &Record) -> Individual {
     Individual {
         trainee: record.trainee.clone(),
         session: record.id.clone(),
+        purpose: record.purpose.clone(),
         conformity: record.scores.conformity,
         efficiency: record.scores.efficiency,
         safety: record.scores.safety,

@@ -103,10 +103,11 @@ fn histograms(cohort: &Cohort) -> String {
 }
 
 fn individuals(cohort: &Cohort) -> String {
-    let columns = ["trainee", "session", "conformity", "efficiency", "safety", "accuracy", "overall", "seconds"];
+    let columns = ["trainee", "session", "conformity", "efficiency", "safety", "accuracy", "overall", "seconds", "purpose"];
     Table::new(&columns).rows(cohort.individuals.iter().map(|one| {
+        let purpose = one.purpose.as_deref().map_or(String::new(), text);
         let scores = [one.conformity, Some(one.efficiency), Some(one.safety), one.accuracy, Some(one.overall), Some(one.seconds)];
-        [vec![text(&one.trainee), text(&one.session)], scores.map(maybe).to_vec()].concat()
+        [vec![text(&one.trainee), text(&one.session)], scores.map(maybe).to_vec(), vec![purpose]].concat()
     }))
 }
 

@@ -25,6 +25,9 @@ pub struct Record {
     pub fingerprint: String,
     /// Pseudonym.
     pub trainee: String,
+    /// `practice` or `assessment`, where somebody chose.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub purpose: Option<String>,
     /// Wall time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Version of the program that recorded the session.
@@ -168,6 +171,8 @@ pub struct Listed {
     pub id: String,
     /// Pseudonym.
     pub trainee: String,
+    /// `practice` or `assessment`, where somebody chose.
+    pub purpose: Option<String>,
     /// µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Job.
@@ -187,6 +192,8 @@ pub struct Source<'a> {
     pub id: &'a str,
     /// Pseudonym.
     pub trainee: &'a str,
+    /// `practice` or `assessment`, where somebody chose.
+    pub purpose: Option<&'a str>,
     /// Wall time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Version of the program that recorded it.
@@ -245,6 +252,7 @@ pub fn record(source: &Source<'_>) -> Record {
         id: source.id.to_owned(),
         fingerprint: source.hashes.fingerprint(),
         trainee: source.trainee.to_owned(),
+        purpose: source.purpose.map(str::to_owned),
         started_unix_us: source.started_unix_us,
         spandrel_version: source.spandrel_version.to_owned(),
         scorer_version: SCORER_VERSION,

@@ -111,7 +111,11 @@ fn lets_people_in_and_forgets_them(target: &str) {
 
 fn counts_and_finds_sessions(target: &str) {
     let database = Database::open(target).unwrap();
-    database.put(&[record("cleo", 1), record("cleo", 2), record("dan", 3)]).unwrap();
+    let assessed = Record { purpose: Some("assessment".into()), ..record("dan", 3) };
+    database.put(&[record("cleo", 1), record("cleo", 2), assessed.clone()]).unwrap();
+    let listed = database.list(None, 10, 0).unwrap();
+    assert_eq!(listed.iter().map(|one| one.purpose.as_deref()).collect::<Vec<_>>(), [Some("assessment"), None, None]);
+    assert_eq!(database.record("session-dan-003").unwrap(), Some(assessed));
     let counts = [None, Some("cleo"), Some("dan"), Some("nobody"), Some("' OR 1 = 1 --")].map(|who| database.count(who).unwrap());
     assert_eq!(counts, [3, 2, 1, 0, 0]);
     assert_eq!(database.record("session-cleo-002").unwrap(), Some(record("cleo", 2)));
