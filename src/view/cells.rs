@@ -86,10 +86,16 @@ pub fn cut(mesh: &Mesh) -> Vec<Mesh> {
     cells.into_values().map(|(part, _)| part).collect()
 }
 
+/// How far a mesh reaches from its origin, m.
+#[must_use]
+pub fn reach_m(mesh: &Mesh) -> f64 {
+    mesh.vertices.iter().map(|v| position(v).norm()).fold(0.0, f64::max)
+}
+
 /// Copies of a mesh by cell, each with the ball around them.
 #[must_use]
 pub fn grouped(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, Ball)> {
-    let reach_m = mesh.vertices.iter().map(|v| position(v).norm()).fold(0.0, f64::max);
+    let reach_m = reach_m(mesh);
     let origin = |i: &Instance| Vec3::new(f64::from(i.rows[0][3]), f64::from(i.rows[1][3]), f64::from(i.rows[2][3]));
     let size = |i: &Instance| {
         let column = |k: usize| i.rows.iter().map(|row| f64::from(row[k]) * f64::from(row[k])).sum::<f64>().sqrt();

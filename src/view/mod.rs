@@ -31,5 +31,6 @@ pub mod shot;
 pub mod sky;
 pub mod sound;
 pub mod stage;
+pub mod tiles;
 #[cfg(feature = "view")]
 pub mod video;

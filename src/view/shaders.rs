@@ -22,6 +22,8 @@ pub fn all() -> Vec<Source> {
         ("sky", include_str!("shaders/sky.wgsl")),
     ];
     let mut sources: Vec<Source> = drawn.iter().map(|(name, own)| Source { name, text: format!("{COMMON}\n{own}") }).collect();
+    let lean = [COMMON, include_str!("shaders/surface.wgsl"), include_str!("shaders/lean.wgsl")].join("\n");
+    sources.push(Source { name: "lean", text: lean });
     sources.push(Source { name: "shadow", text: include_str!("shaders/shadow.wgsl").to_owned() });
     sources.push(Source { name: "develop", text: include_str!("shaders/develop.wgsl").to_owned() });
     sources

@@ -20,6 +20,9 @@ pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Finished pictures: encoded in sRGB by the shader.
 pub const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
+/// A pipeline for each look.
+pub type Looks = Vec<(Look, wgpu::RenderPipeline)>;
+
 /// Layouts, samplers and pipelines.
 pub struct Pipelines {
     /// Globals, shadow maps and their sampler.
@@ -36,16 +39,16 @@ pub struct Pipelines {
     pub tiled: wgpu::Sampler,
     /// Compares with a shadow map.
     pub compare: wgpu::Sampler,
-    /// Solids, by their look.
-    pub surfaces: Vec<(Look, wgpu::RenderPipeline)>,
-    /// Solids, mirrored, by their look.
-    pub surfaces_mirrored: Vec<(Look, wgpu::RenderPipeline)>,
+    /// Solids without and with the lamp.
+    pub surfaces: [Looks; 2],
+    /// Solids, mirrored, without and with the lamp.
+    pub surfaces_mirrored: [Looks; 2],
     /// What shines through.
     pub sheer: wgpu::RenderPipeline,
     /// Defects, by their AASHTO code.
     pub defects: Vec<(u32, wgpu::RenderPipeline)>,
-    /// The lake.
-    pub water: wgpu::RenderPipeline,
+    /// The lake without and with the lamp.
+    pub water: [wgpu::RenderPipeline; 2],
     /// The sky.
     pub sky: wgpu::RenderPipeline,
     /// The sky, mirrored.
@@ -110,8 +113,11 @@ fn patches() -> wgpu::VertexBufferLayout<'static> {
 }
 
 /// What sets one pipeline apart.
+#[derive(Clone, Copy)]
 struct Kind<'a> {
     module: &'a wgpu::ShaderModule,
+    /// The module's functions for corners and for pixels.
+    entries: (&'static str, &'static str),
     layouts: &'a [Option<&'a wgpu::BindGroupLayout>],
     buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
     target: Option<wgpu::TextureFormat>,
@@ -140,7 +146,7 @@ fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module: kind.module,
-            entry_point: Some("vs"),
+            entry_point: Some(kind.entries.0),
             compilation_options: constants.clone(),
             buffers: kind.buffers,
         },
@@ -155,7 +161,7 @@ fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
         multisample: wgpu::MultisampleState { count: kind.samples, ..Default::default() },
         fragment: kind.target.map(|_| wgpu::FragmentState {
             module: kind.module,
-            entry_point: Some("fs"),
+            entry_point: Some(kind.entries.1),
             compilation_options: constants,
             targets: &targets,
         }),
@@ -208,7 +214,15 @@ impl Layouts {
         let maps = seen(TextureSampleType::Depth, true, false);
         let depth = seen(TextureSampleType::Depth, false, quality.samples > 1);
         let compare = Sampler(SamplerBindingType::Comparison);
-        let globals = [(both, UNIFORM), (fragment, maps), (fragment, compare), (fragment, filtered), (fragment, smooth)];
+        let globals = [
+            (both, UNIFORM),
+            (fragment, maps),
+            (fragment, compare),
+            (both, filtered),
+            (both, smooth),
+            (fragment, filtered),
+            (fragment, filtered),
+        ];
         Self {
             globals: layout(gpu, &globals),
             water: layout(gpu, &[(fragment, filtered), (fragment, smooth)]),
@@ -248,14 +262,28 @@ fn special(gpu: &Gpu, kind: &Kind, more: &[(&str, f64)]) -> wgpu::RenderPipeline
     build(gpu, &Kind { constants: &constants, ..*kind })
 }
 
-/// One pipeline for each look.
-fn surfaces(gpu: &Gpu, kind: &Kind, mirrored: f64) -> Vec<(Look, wgpu::RenderPipeline)> {
-    let of = |look: Look| {
-        let glossy = f64::from(u8::from(look.shines()));
-        (look, special(gpu, kind, &[("LOOK", f64::from(look as u32)), ("GLOSSY", glossy), ("MIRRORED", mirrored)]))
-    };
-    Look::ALL.into_iter().map(of).collect()
+/// One pipeline for each look, without and with the lamp.
+fn surfaces(gpu: &Gpu, kind: &Kind, quality: &Quality, mirrored: f64) -> [Looks; 2] {
+    by_lamp(quality, |lamp| {
+        let of = |look: Look| {
+            let glossy = f64::from(u8::from(look.shines()));
+            let own = [("LOOK", f64::from(look as u32)), ("GLOSSY", glossy), ("MIRRORED", mirrored), lamp];
+            (look, special(gpu, kind, &own))
+        };
+        Look::ALL.into_iter().map(of).collect()
+    })
 }
+
+/// What is drawn without and with the lamp: only a lean preset leaves the lamp out while it is off, the others have one for both.
+fn by_lamp<T: Clone>(quality: &Quality, of: impl Fn((&'static str, f64)) -> T) -> [T; 2] {
+    let lit = of(("LAMP", 1.0));
+    [if quality.lean { of(("LAMP", 0.0)) } else { lit.clone() }, lit]
+}
+
+/// Functions for corners and for pixels, as nearly every module calls them.
+const ENTRIES: (&str, &str) = ("vs", "fs");
+/// Those of the shader `lean`.
+const LEAN: (&str, &str) = ("vs_lean", "fs_lean");
 
 /// Nearer is greater; what is as near as before is drawn over.
 const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
@@ -280,6 +308,7 @@ impl Pipelines {
         let costs = costs(quality);
         let solid = Kind {
             module: &surface,
+            entries: ENTRIES,
             layouts: &globals,
             buffers: &solid_buffers,
             target: Some(LIGHT),
@@ -293,7 +322,9 @@ impl Pipelines {
             constants: &costs,
         };
         let shown = Some((false, NEARER));
-        let mirrored = Kind { front: wgpu::FrontFace::Cw, samples: 1, ..solid };
+        let lean = module(gpu, "lean", same);
+        let shaded = if quality.lean { Kind { module: &lean, entries: LEAN, ..solid } } else { solid };
+        let mirrored = Kind { front: wgpu::FrontFace::Cw, samples: 1, ..shaded };
         let back = Kind { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
         let see_through = [costs.as_slice(), &[("LOOK", f64::from(Look::Simple as u32))]].concat();
         let sheer = Kind { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
@@ -311,6 +342,7 @@ impl Pipelines {
             constants: &[],
             ..solid
         };
+        let blur = [("BLUR", f64::from(u8::from(quality.blur_taps > 1)))];
         let film = Kind {
             module: &develop,
             layouts: &develop_layouts,
@@ -319,15 +351,15 @@ impl Pipelines {
             depth: None,
             cull: None,
             samples: 1,
-            constants: &[],
+            constants: &blur,
             ..solid
         };
         Self {
-            surfaces: surfaces(gpu, &solid, 0.0),
-            surfaces_mirrored: surfaces(gpu, &mirrored, 1.0),
+            surfaces: surfaces(gpu, &shaded, quality, 0.0),
+            surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),
             sheer: build(gpu, &sheer),
             defects: catalogue::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect(),
-            water: build(gpu, &lake),
+            water: by_lamp(quality, |lamp| special(gpu, &lake, &[lamp])),
             sky_mirrored: build(gpu, &Kind { samples: 1, ..back }),
             sky: build(gpu, &back),
             shadow: build(gpu, &dark),

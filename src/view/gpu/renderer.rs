@@ -1,24 +1,25 @@
 //! Draws shots of one scene.
 
 mod labels;
+mod sight;
 
 use super::device::{Gpu, GpuError};
 use super::overlay::Overlay;
 use super::pass::{Copies, Solid, begin, begin_depth, upload};
-use super::pipelines::{DEPTH, LabelPipelines, PICTURE, Pipelines};
-use super::targets::{Targets, noise_texture};
+use super::pipelines::{DEPTH, LabelPipelines, Looks, PICTURE, Pipelines};
+use super::targets::{Targets, noise_texture, tile_texture};
 use super::uniforms::{Develop, Globals, MAPS, Maps};
 use crate::base::frames::{Enu, Vec3};
 use crate::site::catalogue;
 use crate::view::cells::{self, Ball, Frustum};
 use crate::view::hud::Item;
-use crate::view::looks::Look;
-use crate::view::matrix::Matrix;
 use crate::view::picture::Picture;
 use crate::view::quality::Quality;
 use crate::view::scene::{Instance, Model, Patch, Scene, Seen};
 use crate::view::shadows::{self, Map};
 use crate::view::shot::Shot;
+use crate::view::tiles;
+use sight::View;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -59,6 +60,8 @@ pub struct Renderer {
     labels: Option<LabelPipelines>,
     fixed: Vec<Fixed>,
     models: Vec<Option<Solid>>,
+    /// How far models reach from their origin, m.
+    reaches_m: Vec<f64>,
     water: Vec<(Solid, Ball)>,
     patches: Vec<(u32, wgpu::Buffer, u32)>,
     bounds_m: (Vec3<Enu>, f64),
@@ -84,11 +87,21 @@ impl Renderer {
             ..Default::default()
         });
         let noise = noise_texture(gpu);
+        // What only a lean preset reads costs the others nothing.
+        let tile = |levels: fn() -> tiles::Levels| if quality.lean { tile_texture(gpu, &levels()) } else { noise.clone() };
+        let (ground, concrete) = (tile(tiles::ground), tile(tiles::concrete));
         let bind = |data: &wgpu::Buffer| {
             let view = wgpu::BindingResource::TextureView;
             let sampler = wgpu::BindingResource::Sampler;
-            let bound =
-                [data.as_entire_binding(), view(&all), sampler(&pipelines.compare), view(&noise), sampler(&pipelines.tiled)];
+            let bound = [
+                data.as_entire_binding(),
+                view(&all),
+                sampler(&pipelines.compare),
+                view(&noise),
+                sampler(&pipelines.tiled),
+                view(&ground),
+                view(&concrete),
+            ];
             let entries: Vec<wgpu::BindGroupEntry> =
                 bound.into_iter().enumerate().map(|(k, resource)| wgpu::BindGroupEntry { binding: k as u32, resource }).collect();
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -103,6 +116,7 @@ impl Renderer {
         Self {
             fixed: fixed(gpu, scene),
             models: scene.models.iter().map(|mesh| Solid::new(gpu, mesh)).collect(),
+            reaches_m: scene.models.iter().map(cells::reach_m).collect(),
             water: cells::cut(&scene.water).iter().filter_map(|cell| Some((Solid::new(gpu, cell)?, Ball::of(cell)))).collect(),
             patches: patches(gpu, &scene.patches),
             bounds_m: scene.bounds_m,
@@ -145,17 +159,19 @@ impl Renderer {
             let globals = Globals::new(shot, self.water_m, &maps, mirrored);
             gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(&globals));
         }
-        let moving = self.moving(gpu, &shot.moving);
+        let view = View::of(shot, self.water_m);
+        let casts = self.quality.cascades > 1 || lamp_map.is_some();
+        let moving =
+            if casts { self.moving(gpu, &shot.moving) } else { self.moving(gpu, &view.in_sight(&shot.moving, &self.reaches_m)) };
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw_maps(gpu, &mut encoder, shot, (&sun_maps, lamp_map.as_ref()), &moving);
         let targets =
             self.targets.remove(&shot.size_px).unwrap_or_else(|| Targets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
-        let projection = shot.eye.view_projection(shot.aspect());
-        if self.quality.reflection > 0.0 {
-            let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, (&projection, shot.eye.position_m));
+        if self.quality.reflection > 0.0 && view.lake {
+            let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &view);
             self.counts = self.counts.and(mirrored);
         }
-        let lit = self.draw_light(&mut encoder, &targets, &moving, (&projection, shot.eye.position_m));
+        let lit = self.draw_light(&mut encoder, &targets, &moving, &view);
         self.counts = self.counts.and(lit);
         let develop = Develop::new(shot, &self.quality);
         gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
@@ -244,13 +260,19 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
         moving: &[(Model, Copies)],
-        (projection, eye_m): (&Matrix, Vec3<Enu>),
+        view: &View,
     ) -> Counts {
-        let shown = Frustum::of(&projection.after(&Matrix::mirror(self.water_m)));
+        let shown = view.mirrored();
         let mut counts = Counts::default();
         let mut pass = begin(encoder, &targets.mirror, None, Some(&targets.mirror_depth));
         pass.set_bind_group(0, &self.bound_mirrored, &[]);
-        self.draw_solids(&mut pass, &self.pipelines.surfaces_mirrored, (moving, &shown), (Seen::Directly, eye_m), &mut counts);
+        self.draw_solids(
+            &mut pass,
+            &self.pipelines.surfaces_mirrored[view.lamp],
+            (moving, &shown),
+            (true, view.eye_m),
+            &mut counts,
+        );
         pass.set_pipeline(&self.pipelines.sky_mirrored);
         pass.draw(0..3, 0..1);
         counts.draws += 1;
@@ -261,13 +283,13 @@ impl Renderer {
     fn draw_solids(
         &self,
         pass: &mut wgpu::RenderPass,
-        pipelines: &[(Look, wgpu::RenderPipeline)],
+        pipelines: &Looks,
         (moving, shown): (&[(Model, Copies)], &Frustum),
-        (hidden, eye_m): (Seen, Vec3<Enu>),
+        (in_lake, eye_m): (bool, Vec3<Enu>),
         counts: &mut Counts,
     ) {
-        let mut still: Vec<&Fixed> =
-            self.fixed.iter().filter(|fixed| fixed.seen != hidden && shown.may_show(&fixed.ball)).collect();
+        let shows = |fixed: &&Fixed| shown.may_show(&fixed.ball) && fixed.seen.shows(in_lake, fixed.ball.from_m(eye_m));
+        let mut still: Vec<&Fixed> = self.fixed.iter().filter(shows).collect();
         // Near things first: what they hide is not shaded.
         still.sort_by(|a, b| a.ball.from_m(eye_m).total_cmp(&b.ball.from_m(eye_m)));
         for (look, pipeline) in pipelines {
@@ -300,21 +322,21 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
         moving: &[(Model, Copies)],
-        (projection, eye_m): (&Matrix, Vec3<Enu>),
+        view: &View,
     ) -> Counts {
-        let shown = Frustum::of(projection);
+        let shown = view.straight();
         let mut counts = Counts::default();
         let mut pass = begin(encoder, &targets.light, targets.resolved.as_ref(), Some(&targets.depth));
         pass.set_bind_group(0, &self.bound, &[]);
-        self.draw_solids(&mut pass, &self.pipelines.surfaces, (moving, &shown), (Seen::Mirrored, eye_m), &mut counts);
+        self.draw_solids(&mut pass, &self.pipelines.surfaces[view.lamp], (moving, &shown), (false, view.eye_m), &mut counts);
         let patches = self.draw_patches(&mut pass, &self.pipelines.defects);
         counts = counts.and(patches);
         pass.set_pipeline(&self.pipelines.sky);
         pass.draw(0..3, 0..1);
         counts.draws += 1;
-        pass.set_pipeline(&self.pipelines.water);
+        pass.set_pipeline(&self.pipelines.water[view.lamp]);
         pass.set_bind_group(1, &targets.water, &[]);
-        for (water, _) in self.water.iter().filter(|(_, ball)| shown.may_show(ball)) {
+        for (water, _) in self.water.iter().filter(|(_, ball)| view.lake && shown.may_show(ball)) {
             water.draw_alone(&mut pass);
             counts.draws += 1;
             counts.triangles += u64::from(water.triangles());

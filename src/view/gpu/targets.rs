@@ -79,12 +79,16 @@ impl Targets {
 
 /// The tile of noise.
 pub fn noise_texture(gpu: &Gpu) -> wgpu::TextureView {
-    use crate::view::noise;
-    let levels = noise::levels();
+    let levels: Vec<_> = crate::view::noise::levels().into_iter().map(|level| (level.side, level.rgba)).collect();
+    tile_texture(gpu, &levels)
+}
+
+/// A tile of four channels with its means, finest first.
+pub fn tile_texture(gpu: &Gpu, levels: &[(usize, Vec<u8>)]) -> wgpu::TextureView {
     let side = |px: usize| wgpu::Extent3d { width: px as u32, height: px as u32, depth_or_array_layers: 1 };
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("noise"),
-        size: side(noise::SIDE),
+        label: Some("tile"),
+        size: side(levels.first().map_or(1, |level| level.0)),
         mip_level_count: levels.len() as u32,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -92,7 +96,7 @@ pub fn noise_texture(gpu: &Gpu) -> wgpu::TextureView {
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    for (k, level) in levels.iter().enumerate() {
+    for (k, (texels, rgba)) in levels.iter().enumerate() {
         gpu.queue.write_texture(
             wgpu::TexelCopyTextureInfo {
                 texture: &texture,
@@ -100,9 +104,9 @@ pub fn noise_texture(gpu: &Gpu) -> wgpu::TextureView {
                 origin: wgpu::Origin3d::ZERO,
                 aspect: wgpu::TextureAspect::All,
             },
-            &level.rgba,
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * level.side as u32), rows_per_image: None },
-            side(level.side),
+            rgba,
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * *texels as u32), rows_per_image: None },
+            side(*texels),
         );
     }
     texture.create_view(&wgpu::TextureViewDescriptor::default())

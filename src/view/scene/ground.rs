@@ -34,36 +34,34 @@ fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m:
     }
 }
 
-/// The ground that collides.
-pub fn mesh(scenario: &Scenario, site: &Site, bake: &Bake) -> Mesh {
-    let terrain = &site.geometry().terrain;
-    let (points, triangles) = terrain.ground.triangles();
+/// The ground that collides, by those of its corners that are shown.
+pub fn mesh(scenario: &Scenario, site: &Site, bake: &Bake, shown: &[[u32; 3]]) -> Mesh {
+    let (points, triangles) = site.geometry().terrain.ground.triangles();
     let normals = smooth(&points, &triangles);
-    let vertices = points.iter().zip(&normals).map(|(p, n)| {
+    let vertex = |k: u32| {
+        let (p, n) = (&points[k as usize], &normals[k as usize]);
         let near = site.geometry().nearest_member(*p, SHADED_M).is_some();
         // In the open a slope sees the sky over its own horizon and a little of the ground.
         let open = [0.5 + 0.5 * n.up() as f32, 0.02];
         let light = if near { bake.at(*p + *n * 0.3, *n) } else { open };
         ground_vertex(*p, *n, light, p.up() - scenario.terrain.water_level_m)
-    });
-    Mesh { vertices: vertices.collect(), indices: triangles.into_iter().flatten().collect() }
+    };
+    of_corners(points.len(), shown.iter().copied(), vertex)
 }
 
-/// The same ground by every fourth of its corners, for what shows but dimly and small; `None` where it has no such corners.
-pub fn coarse(ground: &Mesh) -> Option<Mesh> {
-    const STEP: usize = 4;
-    let side = ground.vertices.len().isqrt();
-    if side * side != ground.vertices.len() || side < STEP + 1 || !(side - 1).is_multiple_of(STEP) {
-        return None;
+/// A mesh of triangles whose corners are made when they are first met.
+fn of_corners(corners: usize, triangles: impl Iterator<Item = [u32; 3]>, vertex: impl Fn(u32) -> Vertex) -> Mesh {
+    let mut mesh = Mesh::default();
+    let mut placed: Vec<Option<u32>> = vec![None; corners];
+    for k in triangles.flatten() {
+        let index = placed[k as usize].unwrap_or_else(|| {
+            mesh.vertices.push(vertex(k));
+            mesh.vertices.len() as u32 - 1
+        });
+        placed[k as usize] = Some(index);
+        mesh.indices.push(index);
     }
-    let few = (side - 1) / STEP + 1;
-    let corner = |k: usize| ground.vertices[STEP * (k / few) * side + STEP * (k % few)];
-    let n = few as u32;
-    let cells = (0..n - 1).flat_map(|row| (0..n - 1).map(move |column| row * n + column));
-    Some(Mesh {
-        vertices: (0..few * few).map(corner).collect(),
-        indices: cells.flat_map(|a| [a, a + 1, a + n + 1, a, a + n + 1, a + n]).collect(),
-    })
+    mesh
 }
 
 fn smooth(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
@@ -138,27 +136,18 @@ fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
 }
 
 /// The lake: over the field a corner for each of the ground's with its depth, and far out a frame.
-pub fn water(scenario: &Scenario, site: &Site, bake: &Bake) -> Mesh {
+pub fn water(scenario: &Scenario, site: &Site, bake: &Bake, shown: &[[u32; 3]]) -> Mesh {
     let level = scenario.terrain.water_level_m;
-    let (points, triangles) = site.geometry().terrain.ground.triangles();
-    let wet = |k: u32| level - points[k as usize].up() > -1.5;
-    let mut mesh = Mesh::default();
-    let mut placed: Vec<Option<u32>> = vec![None; points.len()];
-    for triangle in triangles.iter().filter(|t| t.iter().any(|k| wet(*k))) {
-        for k in triangle {
-            let index = placed[*k as usize].unwrap_or_else(|| {
-                let p = points[*k as usize];
-                let at = Vec3::new(p.east(), p.north(), level);
-                let near = site.geometry().nearest_member(at, SHADED_M).is_some();
-                let up = Vec3::new(0.0, 0.0, 1.0);
-                let light = if near { bake.at(at, up) } else { [1.0, 0.0] };
-                mesh.vertices.push(water_vertex(at, light, level - p.up()));
-                mesh.vertices.len() as u32 - 1
-            });
-            placed[*k as usize] = Some(index);
-            mesh.indices.push(index);
-        }
-    }
+    let (points, _) = site.geometry().terrain.ground.triangles();
+    let wet = |k: &u32| level - points[*k as usize].up() > -1.5;
+    let vertex = |k: u32| {
+        let p = points[k as usize];
+        let at = Vec3::new(p.east(), p.north(), level);
+        let near = site.geometry().nearest_member(at, SHADED_M).is_some();
+        let light = if near { bake.at(at, Vec3::new(0.0, 0.0, 1.0)) } else { [1.0, 0.0] };
+        water_vertex(at, light, level - p.up())
+    };
+    let mut mesh = of_corners(points.len(), shown.iter().filter(|t| t.iter().any(wet)).copied(), vertex);
     let half = 0.5 * scenario.terrain.size_m;
     let frame = [
         (-LAKE_M, -LAKE_M, LAKE_M, -half),
@@ -209,33 +198,4 @@ pub fn pad(site: &Site) -> Mesh {
     }
     mesh.indices.extend([0, 1, 2, 0, 2, 3]);
     mesh
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exact_a_coarse_ground_keeps_every_fourth_corner_and_faces_up() {
-        let at = |k: usize| Vec3::new(f64::from(k as u32 % 9), f64::from(k as u32 / 9), 0.1 * f64::from(k as u32));
-        let up = Vec3::new(0.0, 0.0, 1.0);
-        let ground = |corners: usize| Mesh {
-            vertices: (0..corners).map(|k| ground_vertex(at(k), up, [1.0; 2], 0.0)).collect(),
-            indices: Vec::new(),
-        };
-        let few = coarse(&ground(81)).unwrap();
-        assert_eq!((few.vertices.len(), few.triangles()), (9, 8));
-        assert_eq!(few.vertices[4].position, single(at(4 * 9 + 4)), "the middle stays");
-        for triangle in few.indices.chunks(3) {
-            let p = |k: u32| {
-                Vec3::<Enu>::new(0.0, 0.0, 0.0) + {
-                    let [x, y, z] = few.vertices[k as usize].position.map(f64::from);
-                    Vec3::new(x, y, z)
-                }
-            };
-            let normal = (p(triangle[1]) - p(triangle[0])).cross(p(triangle[2]) - p(triangle[0]));
-            assert!(normal.up() > 0.0);
-        }
-        assert!(coarse(&ground(64)).is_none(), "seven steps are no fours");
-    }
 }

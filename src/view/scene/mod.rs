@@ -5,13 +5,15 @@ mod bake;
 mod bridges;
 pub mod defects;
 mod drone;
+mod fields;
 mod ground;
 mod plants;
 mod props;
+mod sparse;
 
 pub use defects::Patch;
 
-use super::mesh::{Mesh, single};
+use super::mesh::{Mesh, Vertex, single};
 use super::quality::Quality;
 use crate::base::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use crate::base::math;
@@ -47,6 +49,22 @@ impl Instance {
         Self { rows: [0, 1, 2].map(|k| [x[k], y[k], z[k], o[k]]), paint: [0.0; 4], around }
     }
 
+    /// A corner of the mesh where this copy has it, lit as the shaders light copies.
+    fn applied(&self, v: &Vertex) -> Vertex {
+        let turned = |of: [f32; 3]| self.rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
+        let [x, y, z] = turned(v.normal);
+        let length = (x * x + y * y + z * z).sqrt().max(f32::MIN_POSITIVE);
+        let moved = turned(v.position);
+        let up = 0.5 + 0.5 * z / length;
+        let light = |k: usize| v.light[k] * (self.around[2 + k] + (self.around[k] - self.around[2 + k]) * up);
+        Vertex {
+            position: [0, 1, 2].map(|k| moved[k] + self.rows[k][3]),
+            normal: [x, y, z].map(|c| c / length),
+            light: [light(0), light(1)],
+            ..*v
+        }
+    }
+
     fn painted(self, [r, g, b]: [f32; 3]) -> Self {
         Self { paint: [r, g, b, 1.0], ..self }
     }
@@ -68,14 +86,26 @@ pub struct Part {
 }
 
 /// Where something shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Seen {
     /// Everywhere.
     Everywhere,
-    /// Wherever the eye meets it, but not in the lake.
-    Directly,
+    /// Wherever the eye meets it, but in the lake only what is nearer than this, m.
+    MirroredTo(f64),
     /// In the lake alone: a simpler stand-in.
     Mirrored,
+}
+
+impl Seen {
+    /// Whether it shows straight or in the lake, at a distance.
+    #[must_use]
+    pub fn shows(self, in_lake: bool, from_m: f64) -> bool {
+        match self {
+            Self::Everywhere => true,
+            Self::MirroredTo(most_m) => !in_lake || from_m < most_m,
+            Self::Mirrored => in_lake,
+        }
+    }
 }
 
 impl Part {
@@ -135,6 +165,8 @@ pub struct Scene {
     water_m: f64,
 }
 
+/// How many times farther off the ground may lie in the lake's mirror, which waves blur and which has fewer pixels.
+const IN_LAKE: f64 = 4.0;
 /// Speed at which propellers are shown to turn, rad/s: slow enough not to stand still on a screen (the wire does not tell the true one).
 const SHOWN_SPIN_RAD_S: f64 = 43.0;
 
@@ -144,25 +176,28 @@ impl Scene {
     pub fn build(scenario: &Scenario, site: &Site, vehicle: &Vehicle, quality: &Quality, at: At) -> Self {
         let sun = site.light().daylight(at).sun;
         let bake = Bake::new(site, sun, quality.light_rays);
+        let shown = if quality.sparse { fields::sparse(scenario, site, 1.0) } else { fields::all(site) };
+        let rounds = if quality.sparse { props::Rounds::Plain } else { props::Rounds::Fine };
         let mut parts = vec![
             Part::here("bridges", bridges::mesh(scenario, &bake, quality), true),
-            Part::here("ground", ground::mesh(scenario, site, &bake), true),
+            Part::here("ground", ground::mesh(scenario, site, &bake, &shown), true),
             Part::here("mountains", ground::mountains(scenario, site), false),
             Part::here("pad", ground::pad(site), false),
         ];
-        if let (true, Some(coarse)) = (quality.plain_mirror, ground::coarse(&parts[1].mesh)) {
-            parts[1].seen = Seen::Directly;
-            parts.push(Part { seen: Seen::Mirrored, ..Part::here("ground in the lake", coarse, false) });
+        if quality.sparse {
+            parts[1].seen = Seen::MirroredTo(0.0);
+            let rough = ground::mesh(scenario, site, &bake, &fields::sparse(scenario, site, IN_LAKE));
+            parts.push(Part { seen: Seen::Mirrored, ..Part::here("ground in the lake", rough, false) });
         }
         parts.extend(plants::parts(scenario, site, quality));
         Self {
             parts,
-            water: ground::water(scenario, site, &bake),
+            water: ground::water(scenario, site, &bake, &shown),
             patches: defects::patches(site, sun),
             models: vec![
-                props::car(),
-                props::truck(),
-                props::person(),
+                props::car(rounds),
+                props::truck(rounds),
+                props::person(rounds),
                 drone::body(vehicle),
                 drone::propeller(vehicle),
                 drone::disc(vehicle),

@@ -1,7 +1,7 @@
 //! Conifers and boulders for scale. They stand where nobody flies a task: clear of bridges, task paths and pad, since nothing collides with
 //! them.
 
-use super::super::mesh::{Finish, Material, Mesh};
+use super::super::mesh::{Finish, Material, Mesh, Vertex};
 use super::super::quality::Quality;
 use super::{Instance, Part, Seen};
 use crate::base::frames::{Enu, Vec3};
@@ -20,6 +20,8 @@ const CLEAR_PAD_M: f64 = 26.0;
 const DRY_M: f64 = 2.2;
 /// And on ground no steeper than this (the normal's rise).
 const STEEP: f64 = 0.72;
+/// Where triangles are saved the lake mirrors trees no farther than this, m (there one is three pixels of its mirror).
+const MIRRORED_M: f64 = 160.0;
 /// Side of the patches in which trees stand together, m.
 const GROVE_M: f64 = 55.0;
 
@@ -63,12 +65,17 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<Part> {
         rocks.push(grown(foot, size, turn));
     }
     // A boulder is a few pixels of the lake's mirror.
-    let on_shore = if quality.plain_mirror { Seen::Directly } else { Seen::Everywhere };
-    vec![
-        Part { name: "spruces", mesh: conifer(0.21, 5, quality.boughs), instances: tall, casts: true, seen: Seen::Everywhere },
-        Part { name: "firs", mesh: conifer(0.15, 6, quality.boughs), instances: slim, casts: true, seen: Seen::Everywhere },
-        Part { name: "boulders", mesh: boulder(quality.boughs), instances: rocks, casts: true, seen: on_shore },
-    ]
+    let on_shore = if quality.sparse { Seen::MirroredTo(0.0) } else { Seen::Everywhere };
+    let (spruce, fir) = (conifer(0.21, 5, quality.boughs), conifer(0.15, 6, quality.boughs));
+    let boulders = Part { name: "boulders", mesh: boulder(quality.boughs), instances: rocks, casts: true, seen: on_shore };
+    if quality.sparse {
+        // Software draws copies one by one: a wood in one piece takes less.
+        let mut wood = stamped(&spruce, &tall);
+        wood.append(&stamped(&fir, &slim));
+        return vec![Part { seen: Seen::MirroredTo(MIRRORED_M), ..Part::here("trees", wood, true) }, boulders];
+    }
+    let trees = |name, mesh, instances| Part { name, mesh, instances, casts: true, seen: Seen::Everywhere };
+    vec![trees("spruces", spruce, tall), trees("firs", fir, slim), boulders]
 }
 
 /// How likely a tree is here: groves and clearings.
@@ -112,7 +119,11 @@ fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
     // Fewer boughs stand in fewer whorls.
     let whorls = if boughs < 8 { whorls - 2 } else { whorls };
     let mut mesh = Mesh::default();
-    mesh.round((Vec3::new(0.0, 0.0, -0.05), 0.018), (Vec3::new(0.0, 0.0, 0.3), 0.012), 5, BARK);
+    if boughs < 8 {
+        trunk(&mut mesh);
+    } else {
+        mesh.round((Vec3::new(0.0, 0.0, -0.05), 0.018), (Vec3::new(0.0, 0.0, 0.3), 0.012), 5, BARK);
+    }
     for whorl in 0..whorls {
         let share = f64::from(whorl) / f64::from(whorls);
         let low = 0.10 + 0.80 * share;
@@ -125,16 +136,57 @@ fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
             Vec3::new(wide * ragged * c, wide * ragged * s, low + droop)
         };
         let top = Vec3::new(0.0, 0.0, high);
+        if boughs < 8 {
+            cone(&mut mesh, &(0..boughs).map(rim).collect::<Vec<_>>(), top);
+            continue;
+        }
         let hollow = Vec3::new(0.0, 0.0, low + 0.05);
         for k in 0..boughs {
             mesh.polygon(&[rim(k), rim(k + 1), top], NEEDLES);
-            if boughs >= 8 {
-                mesh.polygon(&[rim(k + 1), rim(k), hollow], NEEDLES);
-            }
+            mesh.polygon(&[rim(k + 1), rim(k), hollow], NEEDLES);
         }
     }
     soften(&mut mesh);
     mesh
+}
+
+/// A whorl whose faces share their corners: a third of the corners of separate faces.
+fn cone(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
+    let (first, count) = (mesh.vertices.len() as u32, rim.len() as u32);
+    mesh.polygon(rim, NEEDLES);
+    mesh.indices.truncate(mesh.indices.len() - 3 * (rim.len() - 2));
+    for (corner, at) in mesh.vertices.iter_mut().skip(first as usize).zip(rim) {
+        corner.normal = super::single((Vec3::new(at.east(), at.north(), 0.0).unit() + Vec3::new(0.0, 0.0, 0.35)).unit());
+    }
+    let Some(apex) =
+        mesh.vertices.last().map(|corner| Vertex { position: super::single(top), normal: [0.0, 0.0, 1.0], ..*corner })
+    else {
+        return;
+    };
+    mesh.vertices.push(apex);
+    mesh.indices.extend((0..count).flat_map(|k| [first + k, first + (k + 1) % count, first + count]));
+}
+
+/// A trunk of three faces.
+fn trunk(mesh: &mut Mesh) {
+    let foot = |k: u32| {
+        let (s, c) = math::sin_cos(math::TAU * f64::from(k) / 3.0);
+        Vec3::new(0.022 * c, 0.022 * s, -0.05)
+    };
+    for k in 0..3 {
+        mesh.polygon(&[foot(k), foot(k + 1), Vec3::new(0.0, 0.0, 0.5)], BARK);
+    }
+}
+
+/// All copies as one mesh where they stand, with their light.
+fn stamped(mesh: &Mesh, copies: &[Instance]) -> Mesh {
+    let mut all = Mesh::default();
+    for copy in copies {
+        let first = all.vertices.len() as u32;
+        all.vertices.extend(mesh.vertices.iter().map(|v| copy.applied(v)));
+        all.indices.extend(mesh.indices.iter().map(|k| first + k));
+    }
+    all
 }
 
 /// Needles scatter light: normals lean outward and up, and the inside is darker.

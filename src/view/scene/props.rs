@@ -47,18 +47,45 @@ pub fn colour(kind: Kind, k: usize) -> [f32; 3] {
     }
 }
 
+/// How round wheels and limbs are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rounds {
+    /// As round as they look from a step away.
+    Fine,
+    /// As round as they look across a road: with half the sides.
+    Plain,
+}
+
+impl Rounds {
+    /// Sides of what has so many at its finest.
+    fn sides(self, finest: u32) -> u32 {
+        match self {
+            Self::Fine => finest,
+            Self::Plain => finest.div_ceil(2).max(4),
+        }
+    }
+
+    /// Rings and sides of a ball.
+    fn ball(self) -> (u32, u32) {
+        match self {
+            Self::Fine => (8, 12),
+            Self::Plain => (4, 6),
+        }
+    }
+}
+
 fn p(x: f64, y: f64, z: f64) -> Vec3<Enu> {
     Vec3::new(x, y, z)
 }
 
-fn wheel(mesh: &mut Mesh, x: f64, y: f64, radius: f64, width: f64) {
+fn wheel(mesh: &mut Mesh, x: f64, y: f64, (radius, width): (f64, f64), rounds: Rounds) {
     let side = y.signum();
-    mesh.round((p(x, y - side * width, radius), radius), (p(x, y, radius), radius), 14, TYRE);
-    mesh.round((p(x, y, radius), 0.62 * radius), (p(x, y + side * 0.015, radius), 0.55 * radius), 12, RIM);
+    mesh.round((p(x, y - side * width, radius), radius), (p(x, y, radius), radius), rounds.sides(14), TYRE);
+    mesh.round((p(x, y, radius), 0.62 * radius), (p(x, y + side * 0.015, radius), 0.55 * radius), rounds.sides(12), RIM);
 }
 
 /// A family car, 4.5 m long.
-pub fn car() -> Mesh {
+pub fn car(rounds: Rounds) -> Mesh {
     let mut mesh = Mesh::default();
     // Sills, waist, bonnet and boot.
     mesh.block([-2.2, -0.86, 0.22], [2.2, 0.86, 0.55], [0.0, 0.0, -0.03], PAINT);
@@ -71,7 +98,7 @@ pub fn car() -> Mesh {
     mesh.block([-0.40, -0.81, 0.84], [-0.30, 0.81, 1.37], [0.0, 0.0, 0.17], PAINT);
     for x in [1.38, -1.38] {
         for y in [0.88, -0.88] {
-            wheel(&mut mesh, x, y, 0.33, 0.22);
+            wheel(&mut mesh, x, y, (0.33, 0.22), rounds);
         }
     }
     for y in [0.62, -0.62] {
@@ -84,7 +111,7 @@ pub fn car() -> Mesh {
 }
 
 /// A lorry, 10 m long: a cab and a box body.
-pub fn truck() -> Mesh {
+pub fn truck(rounds: Rounds) -> Mesh {
     let mut mesh = Mesh::default();
     mesh.block([-5.0, -0.45, 0.55], [4.6, 0.45, 0.85], [0.0; 3], DARK);
     // Cab with a raked windscreen.
@@ -106,29 +133,29 @@ pub fn truck() -> Mesh {
     }
     for x in [3.85, -2.35, -3.5] {
         for y in [1.2, -1.2] {
-            wheel(&mut mesh, x, y, 0.5, 0.3);
+            wheel(&mut mesh, x, y, (0.5, 0.3), rounds);
         }
     }
     mesh
 }
 
 /// A person, 1.75 m tall, standing.
-pub fn person() -> Mesh {
+pub fn person(rounds: Rounds) -> Mesh {
     let mut mesh = Mesh::default();
     for y in [0.09, -0.09] {
-        mesh.round((p(0.02, y, 0.06), 0.055), (p(0.0, y, 0.48), 0.07), 8, TROUSERS);
-        mesh.round((p(0.0, y, 0.48), 0.07), (p(0.0, y, 0.88), 0.09), 8, TROUSERS);
+        mesh.round((p(0.02, y, 0.06), 0.055), (p(0.0, y, 0.48), 0.07), rounds.sides(8), TROUSERS);
+        mesh.round((p(0.0, y, 0.48), 0.07), (p(0.0, y, 0.88), 0.09), rounds.sides(8), TROUSERS);
         mesh.block([-0.08, y - 0.05, 0.0], [0.18, y + 0.05, 0.09], [0.08, 0.0, 0.01], DARK);
     }
     for y in [0.225, -0.225] {
-        mesh.round((p(0.04, y * 1.02, 0.82), 0.035), (p(0.0, y * 0.96, 1.12), 0.045), 7, PAINT);
-        mesh.round((p(0.0, y * 0.96, 1.12), 0.045), (p(0.0, y * 0.88, 1.42), 0.055), 7, PAINT);
-        mesh.ball(p(0.05, y * 1.03, 0.78), [0.04, 0.03, 0.05], 0.0, SKIN);
+        mesh.round((p(0.04, y * 1.02, 0.82), 0.035), (p(0.0, y * 0.96, 1.12), 0.045), rounds.sides(7), PAINT);
+        mesh.round((p(0.0, y * 0.96, 1.12), 0.045), (p(0.0, y * 0.88, 1.42), 0.055), rounds.sides(7), PAINT);
+        mesh.ball_of(rounds.ball(), p(0.05, y * 1.03, 0.78), [0.04, 0.03, 0.05], 0.0, SKIN);
     }
     mesh.block([-0.11, -0.17, 0.84], [0.11, 0.17, 1.46], [0.02, 0.02, -0.03], PAINT);
-    mesh.round((p(0.0, 0.0, 1.44), 0.055), (p(0.0, 0.0, 1.54), 0.05), 8, SKIN);
-    mesh.ball(p(0.01, 0.0, 1.62), [0.095, 0.08, 0.115], 0.0, SKIN);
-    mesh.ball(p(-0.015, 0.0, 1.665), [0.098, 0.086, 0.085], 0.0, HAIR);
+    mesh.round((p(0.0, 0.0, 1.44), 0.055), (p(0.0, 0.0, 1.54), 0.05), rounds.sides(8), SKIN);
+    mesh.ball_of(rounds.ball(), p(0.01, 0.0, 1.62), [0.095, 0.08, 0.115], 0.0, SKIN);
+    mesh.ball_of(rounds.ball(), p(-0.015, 0.0, 1.665), [0.098, 0.086, 0.085], 0.0, HAIR);
     mesh
 }
 
@@ -141,9 +168,12 @@ mod tests {
 
     #[test]
     fn exact_what_is_drawn_lies_within_what_collides() {
-        for (mesh, kind, half_width, height) in
-            [(car(), Kind::Car, 0.9, 1.5), (truck(), Kind::Truck, 1.25, 3.5), (person(), Kind::Pedestrian, 0.29, 1.78)]
-        {
+        for (mesh, kind, half_width, height) in [
+            (car(Rounds::Fine), Kind::Car, 0.9, 1.5),
+            (truck(Rounds::Fine), Kind::Truck, 1.25, 3.5),
+            (person(Rounds::Fine), Kind::Pedestrian, 0.29, 1.78),
+            (person(Rounds::Plain), Kind::Pedestrian, 0.29, 1.78),
+        ] {
             let half_length = kind.half_length_m();
             for v in &mesh.vertices {
                 let [x, y, z] = v.position.map(f64::from);

@@ -1,3 +1,6 @@
+// A branch on the material goes the same way over a whole triangle, so footprints found within it are right.
+diagnostic(off, derivative_uniformity);
+
 // Light is carried as pi times radiance, in lux over the exposure's white: a white matte surface under the white illuminance is 1.
 
 // What a preset decides (pipelines.rs): shadow maps of the sun; texels a side of their filter; the lamp casts shadows; the lake mirrors.
@@ -7,6 +10,8 @@ override LAMP_CASTS: bool = true;
 override MIRROR: bool = true;
 // Small things that cost much: ripples of light, the finest waves.
 override DETAIL: bool = true;
+// The lamp is on.
+override LAMP: bool = true;
 // What a pipeline draws has highlights and reflections.
 override GLOSSY: bool = true;
 
@@ -66,7 +71,11 @@ fn noise(p: vec2<f32>) -> f32 {
 
 // Several octaves about 0.5, averaged over the footprint (in the units of p).
 fn fbm(p: vec2<f32>, footprint: f32) -> f32 {
-    return textureSampleLevel(noise_map, noise_sampler, p / 16.0, log2(max(footprint * 32.0, 1.0))).r;
+    if DETAIL {
+        return textureSampleLevel(noise_map, noise_sampler, p / 16.0, log2(max(footprint * 32.0, 1.0))).r;
+    }
+    // Software renderers find a pixel's footprint themselves for a third of that.
+    return textureSample(noise_map, noise_sampler, p / 16.0).r;
 }
 
 // Noise of which a preset that saves has its mean, or what is at hand.

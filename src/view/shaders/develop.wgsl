@@ -1,5 +1,8 @@
 // From light on the sensor to a picture: motion blur, noise, tone curve, vignette.
 
+// The preset blurs what moves.
+override BLUR: bool = true;
+
 struct Develop {
     // From clip space of this picture to clip space where the eye was when the shutter opened.
     reproject: mat4x4<f32>,
@@ -68,9 +71,9 @@ fn encoded(x: vec3<f32>) -> vec3<f32> {
 @fragment
 fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let pixel = vec2<u32>(in.uv * d.size.xy);
-    var colour = textureSampleLevel(light, light_sampler, in.uv, 0.0).rgb;
-    let taps = i32(d.grain.z);
-    if taps > 1 {
+    var colour = textureLoad(light, vec2<i32>(pixel), 0).rgb;
+    let taps = select(1, i32(d.grain.z), BLUR);
+    if BLUR && taps > 1 {
         let z = textureLoad(depth, vec2<i32>(pixel), 0);
         let clip = vec4<f32>(in.uv.x * 2.0 - 1.0, 1.0 - in.uv.y * 2.0, z, 1.0);
         let was = d.reproject * clip;

@@ -34,8 +34,7 @@ struct Fragment {
     @location(6) aux: f32,
 }
 
-@vertex
-fn vs(v: Corner) -> Fragment {
+fn placed(v: Corner) -> Fragment {
     let at = vec4<f32>(v.position, 1.0);
     var out: Fragment;
     out.p = vec3<f32>(dot(v.row0, at), dot(v.row1, at), dot(v.row2, at));
@@ -49,6 +48,11 @@ fn vs(v: Corner) -> Fragment {
     out.tint = select(v.tint, vec4<f32>(v.paint.rgb, 1.0), v.paint.w > 0.5 && (v.material & 0xffu) == 8u);
     out.aux = v.aux;
     return out;
+}
+
+@vertex
+fn vs(v: Corner) -> Fragment {
+    return placed(v);
 }
 
 // Cast concrete: boards of the formwork, construction joints, tie holes, blotches, streaks of rain, green near the water.

@@ -14,6 +14,13 @@ struct Fragment {
     @location(0) p: vec3<f32>,
     @location(1) depth: f32,
     @location(2) light: vec2<f32>,
+    // Gusts, where a preset that saves has them at corners.
+    @location(3) gust: f32,
+}
+
+// Gusts roughen the lake in patches, which drift.
+fn gusts(at: vec2<f32>) -> vec2<f32> {
+    return at * 0.012 + g.look.zw * g.eye.w * 0.01;
 }
 
 @vertex
@@ -23,6 +30,10 @@ fn vs(v: Corner) -> Fragment {
     out.clip = g.view_proj * vec4<f32>(v.position, 1.0);
     out.depth = v.aux;
     out.light = v.light;
+    out.gust = 1.0;
+    if !DETAIL {
+        out.gust = 0.6 + 0.8 * textureSampleLevel(noise_map, noise_sampler, gusts(v.position.xy) / 16.0, 2.0).r;
+    }
     return out;
 }
 
@@ -35,12 +46,20 @@ fn train(at: vec2<f32>, direction: vec2<f32>, length_m: f32, steep: f32, footpri
     return direction * (steep * shown * cos(phase));
 }
 
-fn slope(at: vec2<f32>, footprint: f32) -> vec2<f32> {
+// Two slow noises by which the trains are bent.
+fn bends(at: vec2<f32>) -> vec2<f32> {
+    if DETAIL {
+        return vec2<f32>(noise(at * 0.13), noise(at * 0.13 + 50.0));
+    }
+    return textureSampleLevel(noise_map, noise_sampler, at * (0.13 / 16.0), 0.0).gr;
+}
+
+fn slope(at: vec2<f32>, footprint: f32, bend: vec2<f32>) -> vec2<f32> {
     let wind = g.look.zw;
     let side = vec2<f32>(-wind.y, wind.x);
     let strength = 0.018 + 0.010 * g.look.y;
     // Slow noise bends the trains, so that no pattern repeats.
-    let bent = at + 1.3 * vec2<f32>(noise(at * 0.13), noise(at * 0.13 + 50.0));
+    let bent = at + 1.3 * bend;
     var s = train(bent, normalize(wind + 0.15 * side), 5.3, 0.5 * strength, footprint);
     s += train(bent, normalize(wind - 0.45 * side), 2.9, 0.7 * strength, footprint);
     s += train(bent, normalize(wind + 0.75 * side), 1.55, strength, footprint);
@@ -63,21 +82,25 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let away = g.eye.xyz - in.p;
     let distance = length(away);
     let v = away / distance;
-    // Gusts roughen the lake in patches.
-    let gust = 0.6 + 0.8 * fbm(in.p.xy * 0.012 + g.look.zw * g.eye.w * 0.01, f * 0.012);
-    let s = slope(in.p.xy, f) * gust;
+    var gust = in.gust;
+    if DETAIL {
+        gust = 0.6 + 0.8 * fbm(gusts(in.p.xy), f * 0.012);
+    }
+    let bend = bends(in.p.xy);
+    let s = slope(in.p.xy, f, bend) * gust;
     let n = normalize(vec3<f32>(-s, 1.0));
     let facing = clamp(dot(n, v), 0.02, 1.0);
     // Waves too small to see still blur and lift the mirror.
     let rough = clamp(f * 0.02 + 0.02, 0.02, 0.22) * gust;
-    let fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0) * (1.0 - rough);
+    let away_from = 1.0 - facing;
+    let fresnel = 0.02 + 0.98 * (away_from * away_from) * (away_from * away_from) * away_from * (1.0 - rough);
     var r = reflect(-v, n);
     r.z = abs(r.z) + 0.3 * rough;
     var seen = sky_radiance(normalize(r)) * clamp(in.light.x * 1.15, 0.25, 1.0);
     if MIRROR {
         let screen = in.clip.xy / g.size.xy;
-        let bend = s * vec2<f32>(0.9, 0.9) / (1.0 + 0.02 * distance);
-        let shift = vec2<f32>(dot(bend, g.right.xy / max(length(g.right.xy), 1e-4)), -abs(dot(bend, vec2<f32>(v.x, v.y))) * 1.2);
+        let moved = s * vec2<f32>(0.9, 0.9) / (1.0 + 0.02 * distance);
+        let shift = vec2<f32>(dot(moved, g.right.xy / max(length(g.right.xy), 1e-4)), -abs(dot(moved, vec2<f32>(v.x, v.y))) * 1.2);
         let uv = clamp(vec2<f32>(screen.x, screen.y) + shift * 0.35, vec2<f32>(0.002), vec2<f32>(0.998));
         seen = textureSampleLevel(mirror, mirror_sampler, uv, 0.0).rgb / g.look.x;
     }
@@ -88,12 +111,19 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     // Light that entered beside a shadow scatters under it: from above its edges are hardly seen.
     let within = mix(0.65, 1.0, sun_seen);
     let lux = in.light.x * g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * within * g.sun_rgb.xyz;
-    let lamp = lamp_lux(in.p, vec3<f32>(0.0, 0.0, 1.0));
+    var lamp = 0.0;
+    if LAMP {
+        lamp = lamp_lux(in.p, vec3<f32>(0.0, 0.0, 1.0));
+    }
     let body = vec3<f32>(0.012, 0.030, 0.032) * (lux + lamp);
     let path = max(in.depth, 0.0) * (1.0 + 0.6 / max(v.z, 0.12));
     let clear = exp(-path * 0.55);
     // A line of foam where it laps ashore.
-    let lap = 0.10 + 0.05 * sin(g.eye.w * 1.3 + 3.0 * noise(in.p.xy * 0.7));
+    var wander = bend.x;
+    if DETAIL {
+        wander = noise(in.p.xy * 0.7);
+    }
+    let lap = 0.10 + 0.05 * sin(g.eye.w * 1.3 + 3.0 * wander);
     let foam = (1.0 - smoothstep(0.0, lap, in.depth)) * smoothstep(0.35, 0.7, fbm(in.p.xy * 2.0, f * 2.0)) * 0.5;
     let surface = fresnel * seen + glint * g.sun_rgb.xyz + (1.0 - fresnel) * (1.0 - clear) * body + foam * 0.7 * lux;
     let alpha = clamp(1.0 - (1.0 - fresnel) * clear + foam, 0.0, 1.0);

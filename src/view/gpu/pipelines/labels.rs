@@ -1,6 +1,6 @@
 //! How labels are drawn in place of light: which element, which defect.
 
-use super::{Kind, LIGHT, NEARER, build, copies, corners, module, patches, special};
+use super::{ENTRIES, Kind, LIGHT, NEARER, build, copies, corners, module, patches, special};
 use crate::site::catalogue;
 use crate::view::gpu::device::Gpu;
 
@@ -21,6 +21,7 @@ impl LabelPipelines {
         let constants = [("MASK", 1.0)];
         let solid = Kind {
             module: &surface,
+            entries: ENTRIES,
             layouts: &globals,
             buffers: &solids,
             target: Some(LIGHT),

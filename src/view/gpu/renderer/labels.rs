@@ -7,7 +7,7 @@ use crate::view::gpu::pipelines::{DEPTH, LIGHT, LabelPipelines};
 use crate::view::gpu::targets::texture;
 use crate::view::gpu::uniforms::{Globals, Maps};
 use crate::view::masks::Masks;
-use crate::view::scene::{Instance, Seen};
+use crate::view::scene::Instance;
 use crate::view::shot::Shot;
 
 /// Bytes of a pixel of labels: four half floats.
@@ -48,7 +48,7 @@ impl Renderer {
         let still = self
             .fixed
             .iter()
-            .filter(|fixed| fixed.seen != Seen::Mirrored && shown.may_show(&fixed.ball))
+            .filter(|fixed| fixed.seen.shows(false, 0.0) && shown.may_show(&fixed.ball))
             .map(|fixed| (&*fixed.solid, &fixed.copies));
         let lake = self.water.iter().flat_map(|(water, _)| Some((water, here.as_ref()?)));
         for (solid, copies) in solids(&self.models, &moving).chain(still).chain(lake) {

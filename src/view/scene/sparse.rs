@@ -1,0 +1,111 @@
+//! A square grid by fewer triangles: squares of several cells where the ground is nearly flat, single cells elsewhere, with no gap between them.
+
+/// A square of cells: column and row of its south-west corner, and cells along a side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Square {
+    /// Column of its south-west corner.
+    pub column: usize,
+    /// Row of its south-west corner.
+    pub row: usize,
+    /// Cells along a side.
+    pub size: usize,
+}
+
+impl Square {
+    /// Numbers of its corners in a grid with `side` corners a row: south-west, south-east, north-east, north-west.
+    #[must_use]
+    pub const fn corners(&self, side: usize) -> [usize; 4] {
+        let (low, high) = (self.row * side + self.column, (self.row + self.size) * side + self.column);
+        [low, low + self.size, high + self.size, high]
+    }
+
+    fn quarters(&self) -> [Self; 4] {
+        let half = self.size / 2;
+        [(0, 0), (half, 0), (0, half), (half, half)].map(|(x, y)| Self { column: self.column + x, row: self.row + y, size: half })
+    }
+
+    /// Corners of the grid on its rim, counter-clockwise from the south-west.
+    fn rim(&self, side: usize) -> impl Iterator<Item = usize> {
+        let [sw, se, ne, nw] = self.corners(side);
+        let along = move |k: usize| [sw + k, se + k * side, ne - k, nw - k * side];
+        let size = self.size;
+        (0..4).flat_map(move |edge| (0..size).map(move |k| along(k)[edge]))
+    }
+}
+
+/// Triangles over a grid with `side` corners a row, as numbers of corners, counter-clockwise from above. Squares of at most `largest` cells (a
+/// power of two) stay whole where `whole` says so. The diagonal runs as in single cells: from south-west to north-east.
+#[must_use]
+pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&Square) -> bool) -> Vec<[u32; 3]> {
+    let cells = side.saturating_sub(1);
+    let largest = (0..).map(|k| largest >> k).find(|size| *size <= 1 || cells.is_multiple_of(*size)).unwrap_or(1).max(1);
+    let starts = (0..cells).step_by(largest);
+    let mut open: Vec<Square> =
+        starts.clone().flat_map(|row| starts.clone().map(move |column| Square { column, row, size: largest })).collect();
+    let mut squares = Vec::new();
+    while let Some(square) = open.pop() {
+        if square.size == 1 || whole(&square) { squares.push(square) } else { open.extend(square.quarters()) }
+    }
+    let mut used = vec![false; side * side];
+    for corner in squares.iter().flat_map(|square| square.corners(side)) {
+        used[corner] = true;
+    }
+    squares.iter().flat_map(|square| filled(square, side, &used)).collect()
+}
+
+/// A square's triangles: two, or a fan about its middle where smaller neighbours have corners on its rim.
+fn filled(square: &Square, side: usize, used: &[bool]) -> Vec<[u32; 3]> {
+    let rim: Vec<u32> = square.rim(side).filter(|corner| used[*corner]).map(|corner| corner as u32).collect();
+    if let [sw, se, ne, nw] = *rim {
+        return vec![[sw, se, ne], [sw, ne, nw]];
+    }
+    let middle = ((square.row + square.size / 2) * side + square.column + square.size / 2) as u32;
+    (0..rim.len()).map(|k| [middle, rim[k], rim[(k + 1) % rim.len()]]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    /// Squares stay whole away from a corner of the field.
+    fn field(side: usize) -> Vec<[u32; 3]> {
+        triangles(side, 8, &|square| square.column + square.row > 6 + 2 * square.size)
+    }
+
+    #[test]
+    fn exact_the_field_is_covered_once() {
+        const SIDE: usize = 41;
+        let twice_area = |[a, b, c]: [u32; 3]| {
+            let at = |k: u32| (f64::from(k % SIDE as u32), f64::from(k / SIDE as u32));
+            let ((ax, ay), (bx, by), (cx, cy)) = (at(a), at(b), at(c));
+            (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        };
+        let all = field(SIDE);
+        assert!(all.len() < 2 * 40 * 40 / 8, "{} triangles", all.len());
+        assert!(all.iter().all(|t| twice_area(*t) > 0.0), "all face up");
+        assert_eq!(all.iter().map(|t| twice_area(*t)).sum::<f64>(), 2.0 * 40.0 * 40.0);
+    }
+
+    #[test]
+    fn exact_no_edge_has_a_gap_beside_it() {
+        const SIDE: usize = 41;
+        let mut edges: BTreeMap<(u32, u32), i32> = BTreeMap::new();
+        for [a, b, c] in field(SIDE) {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                *edges.entry((from.min(to), from.max(to))).or_default() += if from < to { 1 } else { -1 };
+            }
+        }
+        // Inside the field every edge is run both ways; the rim alone is run once.
+        let rim = |k: u32| [0, 40].contains(&(k % SIDE as u32)) || [0, 40].contains(&(k / SIDE as u32));
+        for ((a, b), sum) in edges {
+            assert!(sum == 0 || (rim(a) && rim(b)), "edge {a} {b}: {sum}");
+        }
+    }
+
+    #[test]
+    fn exact_an_odd_field_is_drawn_by_smaller_squares() {
+        let flat = |side: usize| triangles(side, 8, &|_| true).len();
+        assert_eq!((flat(9), flat(13), flat(8), flat(2)), (2, 2 * 9, 2 * 49, 2));
+    }
+}

@@ -1,0 +1,184 @@
+// Everything solid, for presets that save (follows surface.wgsl): light without the sun's shadows, haze and reflections are worked out at
+// corners, and slow patterns come from ready tiles (tiles.rs).
+
+// Ground: patches, blocks, beds, what is fine. Concrete: tone, and shares of streaks, soot, splashes.
+@group(0) @binding(5) var ground_tile: texture_2d<f32>;
+@group(0) @binding(6) var concrete_tile: texture_2d<f32>;
+const GROUND_M: f32 = 32.0;
+const CONCRETE_M: f32 = 38.4;
+
+struct Lean {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) p: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) uv: vec2<f32>,
+    @location(3) @interpolate(flat) material: u32,
+    @location(4) tint: vec4<f32>,
+    @location(5) aux: f32,
+    // Indirect light, and the sun's where it shines; both as haze leaves them, exposed.
+    @location(6) indirect: vec3<f32>,
+    @location(7) sun: vec3<f32>,
+    // What is added: haze and reflections, exposed; share that haze leaves.
+    @location(8) veil: vec4<f32>,
+    // Place in the sun's map.
+    @location(9) shadow: vec3<f32>,
+    // Wide patches of the ground.
+    @location(10) broad: f32,
+}
+
+// How smooth a material is that reflects; steel's coat by its mean.
+fn gloss(material: u32) -> f32 {
+    switch material {
+        case 2u: { return 0.4; }
+        case 3u: { return 0.45; }
+        case 8u, 15u: { return 0.7; }
+        case 9u: { return 0.92; }
+        default: { return 0.0; }
+    }
+}
+
+// The sky in a surface, as in `shade`.
+fn reflected(v: vec3<f32>, n: vec3<f32>, smooth_by: f32, light: vec2<f32>, indirect: vec3<f32>) -> vec3<f32> {
+    let r = reflect(-v, n);
+    let away = 1.0 - clamp(dot(n, v), 0.0, 1.0);
+    let fresnel = 0.04 + (max(smooth_by, 0.04) - 0.04) * away * away * away * away * away;
+    var seen = sky_radiance(r);
+    if r.z < 0.0 {
+        seen = 0.12 * (g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * g.sun_rgb.xyz);
+    }
+    let open = clamp(light.x * 1.2, 0.0, 1.0);
+    return select(0.0, fresnel * (0.5 + 0.5 * smooth_by), smooth_by > 0.3) * mix(indirect, seen, smooth_by * open);
+}
+
+@vertex
+fn vs_lean(corner: Corner) -> Lean {
+    let v = placed(corner);
+    let away = g.eye.xyz - v.p;
+    let distance = length(away);
+    let towards = away / max(distance, 1e-6);
+    let clear = exp(-distance * g.scene.z);
+    let kept = clear * g.look.x;
+    let indirect = v.light.x * g.sky_rgb.w * g.sky_rgb.xyz + v.light.y * g.sun.w * g.sun_rgb.xyz;
+    let facing = max(dot(v.normal, g.sun.xyz), 0.0);
+    var veil = horizon_radiance(towards) * 0.85 * (1.0 - clear) * g.look.x;
+    if GLOSSY {
+        veil += kept * reflected(towards, v.normal, gloss(v.material), v.light, indirect);
+    }
+    // A step off the surface, as in `sun_visible`.
+    let lean = 0.6 + 1.6 * (1.0 - clamp(facing, 0.0, 1.0));
+    let at = g.shadow_proj[0] * vec4<f32>(v.p + v.normal * (g.texel.x * lean), 1.0);
+    var out: Lean;
+    out.clip = v.clip;
+    out.p = v.p;
+    out.normal = v.normal;
+    out.uv = v.uv;
+    out.material = v.material;
+    out.tint = v.tint;
+    out.aux = v.aux;
+    out.indirect = kept * indirect;
+    out.sun = kept * g.sun.w * facing * g.sun_rgb.xyz;
+    out.veil = vec4<f32>(veil, clear);
+    out.shadow = at.xyz / at.w;
+    out.broad = 0.5;
+    if LOOK == 4u {
+        // A level at which a texel is two metres and the pattern as wide as thirty.
+        out.broad = textureSampleLevel(noise_map, noise_sampler, v.p.xy * (0.03 / 16.0), 1.0).r;
+    }
+    return out;
+}
+
+// As `concrete`, with the slow patterns ready.
+fn lean_concrete(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
+    let uv = in.uv;
+    let f = max(fp.x, fp.y);
+    let tile = textureSample(concrete_tile, noise_sampler, uv / CONCRETE_M);
+    let grain = fbm(uv * 9.0 + 31.0, f * 9.0);
+    let wall = 1.0 - smoothstep(0.4, 0.8, abs(in.normal.z));
+    var tone = 0.82 + (tile.r - 0.5) + 0.42 * (grain - 0.5);
+    let kept = smoothstep(0.47, 0.61, tile.r);
+    let seams = lines(uv.y, 0.16, 0.003, fp.y) * kept;
+    let joints = lines(uv.x + 0.6, 4.8, 0.010, fp.x) + 0.3 * lines(uv.x + 0.2, 2.4, 0.004, fp.x);
+    tone *= 1.0 - 0.16 * seams - 0.30 * joints;
+    let cell = vec2<f32>(1.2, 0.8);
+    let tie = length((fract(uv / cell + vec2<f32>(0.5, 0.25)) - 0.5) * cell);
+    tone *= 1.0 - 0.5 * cover(tie, 0.025, f) * (1.0 - smoothstep(0.02, 0.08, f)) * wall;
+    tone *= 1.0 - wall * 0.42 * tile.g;
+    var colour = vec3<f32>(0.36, 0.345, 0.315) * tone;
+    colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * tile.b);
+    colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * tile.a);
+    let over = in.p.z - g.scene.y;
+    let reach = 0.8 + 0.5 * tile.r;
+    let slime = wall * (1.0 - smoothstep(0.15, reach, over));
+    colour = mix(colour, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);
+    let band = wall * smoothstep(reach, reach + 0.15, over) * (1.0 - smoothstep(reach + 0.2, reach + 1.2, over));
+    (*m).albedo = mix(colour, vec3<f32>(0.5, 0.48, 0.43), 0.35 * band);
+}
+
+// As `ground`, from one look at its tile: level ground by its place, rock by its place in the wall.
+fn lean_ground(in: Fragment, broad: f32, m: ptr<function, Matter>) {
+    let n = in.normal;
+    let over = in.aux;
+    let wall = vec2<f32>(select(in.p.x, in.p.y, abs(n.x) > abs(n.y)), in.p.z);
+    let tile = textureSample(ground_tile, noise_sampler, select(in.p.xy, wall, n.z < 0.74) / GROUND_M);
+    let near = tile.r;
+    let meadow = mix(vec3<f32>(0.085, 0.105, 0.032), vec3<f32>(0.17, 0.15, 0.065), smoothstep(0.35, 0.7, broad * 0.6 + near * 0.4));
+    let rock = mix(vec3<f32>(0.17, 0.158, 0.14), vec3<f32>(0.30, 0.28, 0.255), smoothstep(0.25, 0.75, 0.35 * tile.b + 0.65 * tile.g))
+        * (0.6 + 0.8 * tile.a) * (0.9 + 0.2 * smoothstep(0.40, 0.55, tile.b + 0.3 * (tile.a - 0.5)));
+    let gravel = mix(vec3<f32>(0.21, 0.195, 0.17), vec3<f32>(0.34, 0.32, 0.28), tile.a);
+    let steep = smoothstep(0.22, 0.42, 1.0 - n.z + 0.18 * (near - 0.5));
+    var colour = meadow * (0.55 + 0.9 * tile.a);
+    colour = mix(colour, rock, steep);
+    colour = mix(colour, gravel, 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5)));
+    colour *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
+    let forest = smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
+    let wood = forest * smoothstep(0.38, 0.5, broad + 0.25 * (near - 0.5)) * (1.0 - 0.5 * steep);
+    colour = mix(colour, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + near), wood);
+    let snow = smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
+    (*m).albedo = mix(colour, vec3<f32>(0.8, 0.82, 0.85), snow);
+}
+
+@fragment
+fn fs_lean(lean: Lean) -> @location(0) vec4<f32> {
+    if MIRRORED {
+        if lean.p.z < g.scene.y {
+            discard;
+        }
+    }
+    let fp = max(fwidth(lean.uv), vec2<f32>(1e-5));
+    var in: Fragment;
+    in.p = lean.p;
+    in.normal = lean.normal;
+    in.uv = lean.uv;
+    in.material = lean.material;
+    in.tint = lean.tint;
+    in.aux = lean.aux;
+    var m: Matter;
+    if LOOK == 0u {
+        lean_concrete(in, fp, &m);
+    } else if LOOK == 1u {
+        deck(in, fp, &m);
+    } else if LOOK == 2u {
+        steel(in, in.normal, fp, &m);
+    } else if LOOK == 4u {
+        lean_ground(in, lean.broad, &m);
+    } else if LOOK == 3u {
+        simple(in, in.normal, max(length(dpdx(in.p)), length(dpdy(in.p))), &m);
+    }
+    let q = lean.shadow;
+    let inside = max(abs(q.x), abs(q.y)) < 0.985 && q.z > 0.0 && q.z < 1.0;
+    let seen = compared(0, vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y), q.z);
+    var light = lean.indirect + lean.sun * select(1.0, seen, inside);
+    if LAMP {
+        light += lamp_lux(in.p, normalize(in.normal)) * lean.veil.w * g.look.x;
+    }
+    let lit = vec4<f32>(min(m.albedo * light + lean.veil.rgb, vec3<f32>(200.0)), 1.0);
+    if LOOK == 3u {
+        if in.material == 12u {
+            return exposed(in.tint.rgb * in.aux);
+        }
+        if in.material == 14u {
+            return vec4<f32>(lit.rgb, in.tint.a);
+        }
+    }
+    return lit;
+}
