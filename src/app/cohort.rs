@@ -136,6 +136,17 @@ fn words(cohort: &Cohort) -> String {
             let _ = writeln!(out, "at feedback {:.1}: {:.2} % per step of demand{ends}", one.feedback, one.effect);
         }
     }
+    for one in &cohort.learning {
+        let (first, last) = (one.means.first().copied().unwrap_or_default(), one.means.last().copied().unwrap_or_default());
+        let _ = writeln!(
+            out,
+            "{}: from {first:.1} to {last:.1} over {} repetitions of {} people, learning exponent {:.3}",
+            one.score,
+            one.means.len(),
+            one.people,
+            one.curve.exponent
+        );
+    }
     let contradictions = &cohort.self_rating.contradictions;
     for one in contradictions.iter().take(CONTRADICTIONS) {
         let _ = writeln!(out, "{}: {}", one.trainee, one.words);

@@ -229,5 +229,5 @@ def test_two_sessions_compared(browser, session, tmp_path):
     assert drawn(".overlaid.line-1") != drawn(".overlaid.line-2"), "two flights are one track"
     overall = [json.loads((folder / "assessment.json").read_text(encoding="utf-8"))["scores"]["overall"] for folder in (session, other)]
     text = page.inner_text("main") + page.inner_text("header")
-    assert all(f"{score:.0f}" in text for score in overall) and "other" in text, overall
+    assert all(f"{score:.1f}" in text for score in overall) and "other" in text, overall
     assert wrong == []

@@ -29,13 +29,17 @@ pub fn curves(cohort: &Cohort) -> Markup {
                 @for one in &cohort.learning {
                     @let others = of_people(cohort, &one.score);
                     @let drawn = Practice { values: &one.means, curve: &one.curve, others: &others, most: most(&one.score) };
-                    (figure(&format!("{}, {} people", one.score, one.people), &practice(&drawn, &format!("Learning curve of {}", one.score))))
+                    (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
                 }
             }
             p.note { "Power laws of practice; the ring is what the curve expects of the next repetition. The curve through the means is no single person's: it bends less." }
             (numbers(&cohort.learning).shown())
         }
     }
+}
+
+fn people(count: usize) -> String {
+    if count == 1 { "one person".to_owned() } else { format!("{count} people") }
 }
 
 fn of_people(cohort: &Cohort, score: &str) -> Vec<LearningCurve> {
