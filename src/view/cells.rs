@@ -8,8 +8,10 @@ use std::collections::BTreeMap;
 
 /// Side of a square, m (estimate: some squares lie in every picture, most do not).
 const CELL_M: f64 = 80.0;
-/// What lies farther from the origin than this is backdrop, in squares ten times as large, m.
+/// What lies farther from the origin than this is backdrop, m.
 const BACKDROP_M: f64 = 500.0;
+/// Side of its squares, m (estimate: a dozen for all of it, because a draw costs as much as fifty triangles by software).
+const BACKDROP_CELL_M: f64 = 3_000.0;
 
 /// A ball around everything in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +62,7 @@ type Cell = (bool, i64, i64);
 
 fn cell(p: Vec3<Enu>) -> Cell {
     let far = p.east().abs().max(p.north().abs()) > BACKDROP_M;
-    let side_m = if far { 10.0 * CELL_M } else { CELL_M };
+    let side_m = if far { BACKDROP_CELL_M } else { CELL_M };
     (far, (p.east() / side_m).floor() as i64, (p.north() / side_m).floor() as i64)
 }
 

@@ -17,7 +17,8 @@ pub struct Quality {
     pub lamp_shadow: bool,
     /// Size of the reflection on the water as a share of the picture; 0: the sky alone is reflected.
     pub reflection: f64,
-    /// Ground and lake are drawn by fewer triangles where nobody sees the difference; the lake mirrors no boulders.
+    /// Ground and lake are drawn by fewer triangles where nobody sees the difference; the lake mirrors no boulders, hangers and
+    /// railings, and trees only where they are near.
     pub sparse: bool,
     /// Spacing at which light is worked out on the bridges, m.
     pub light_cell_m: f64,

@@ -3,6 +3,7 @@
 use super::super::mesh::{Material, Mesh, Vertex, single};
 use super::super::quality::Quality;
 use super::bake::{Bake, INSET_M, filled};
+use super::{Part, Seen};
 use crate::base::frames::{Enu, Vec3};
 use crate::scenario::bridges::Member;
 use crate::scenario::{Bridge, Scenario};
@@ -41,12 +42,28 @@ struct Axes {
     half_deck_m: f64,
 }
 
-/// All members as one mesh.
-pub fn mesh(scenario: &Scenario, bake: &Bake, quality: &Quality) -> Mesh {
+/// Hangers and railings: what a small mirror of a far bridge shows nothing of.
+const SLIM: [u32; 3] = [148, 330, 331];
+
+/// All members, those apart that the lake need not mirror.
+pub fn parts(scenario: &Scenario, bake: &Bake, quality: &Quality) -> Vec<Part> {
+    if !quality.sparse {
+        return vec![Part::here("bridges", mesh(scenario, bake, quality, &|_| true), true)];
+    }
+    let stout = mesh(scenario, bake, quality, &|element| !SLIM.contains(&element));
+    let slim = mesh(scenario, bake, quality, &|element| SLIM.contains(&element));
+    vec![
+        Part::here("bridges", stout, true),
+        Part { seen: Seen::MirroredTo(0.0), ..Part::here("hangers and railings", slim, true) },
+    ]
+}
+
+/// Members of some elements as one mesh.
+fn mesh(scenario: &Scenario, bake: &Bake, quality: &Quality, of: &dyn Fn(u32) -> bool) -> Mesh {
     let mut mesh = Mesh::default();
     for bridge in &scenario.bridges {
         let axes = axes(bridge);
-        for member in bridge.members() {
+        for member in bridge.members().into_iter().filter(|member| of(member.element)) {
             add(&mut mesh, &member, &axes, bake, quality);
         }
     }

@@ -178,14 +178,15 @@ impl Scene {
         let bake = Bake::new(site, sun, quality.light_rays);
         let shown = if quality.sparse { fields::sparse(scenario, site, 1.0) } else { fields::all(site) };
         let rounds = if quality.sparse { props::Rounds::Plain } else { props::Rounds::Fine };
-        let mut parts = vec![
-            Part::here("bridges", bridges::mesh(scenario, &bake, quality), true),
+        let mut parts = bridges::parts(scenario, &bake, quality);
+        let ground = parts.len();
+        parts.extend([
             Part::here("ground", ground::mesh(scenario, site, &bake, &shown), true),
             Part::here("mountains", ground::mountains(scenario, site), false),
             Part::here("pad", ground::pad(site), false),
-        ];
+        ]);
         if quality.sparse {
-            parts[1].seen = Seen::MirroredTo(0.0);
+            parts[ground].seen = Seen::MirroredTo(0.0);
             let rough = ground::mesh(scenario, site, &bake, &fields::sparse(scenario, site, IN_LAKE));
             parts.push(Part { seen: Seen::Mirrored, ..Part::here("ground in the lake", rough, false) });
         }
