@@ -1,5 +1,6 @@
 //! What both views of a flight cost: frame time, triangles and draw calls of a frame, start-up. Drawn by software, as on a machine without a
-//! graphics card; `SPANDREL_BENCH_DEVICE=best` takes the best device there is and higher presets.
+//! graphics card; `SPANDREL_BENCH_DEVICE=best` takes the best device there is and higher presets, and fails where a graphics card misses its
+//! target.
 
 #[path = "support/running.rs"]
 mod running;
@@ -22,6 +23,9 @@ const TARGET_HZ: f64 = 15.0;
 /// And the bench fails where a frame takes more processor time than this, s: twice what the slowest places took when it was set. Processor
 /// time, because it hardly changes with what else the machine does.
 const CEILING_CPU_S: f64 = 0.35;
+/// Frames a second of both views at 1920 x 1080 with the preset `high` on a data-centre card: the target, and the floor where a card
+/// draws.
+const CARD_HZ: f64 = 144.0;
 /// Frames at each place, after one that warms the caches up.
 const FRAMES: usize = 4;
 
@@ -85,8 +89,8 @@ fn median(mut times: Vec<Duration>) -> Duration {
     times[times.len() / 2]
 }
 
-/// Draws all places; processor time of a frame, s, where the system tells.
-fn measured(studio: &mut Studio, size_px: (u32, u32), preset: &str) -> Option<f64> {
+/// Draws all places; processor time of a frame, s, where the system tells, and frames a second.
+fn measured(studio: &mut Studio, size_px: (u32, u32), preset: &str) -> (Option<f64>, f64) {
     let (mut medians, mut cpu) = (Vec::new(), Some(0.0));
     for (name, from, look) in places() {
         frame(studio, (from, look), size_px);
@@ -113,7 +117,7 @@ fn measured(studio: &mut Studio, size_px: (u32, u32), preset: &str) -> Option<f6
         1.0 / whole,
         1e3 * cpu.unwrap_or(f64::NAN)
     );
-    cpu
+    (cpu, 1.0 / whole)
 }
 
 /// What a simulator in real time keeps of its pace while this process draws both views without rest, at the same priority (the window itself
@@ -156,7 +160,7 @@ fn main() {
         built.as_secs_f64(),
         first.frame.as_secs_f64()
     );
-    let small = measured(&mut studio, (640, 360), presets[0]);
+    let (small, _) = measured(&mut studio, (640, 360), presets[0]);
     let (pace, rate_hz) = beside(&mut studio);
     println!(
         "a simulator beside {rate_hz:.1} frames/s without rest: {pace:.4} s of simulation time in a second (floor {PACE_FLOOR})"
@@ -164,12 +168,15 @@ fn main() {
     if presets[1] != presets[0] {
         studio = Studio::on(studio.gpu, two_bridges(), 7, presets[1], SimTime::ZERO);
     }
-    measured(&mut studio, (1920, 1080), presets[1]);
-    let kept = small.is_none_or(|cpu| best || cpu <= CEILING_CPU_S);
-    println!(
-        "2 x 640 x 360: target {TARGET_HZ:.0} frames/s; ceiling {CEILING_CPU_S} s of processor time: {}",
-        if kept { "kept" } else { "EXCEEDED" }
-    );
+    let (_, large_hz) = measured(&mut studio, (1920, 1080), presets[1]);
+    let card = !studio.gpu.software;
+    let kept = if card { large_hz >= CARD_HZ } else { small.is_none_or(|cpu| cpu <= CEILING_CPU_S) };
+    let verdict = if kept { "kept" } else { "MISSED" };
+    if card {
+        println!("2 x 1920 x 1080, {}: floor {CARD_HZ:.0} frames/s: {verdict}", presets[1]);
+    } else {
+        println!("2 x 640 x 360: target {TARGET_HZ:.0} frames/s; ceiling {CEILING_CPU_S} s of processor time: {verdict}");
+    }
     if !kept || pace < PACE_FLOOR {
         std::process::exit(1);
     }
