@@ -7,6 +7,7 @@ use crate::base::time::SimTime;
 use crate::scenario::Scenario;
 use crate::site::{CameraPose, Site, sun};
 use crate::vehicle::Camera;
+use std::collections::BTreeMap;
 
 /// Width of a drawing, px; its height follows the camera's.
 pub const WIDTH_PX: usize = 400;
@@ -22,7 +23,32 @@ const SKY: [f64; 3] = [0.80, 0.87, 0.93];
 
 struct Facet {
     corners: [Vec3<Enu>; 3],
-    colour: [f64; 3],
+    shade: Shade,
+}
+
+/// A colour by its number: faces of one shade have one.
+type Shade = u32;
+/// The sky's.
+const BLUE: Shade = 0;
+
+/// All colours of a site. A drawing writes numbers: they are a sixth as long.
+struct Palette {
+    colours: Vec<[f64; 3]>,
+    numbers: BTreeMap<[u64; 3], Shade>,
+}
+
+impl Palette {
+    fn new() -> Self {
+        Self { colours: vec![SKY], numbers: [(SKY.map(f64::to_bits), BLUE)].into() }
+    }
+
+    fn number(&mut self, colour: [f64; 3]) -> Shade {
+        let next = self.colours.len();
+        *self.numbers.entry(colour.map(f64::to_bits)).or_insert_with(|| {
+            self.colours.push(colour);
+            Shade::try_from(next).unwrap_or(BLUE)
+        })
+    }
 }
 
 struct Body {
@@ -34,6 +60,7 @@ struct Body {
 /// The site, shaded and ready to be drawn from anywhere.
 pub struct Sketcher {
     bodies: Vec<Body>,
+    colours: Vec<[f64; 3]>,
 }
 
 /// Light for one drawing.
@@ -50,9 +77,10 @@ impl Sketcher {
     #[must_use]
     pub fn new(site: &Site, scenario: &Scenario, at: SimTime) -> Self {
         let sun = sun::direction(scenario.light.start_unix_s as f64 + at.s(), scenario.origin);
-        let mut bodies: Vec<Body> = site.members().iter().map(|member| structure(member, sun)).collect();
-        bodies.extend(ground(site, scenario, sun));
-        Self { bodies }
+        let mut palette = Palette::new();
+        let mut bodies: Vec<Body> = site.members().iter().map(|member| structure(member, sun, &mut palette)).collect();
+        bodies.extend(ground(site, scenario, sun, &mut palette));
+        Self { bodies, colours: palette.colours }
     }
 
     /// Draws a PNG file.
@@ -72,16 +100,16 @@ impl Sketcher {
                 sheet.draw(&lens, facet);
             }
         }
-        encode(&sheet.shaded(exposure), WIDTH_PX, height)
+        encode(&sheet.shaded(&self.colours, exposure), WIDTH_PX, height)
     }
 }
 
-fn structure(member: &crate::scenario::bridges::Member, sun: Vec3<Enu>) -> Body {
+fn structure(member: &crate::scenario::bridges::Member, sun: Vec3<Enu>, palette: &mut Palette) -> Body {
     let v = &member.solid.vertices_m;
     let centre_m = v.iter().fold(Vec3::zero(), |sum, x| sum + *x) / v.len().max(1) as f64;
     let steel = matches!(member.element, 107 | 113 | 147 | 148 | 152 | 207 | 311 | 313 | 330);
     let base = if steel { [0.50, 0.57, 0.60] } else { [0.74, 0.72, 0.68] };
-    let facet = |t: [u32; 3]| facet(t.map(|k| v[k as usize]), base, sun);
+    let facet = |t: [u32; 3]| facet(t.map(|k| v[k as usize]), base, sun, palette);
     Body {
         centre_m,
         radius_m: v.iter().map(|x| (*x - centre_m).norm()).fold(0.0, f64::max),
@@ -89,15 +117,15 @@ fn structure(member: &crate::scenario::bridges::Member, sun: Vec3<Enu>) -> Body 
     }
 }
 
-fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>) -> Facet {
+fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> Facet {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).unit();
     // Sky from above, a little from the side so that faces differ, the sun where it shines.
     let light = 0.50 + 0.16 * normal.up() + 0.06 * normal.east() + 0.10 * normal.north().abs() + 0.25 * normal.dot(sun).max(0.0);
-    Facet { corners, colour: base.map(|c| c * light) }
+    Facet { corners, shade: palette.number(base.map(|c| c * light)) }
 }
 
 /// Ground and water in squares.
-fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>) -> Vec<Body> {
+fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palette) -> Vec<Body> {
     let half = 0.5 * scenario.terrain.size_m;
     let water_m = scenario.terrain.water_level_m;
     let count = (scenario.terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 200.0) as usize;
@@ -110,22 +138,22 @@ fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>) -> Vec<Body> {
                 Vec3::new(e, n, site.ground_up_m(e, n))
             };
             let square = [at(0, 0), at(1, 0), at(1, 1), at(0, 1)];
-            bodies.push(slab(square, [0.42, 0.47, 0.34], sun));
+            bodies.push(slab(square, [0.42, 0.47, 0.34], sun, palette));
             if square.iter().any(|corner| corner.up() < water_m) {
                 let flat = square.map(|c| Vec3::new(c.east(), c.north(), water_m));
-                bodies.push(slab(flat, [0.36, 0.50, 0.58], sun));
+                bodies.push(slab(flat, [0.36, 0.50, 0.58], sun, palette));
             }
         }
     }
     bodies
 }
 
-fn slab(square: [Vec3<Enu>; 4], base: [f64; 3], sun: Vec3<Enu>) -> Body {
+fn slab(square: [Vec3<Enu>; 4], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> Body {
     let centre_m = square.iter().fold(Vec3::zero(), |sum, x| sum + *x) / 4.0;
     Body {
         centre_m,
         radius_m: square.iter().map(|x| (*x - centre_m).norm()).fold(0.0, f64::max),
-        facets: vec![facet([square[0], square[1], square[2]], base, sun), facet([square[0], square[2], square[3]], base, sun)],
+        facets: [[0, 1, 2], [0, 2, 3]].map(|corners| facet(corners.map(|k: usize| square[k]), base, sun, palette)).into(),
     }
 }
 
@@ -157,24 +185,24 @@ struct Sheet {
     focal_px: f64,
     /// 1/depth, 0 for the sky.
     near: Vec<f64>,
-    colour: Vec<[f64; 3]>,
+    shade: Vec<Shade>,
 }
 
 impl Sheet {
     fn new(height: usize, focal_px: f64) -> Self {
-        Self { height, focal_px, near: vec![0.0; WIDTH_PX * height], colour: vec![SKY; WIDTH_PX * height] }
+        Self { height, focal_px, near: vec![0.0; WIDTH_PX * height], shade: vec![BLUE; WIDTH_PX * height] }
     }
 
     fn draw(&mut self, lens: &Lens<'_>, facet: &Facet) {
         let seen = facet.corners.map(|corner| lens.see(corner));
         let clipped = clip(&seen);
         for k in 2..clipped.len() {
-            self.fill([clipped[0], clipped[k - 1], clipped[k]], facet.colour);
+            self.fill([clipped[0], clipped[k - 1], clipped[k]], facet.shade);
         }
     }
 
     /// Fills a triangle whose corners lie before the lens and run counter-clockwise as seen; the backs of faces are not drawn.
-    fn fill(&mut self, corners: [[f64; 3]; 3], colour: [f64; 3]) {
+    fn fill(&mut self, corners: [[f64; 3]; 3], shade: Shade) {
         let (w, h) = (WIDTH_PX as f64, self.height as f64);
         let p = corners.map(|[x, y, z]| (0.5 * w + self.focal_px * x / z, 0.5 * h + self.focal_px * y / z, 1.0 / z));
         let area = (p[1].0 - p[0].0) * (p[2].1 - p[0].1) - (p[1].1 - p[0].1) * (p[2].0 - p[0].0);
@@ -195,25 +223,25 @@ impl Sheet {
             let Some((from, to)) = span(&shares) else { continue };
             let sum = |f: fn(&(f64, f64)) -> f64| shares.iter().zip(&p).map(|(share, corner)| f(share) * corner.2).sum::<f64>();
             let (near, step) = (sum(|s| s.0), sum(|s| s.1));
-            for x in from..to {
+            let row = y * WIDTH_PX + from..y * WIDTH_PX + to;
+            let pixels = self.near[row.clone()].iter_mut().zip(&mut self.shade[row]);
+            for (x, (nearest, shown)) in (from..to).zip(pixels) {
                 let near = near + step * x as f64;
-                let at = y * WIDTH_PX + x;
-                if near > self.near[at] {
-                    self.near[at] = near;
-                    self.colour[at] = colour;
+                if near > *nearest {
+                    (*nearest, *shown) = (near, shade);
                 }
             }
         }
     }
 
     /// Edges, haze and light, to 8 bits.
-    fn shaded(&self, exposure: Exposure) -> Vec<u8> {
+    fn shaded(&self, colours: &[[f64; 3]], exposure: Exposure) -> Vec<u8> {
         let dim = exposure.light.clamp(0.0, 1.0).sqrt().max(0.06);
         let mut rgb = Vec::with_capacity(3 * self.near.len());
         for y in 0..self.height {
             for x in 0..WIDTH_PX {
                 let at = y * WIDTH_PX + x;
-                let mut colour = self.colour[at];
+                let mut colour = colours[self.shade[at] as usize];
                 if self.near[at] > 0.0 {
                     if self.is_edge(x, y) {
                         colour = colour.map(|c| 0.72 * c);
@@ -233,9 +261,7 @@ impl Sheet {
         let at = y * WIDTH_PX + x;
         let differs = |other: usize| {
             let jump = (self.near[at] - self.near[other]).abs() > 0.06 * self.near[at].max(self.near[other]);
-            // Each face has one shade; its bits tell faces apart.
-            let face = self.colour[at].map(f64::to_bits) != self.colour[other].map(f64::to_bits);
-            jump || face
+            jump || self.shade[at] != self.shade[other]
         };
         (x + 1 < WIDTH_PX && differs(at + 1)) || (y + 1 < self.height && differs(at + WIDTH_PX))
     }
@@ -295,9 +321,9 @@ fn encode(rgb: &[u8], width: usize, height: usize) -> Result<Vec<u8>, png::Encod
 mod tests {
     use super::*;
 
-    fn triangle(ahead_m: f64, colour: [f64; 3]) -> Facet {
+    fn triangle(ahead_m: f64, shade: Shade) -> Facet {
         let corner = |e: f64, u: f64| Vec3::new(e, ahead_m, u);
-        Facet { corners: [corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)], colour }
+        Facet { corners: [corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)], shade }
     }
 
     #[test]
@@ -310,14 +336,14 @@ mod tests {
         };
         let lens = Lens { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
         assert_eq!(lens.see(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, ahead");
-        let (near, far) = (triangle(2.0, [1.0, 0.0, 0.0]), triangle(4.0, [0.0, 1.0, 0.0]));
+        let (near, far) = (triangle(2.0, 1), triangle(4.0, 2));
         for order in [[&near, &far], [&far, &near]] {
             let mut sheet = Sheet::new(300, 200.0);
             order.iter().for_each(|facet| sheet.draw(&lens, facet));
             let middle = 150 * WIDTH_PX + 200;
-            assert_eq!(sheet.colour[middle], [1.0, 0.0, 0.0]);
+            assert_eq!(sheet.shade[middle], 1);
             assert!((1.0 / sheet.near[middle] - 2.0).abs() < 1e-12);
-            assert_eq!(sheet.colour[0], SKY);
+            assert_eq!(sheet.shade[0], BLUE);
         }
     }
 
@@ -328,8 +354,8 @@ mod tests {
         let face = [corner(10.0, 10.0), corner(10.0, 30.0), corner(30.0, 10.0)];
         let filled = |corners: [[f64; 3]; 3]| {
             let mut sheet = Sheet::new(300, 100.0);
-            sheet.fill(corners, [0.0; 3]);
-            sheet.colour.iter().filter(|colour| **colour == [0.0; 3]).count()
+            sheet.fill(corners, 1);
+            sheet.shade.iter().filter(|shade| **shade == 1).count()
         };
         // Pixel middles with x + y < 40 from a corner at 10: 19 + 18 + ... + 1, and the 20 on the edge.
         assert!((190..=210).contains(&filled(face)), "{}", filled(face));
@@ -342,5 +368,13 @@ mod tests {
         let cut = clip(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 0.0, -1.0]]);
         assert_eq!(cut.len(), 4);
         assert!(cut.iter().all(|corner| corner[2] >= NEAR_M - 1e-12));
+    }
+
+    #[test]
+    fn exact_one_shade_has_one_number_and_the_sky_the_first() {
+        let mut palette = Palette::new();
+        let numbers = [[0.1, 0.2, 0.3], SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]].map(|colour| palette.number(colour));
+        assert_eq!(numbers, [1, BLUE, 1, 2]);
+        assert_eq!(palette.colours, [SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]);
     }
 }
