@@ -30,9 +30,11 @@ fn describe(gamepad: gilrs::Gamepad) -> Device {
 }
 
 /// Waits for a device while there is none: the system is asked once and tells from then on.
+#[cfg(feature = "view")]
 #[derive(Debug)]
 pub struct Watch(Gilrs);
 
+#[cfg(feature = "view")]
 impl Watch {
     /// Begins.
     pub fn start() -> Result<Self, AppError> {
