@@ -25,8 +25,9 @@ use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::progress::Progress;
 use crate::training::record::Record;
+use erased::Erased;
 use people::PersonArgs;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// µs in a day.
@@ -221,6 +222,21 @@ struct Taken {
     erased: usize,
 }
 
+impl Taken {
+    /// The record of a folder, unless it was erased, `known` holds it unchanged, or it cannot be read: `otherwise` says what becomes of it then.
+    fn read(&mut self, folder: &Path, (known, erased): (&BTreeMap<String, String>, &Erased), otherwise: &str) -> Option<Record> {
+        if import::is_erased(folder, erased) {
+            self.erased += 1;
+            return None;
+        }
+        import::read(folder, known).unwrap_or_else(|error| {
+            self.left_out += 1;
+            tracing::warn!("{otherwise}: {error}");
+            None
+        })
+    }
+}
+
 fn import_into(database: &Database, folders: &[PathBuf]) -> Result<Taken, AppError> {
     let (known, erased) = (database.fingerprints()?, database.erased()?);
     let mut taken = Taken::default();
@@ -229,17 +245,7 @@ fn import_into(database: &Database, folders: &[PathBuf]) -> Result<Taken, AppErr
         let mut records = Vec::new();
         for (k, folder) in part.iter().enumerate() {
             progress.tell(|| format!("session {} of {}", parcel * PARCEL + k + 1, folders.len()));
-            if import::is_erased(folder, &erased) {
-                taken.erased += 1;
-                continue;
-            }
-            match import::read(folder, &known) {
-                Ok(record) => records.extend(record),
-                Err(error) => {
-                    taken.left_out += 1;
-                    tracing::warn!("left out: {error}");
-                }
-            }
+            records.extend(taken.read(folder, (&known, &erased), "left out"));
         }
         taken.changed += database.put(&records)?;
     }
@@ -261,23 +267,14 @@ fn rebuild(place: &Place, yes: bool) -> Result<(), AppError> {
             gone[0]
         )));
     }
-    let erased = database.erased()?;
+    // As if it knew nothing: all are read.
+    let (none, erased) = (BTreeMap::new(), database.erased()?);
     let mut progress = Progress::start("reading sessions");
     let mut records = Vec::new();
     let mut taken = Taken::default();
     for (k, folder) in folders.iter().enumerate() {
         progress.tell(|| format!("session {} of {}", k + 1, folders.len()));
-        if import::is_erased(folder, &erased) {
-            taken.erased += 1;
-            continue;
-        }
-        match import::read(folder, &std::collections::BTreeMap::new()) {
-            Ok(record) => records.extend(record),
-            Err(error) => {
-                taken.left_out += 1;
-                tracing::warn!("left as it was: {error}");
-            }
-        }
+        records.extend(taken.read(folder, (&none, &erased), "left as it was"));
     }
     progress.end();
     let made = database.rebuild(&records, &gone)?;
