@@ -238,6 +238,14 @@ fn caustics(p: vec3<f32>) -> f32 {
     return clamp(ridge, 0.0, 1.0);
 }
 
+// What a ray off a surface meets: the sky, or land and lake by their mean.
+fn surroundings(ray: vec3<f32>) -> vec3<f32> {
+    if ray.z < 0.0 {
+        return 0.12 * (g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * g.sun_rgb.xyz);
+    }
+    return sky_radiance(ray);
+}
+
 fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
     let away = g.eye.xyz - p;
     let distance = length(away);
@@ -273,11 +281,7 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
         let r = reflect(-v, n);
         let open = clamp(m.light.x * 1.2, 0.0, 1.0);
         let fresnel = f0 + (max(vec3<f32>(1.0 - m.roughness), f0) - f0) * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 5.0);
-        var seen = sky_radiance(r);
-        if r.z < 0.0 {
-            seen = 0.12 * (g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * g.sun_rgb.xyz);
-        }
-        out += fresnel * mix(indirect, seen, (1.0 - m.roughness) * open) * (1.0 - 0.5 * m.roughness);
+        out += fresnel * mix(indirect, surroundings(r), (1.0 - m.roughness) * open) * (1.0 - 0.5 * m.roughness);
     }
     return haze(out, v, distance);
 }

@@ -42,12 +42,8 @@ fn reflected(v: vec3<f32>, n: vec3<f32>, smooth_by: f32, light: vec2<f32>, indir
     let r = reflect(-v, n);
     let away = 1.0 - clamp(dot(n, v), 0.0, 1.0);
     let fresnel = 0.04 + (max(smooth_by, 0.04) - 0.04) * away * away * away * away * away;
-    var seen = sky_radiance(r);
-    if r.z < 0.0 {
-        seen = 0.12 * (g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * g.sun_rgb.xyz);
-    }
     let open = clamp(light.x * 1.2, 0.0, 1.0);
-    return select(0.0, fresnel * (0.5 + 0.5 * smooth_by), smooth_by > 0.3) * mix(indirect, seen, smooth_by * open);
+    return select(0.0, fresnel * (0.5 + 0.5 * smooth_by), smooth_by > 0.3) * mix(indirect, surroundings(r), smooth_by * open);
 }
 
 @vertex
