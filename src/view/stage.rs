@@ -78,10 +78,9 @@ impl Stage<'_> {
     /// What a person sees from anywhere.
     #[must_use]
     pub fn person(&self, eye: Eye, moment: &Moment, size_px: (u32, u32)) -> Shot {
-        let lens = moment.lens;
-        let shot = self.through(eye, Some(&moment.camera), &lens, Some(&moment.drone), (moment.at, size_px));
-        let metered = self.metered(&eye, Some(&moment.camera), &shot.sky, (moment.at, size_px));
-        Shot { finish: Finish::eyes(Exposure::eyes(metered)), ..shot }
+        self.shot(eye, Some(&moment.camera), Some(&moment.drone), (moment.at, size_px), |metered| {
+            Finish::eyes(Exposure::eyes(metered))
+        })
     }
 
     /// A picture by a camera like the aircraft's from anywhere, with or without the aircraft in it.
@@ -94,13 +93,23 @@ impl Stage<'_> {
         drone: Option<&DronePose>,
         (at, size_px): (SimTime, (u32, u32)),
     ) -> Shot {
+        self.shot(eye, lamp, drone, (at, size_px), |metered| Finish::camera(Exposure::camera(metered, lens), None))
+    }
+
+    fn shot(
+        &self,
+        eye: Eye,
+        lamp: Option<&CameraPose>,
+        drone: Option<&DronePose>,
+        (at, size_px): (SimTime, (u32, u32)),
+        finish: impl FnOnce(f64) -> Finish,
+    ) -> Shot {
         let sky = self.sky(at);
-        let metered = self.metered(&eye, lamp, &sky, (at, size_px));
         Shot {
             eye,
             size_px,
             beam: lamp.and_then(|pose| Beam::of(&self.vehicle.lamp, pose)),
-            finish: Finish::camera(Exposure::camera(metered, lens), None),
+            finish: finish(self.metered(&eye, lamp, &sky, (at, size_px))),
             time_s: at.s(),
             wind_m_s: wind(self.scenario),
             moving: self.scene.moving(self.scenario, self.site, drone, at),
