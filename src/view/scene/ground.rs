@@ -10,9 +10,11 @@ use crate::site::Site;
 /// Around bridges and pad the light on the ground is worked out within this distance of a member, m.
 const SHADED_M: f64 = 30.0;
 /// Rings of mountains, as shares of the field's half side: pictures only, nothing of a job reaches there.
-const RINGS: [f64; 14] = [1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.4, 6.8, 8.6, 11.0];
+const RINGS: [f64; 15] = [0.98, 1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.4, 6.8, 8.6, 11.0];
 /// Corners on each side of a ring.
 const SIDE: usize = 48;
+/// Inside the rim mountains begin so far under the ground, m: the rim has fewer corners than the ground and would leave gaps to see through.
+const UNDER_M: f64 = 8.0;
 /// How high mountains rise over the rim, m (estimate: a lake in a pre-alpine valley).
 const PEAKS_M: f64 = 620.0;
 /// The rim is land from this height over the water on, m.
@@ -85,10 +87,14 @@ pub fn mountains(scenario: &Scenario, site: &Site) -> Mesh {
     for (ring, share) in RINGS.iter().enumerate() {
         for k in 0..around {
             let (x, y) = rim(k);
-            let edge = (x * half * 0.9995, y * half * 0.9995);
-            let rim_up = site.geometry().terrain.ground.ground(edge.0, edge.1).0;
+            let edge = share.min(0.9995) * half;
+            let rim_up = site.geometry().terrain.ground.ground(x * edge, y * edge).0;
             let (east, north) = (x * half * share, y * half * share);
-            let up = if ring == 0 { rim_up } else { slope_up_m(rim_up - water, *share, east, north) + water };
+            let up = match ring {
+                0 => rim_up - UNDER_M,
+                1 => rim_up,
+                _ => slope_up_m(rim_up - water, *share, east, north) + water,
+            };
             points.push(Vec3::new(east, north, up));
         }
     }
