@@ -60,8 +60,8 @@ fn position(v: &Vertex) -> Vec3<Enu> {
 /// Number of a cell; true for the backdrop's.
 type Cell = (bool, i64, i64);
 
-fn cell(p: Vec3<Enu>) -> Cell {
-    let far = p.east().abs().max(p.north().abs()) > BACKDROP_M;
+fn cell(p: Vec3<Enu>, backdrop: bool) -> Cell {
+    let far = backdrop || p.east().abs().max(p.north().abs()) > BACKDROP_M;
     let side_m = if far { BACKDROP_CELL_M } else { CELL_M };
     (far, (p.east() / side_m).floor() as i64, (p.north() / side_m).floor() as i64)
 }
@@ -69,13 +69,13 @@ fn cell(p: Vec3<Enu>) -> Cell {
 /// Numbers of corners in a cell by those in the whole.
 type Numbers = BTreeMap<u32, u32>;
 
-/// A mesh's triangles by cell.
+/// A mesh's triangles by cell; a `backdrop` has large ones alone.
 #[must_use]
-pub fn cut(mesh: &Mesh) -> Vec<Mesh> {
+pub fn cut(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     let mut cells: BTreeMap<Cell, (Mesh, Numbers)> = BTreeMap::new();
     for triangle in mesh.indices.chunks_exact(3) {
         let Some(first) = mesh.vertices.get(triangle[0] as usize) else { continue };
-        let (part, known) = cells.entry(cell(position(first))).or_default();
+        let (part, known) = cells.entry(cell(position(first), backdrop)).or_default();
         for k in triangle {
             let Some(vertex) = mesh.vertices.get(*k as usize) else { continue };
             let index = *known.entry(*k).or_insert_with(|| {
@@ -105,7 +105,7 @@ pub fn grouped(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, Ball)
     };
     let mut cells: BTreeMap<Cell, Vec<Instance>> = BTreeMap::new();
     for instance in instances {
-        cells.entry(cell(origin(instance))).or_default().push(*instance);
+        cells.entry(cell(origin(instance), false)).or_default().push(*instance);
     }
     let balled = |all: Vec<Instance>| {
         let points: Vec<_> = all.iter().map(|i| (origin(i), reach_m * size(i))).collect();
@@ -151,7 +151,7 @@ mod tests {
         let mut mesh = Mesh::default();
         mesh.block([-300.0, -5.0, 0.0], [-20.0, 5.0, 2.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
         mesh.block([100.0, 100.0, 0.0], [101.0, 101.0, 2.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
-        let parts = cut(&mesh);
+        let parts = cut(&mesh, false);
         assert!(parts.len() > 2);
         assert_eq!(parts.iter().map(Mesh::triangles).sum::<usize>(), mesh.triangles());
         for part in &parts {

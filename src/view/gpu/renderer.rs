@@ -117,7 +117,10 @@ impl Renderer {
             fixed: fixed(gpu, scene),
             models: scene.models.iter().map(|mesh| Solid::new(gpu, mesh)).collect(),
             reaches_m: scene.models.iter().map(cells::reach_m).collect(),
-            water: cells::cut(&scene.water).iter().filter_map(|cell| Some((Solid::new(gpu, cell)?, Ball::of(cell)))).collect(),
+            water: cells::cut(&scene.water, false)
+                .iter()
+                .filter_map(|cell| Some((Solid::new(gpu, cell)?, Ball::of(cell))))
+                .collect(),
             patches: patches(gpu, &scene.patches),
             bounds_m: scene.bounds_m,
             water_m: scene.water_m(),
@@ -422,7 +425,7 @@ fn fixed(gpu: &Gpu, scene: &Scene) -> Vec<Fixed> {
             }));
         };
         if part.instances == [Instance::HERE] {
-            for cell in cells::cut(&part.mesh) {
+            for cell in cells::cut(&part.mesh, part.backdrop) {
                 if let Some(solid) = Solid::new(gpu, &cell) {
                     add(Arc::new(solid), &part.instances, Ball::of(&cell));
                 }

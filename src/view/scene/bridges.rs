@@ -52,10 +52,7 @@ pub fn parts(scenario: &Scenario, bake: &Bake, quality: &Quality) -> Vec<Part> {
     }
     let stout = mesh(scenario, bake, quality, &|element| !SLIM.contains(&element));
     let slim = mesh(scenario, bake, quality, &|element| SLIM.contains(&element));
-    vec![
-        Part::here("bridges", stout, true),
-        Part { seen: Seen::MirroredTo(0.0), ..Part::here("hangers and railings", slim, true) },
-    ]
+    vec![Part::here("bridges", stout, true), Part { seen: Seen::STRAIGHT, ..Part::here("hangers and railings", slim, true) }]
 }
 
 /// Members of some elements as one mesh.

@@ -81,37 +81,57 @@ pub struct Part {
     pub instances: Vec<Instance>,
     /// It throws shadows.
     pub casts: bool,
-    /// Where it shows.
+    /// From where it shows.
     pub seen: Seen,
+    /// It stands around everything: culled in large pieces, since most of it is in every picture.
+    pub backdrop: bool,
 }
 
-/// Where something shows.
+/// From where something shows: distances at which it begins and ends, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Seen {
-    /// Everywhere.
-    Everywhere,
-    /// Wherever the eye meets it, but in the lake only what is nearer than this, m.
-    MirroredTo(f64),
-    /// In the lake alone: a simpler stand-in.
-    Mirrored,
+pub struct Seen {
+    /// Straight.
+    pub straight_m: [f64; 2],
+    /// In the lake.
+    pub in_lake_m: [f64; 2],
 }
 
 impl Seen {
+    /// From anywhere.
+    pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+    /// From nowhere.
+    pub const NEVER: [f64; 2] = [f64::INFINITY, f64::INFINITY];
+    /// Straight and in the lake.
+    pub const EVERYWHERE: Self = Self { straight_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
+    /// Never in the lake.
+    pub const STRAIGHT: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
+    /// In the lake alone: a simpler stand-in.
+    pub const IN_LAKE: Self = Self { straight_m: Self::NEVER, ..Self::EVERYWHERE };
+
+    /// From nearer than this, m.
+    #[must_use]
+    pub const fn within(most_m: f64) -> [f64; 2] {
+        [f64::NEG_INFINITY, most_m]
+    }
+
+    /// From this far on, m.
+    #[must_use]
+    pub const fn beyond(least_m: f64) -> [f64; 2] {
+        [least_m, f64::INFINITY]
+    }
+
     /// Whether it shows straight or in the lake, at a distance.
     #[must_use]
-    pub fn shows(self, in_lake: bool, from_m: f64) -> bool {
-        match self {
-            Self::Everywhere => true,
-            Self::MirroredTo(most_m) => !in_lake || from_m < most_m,
-            Self::Mirrored => in_lake,
-        }
+    pub fn shows(&self, in_lake: bool, from_m: f64) -> bool {
+        let [begins, ends] = if in_lake { self.in_lake_m } else { self.straight_m };
+        begins <= from_m && from_m < ends
     }
 }
 
 impl Part {
     /// What is built where it stands.
     fn here(name: &'static str, mesh: Mesh, casts: bool) -> Self {
-        Self { name, mesh, instances: vec![Instance::HERE], casts, seen: Seen::Everywhere }
+        Self { name, mesh, instances: vec![Instance::HERE], casts, seen: Seen::EVERYWHERE, backdrop: false }
     }
 }
 
@@ -182,13 +202,13 @@ impl Scene {
         let ground = parts.len();
         parts.extend([
             Part::here("ground", ground::mesh(scenario, site, &bake, &shown), true),
-            Part::here("mountains", ground::mountains(scenario, site), false),
+            Part { backdrop: true, ..Part::here("mountains", ground::mountains(scenario, site), false) },
             Part::here("pad", ground::pad(site), false),
         ]);
         if quality.sparse {
-            parts[ground].seen = Seen::MirroredTo(0.0);
+            parts[ground].seen = Seen::STRAIGHT;
             let rough = ground::mesh(scenario, site, &bake, &fields::sparse(scenario, site, IN_LAKE));
-            parts.push(Part { seen: Seen::Mirrored, ..Part::here("ground in the lake", rough, false) });
+            parts.push(Part { seen: Seen::IN_LAKE, ..Part::here("ground in the lake", rough, false) });
         }
         parts.extend(plants::parts(scenario, site, quality));
         Self {

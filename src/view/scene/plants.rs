@@ -22,6 +22,11 @@ const DRY_M: f64 = 2.2;
 const STEEP: f64 = 0.72;
 /// Where triangles are saved the lake mirrors trees no farther than this, m (there one is three pixels of its mirror).
 const MIRRORED_M: f64 = 160.0;
+/// And boulders end here, m: the largest are three pixels of a view 640 px and 84 degrees wide, most are one.
+const BOULDERS_M: f64 = 150.0;
+/// And trees have fewer boughs from here on, m: the tallest are 25 pixels high. Both kinds stand where one goes over into the other.
+const FAR_M: f64 = 220.0;
+const OVERLAP_M: f64 = 5.0;
 /// Side of the patches in which trees stand together, m.
 const GROVE_M: f64 = 55.0;
 
@@ -64,18 +69,27 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<Part> {
         let Some(foot) = room(scenario, site, east, north, -0.5) else { continue };
         rocks.push(grown(foot, size, turn));
     }
-    // A boulder is a few pixels of the lake's mirror.
-    let on_shore = if quality.sparse { Seen::MirroredTo(0.0) } else { Seen::Everywhere };
+    let on_shore =
+        if quality.sparse { Seen { straight_m: Seen::within(BOULDERS_M), ..Seen::STRAIGHT } } else { Seen::EVERYWHERE };
     let (spruce, fir) = (conifer(0.21, 5, quality.boughs), conifer(0.15, 6, quality.boughs));
-    let boulders = Part { name: "boulders", mesh: boulder(quality.boughs), instances: rocks, casts: true, seen: on_shore };
+    let copies = |name, mesh, instances, seen| Part { name, mesh, instances, casts: true, seen, backdrop: false };
+    let boulders = copies("boulders", boulder(quality.boughs), rocks, on_shore);
     if quality.sparse {
         // Software draws copies one by one: a wood in one piece takes less.
-        let mut wood = stamped(&spruce, &tall);
-        wood.append(&stamped(&fir, &slim));
-        return vec![Part { seen: Seen::MirroredTo(MIRRORED_M), ..Part::here("trees", wood, true) }, boulders];
+        let wood = |spruce: &Mesh, fir: &Mesh| {
+            let mut wood = stamped(spruce, &tall);
+            wood.append(&stamped(fir, &slim));
+            wood
+        };
+        let near = Seen { straight_m: Seen::within(FAR_M + OVERLAP_M), in_lake_m: Seen::within(MIRRORED_M) };
+        let far = Seen { straight_m: Seen::beyond(FAR_M), ..Seen::STRAIGHT };
+        return vec![
+            Part { seen: near, ..Part::here("trees", wood(&spruce, &fir), true) },
+            Part { seen: far, ..Part::here("trees far away", wood(&distant(0.21), &distant(0.15)), false) },
+            boulders,
+        ];
     }
-    let trees = |name, mesh, instances| Part { name, mesh, instances, casts: true, seen: Seen::Everywhere };
-    vec![trees("spruces", spruce, tall), trees("firs", fir, slim), boulders]
+    vec![copies("spruces", spruce, tall, Seen::EVERYWHERE), copies("firs", fir, slim, Seen::EVERYWHERE), boulders]
 }
 
 /// How likely a tree is here: groves and clearings.
@@ -145,6 +159,21 @@ fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
             mesh.polygon(&[rim(k), rim(k + 1), top], NEEDLES);
             mesh.polygon(&[rim(k + 1), rim(k), hollow], NEEDLES);
         }
+    }
+    soften(&mut mesh);
+    mesh
+}
+
+/// A conifer of height 1 as it looks from afar: two whorls of four boughs.
+fn distant(radius: f64) -> Mesh {
+    const WHORLS: [(f64, f64, f64); 2] = [(0.08, 0.62, 1.0), (0.40, 1.0, 0.62)];
+    let mut mesh = Mesh::default();
+    for (low, high, share) in WHORLS {
+        let rim = |k: u32| {
+            let (s, c) = math::sin_cos(math::TAU * (f64::from(k) + low) / 4.0);
+            Vec3::new(0.85 * radius * share * c, 0.85 * radius * share * s, low)
+        };
+        cone(&mut mesh, &(0..4).map(rim).collect::<Vec<_>>(), Vec3::new(0.0, 0.0, high));
     }
     soften(&mut mesh);
     mesh
