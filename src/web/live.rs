@@ -39,8 +39,8 @@ pub struct Choice {
 }
 
 impl Choice {
-    fn address(&self) -> &str {
-        self.number.checked_sub(1).and_then(|k| self.vehicles.get(k)).map_or("none (--vehicle)", String::as_str)
+    fn address(&self) -> Option<&str> {
+        self.number.checked_sub(1).and_then(|k| self.vehicles.get(k)).map(String::as_str)
     }
 }
 
@@ -53,7 +53,10 @@ pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, choice: &Choice) -> Markup
             p.lead {
                 @match drawn {
                     Some(drawn) => b { (drawn.title) },
-                    None => span { "Waiting for a flight at " code { (choice.address()) } ". This page follows as soon as one begins." },
+                    None => @match choice.address() {
+                        Some(address) => span { "Waiting for a flight at " code { (address) } ". This page follows as soon as one begins." },
+                        None => span { "This server watches no vehicle; " code { "spandrel serve --vehicle HOST:PORT" } " says which." },
+                    },
                 }
                 " " span.state role="status" data-state { "not connected" }
             }
@@ -178,6 +181,6 @@ mod tests {
         assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 4);
         assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
         let text = live(&administrator(), None, &Choice::default()).into_string();
-        assert!(!text.contains("data-live") && text.contains("none (--vehicle)"), "nothing to listen to: {text}");
+        assert!(!text.contains("data-live") && text.contains("watches no vehicle"), "nothing to listen to: {text}");
     }
 }

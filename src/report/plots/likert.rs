@@ -8,7 +8,11 @@ const WIDTH: f64 = 640.0;
 const MIDDLE: f64 = 320.0;
 /// Units of the sheet for all answers together: a row that agrees as a whole ends before the sheet does.
 const WHOLE: f64 = 300.0;
+/// Height of a question with its bar; a name in more lines needs more.
 const ROW: f64 = 42.0;
+const LINE: f64 = 15.0;
+/// Characters of a name that fit in a line (a wide sans-serif at the size of the sheet's labels).
+const LINE_CHARACTERS: usize = 84;
 
 /// One question.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,27 +36,56 @@ pub fn bars(counts: [usize; 5]) -> [(f64, f64); 5] {
     })
 }
 
+/// A name in lines that fit, broken between words.
+fn lines(name: &str) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in name.split_whitespace() {
+        if let Some(line) =
+            lines.last_mut().filter(|line| line.is_empty() || line.chars().count() + word.chars().count() < LINE_CHARACTERS)
+        {
+            line.push_str(if line.is_empty() { "" } else { " " });
+            line.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}
+
 /// Rows of answers.
 #[must_use]
 pub fn likert(questions: &[Question], title: &str) -> Markup {
+    let mut height = 0.0;
+    let rows: Vec<(f64, Vec<String>, &Question)> = questions
+        .iter()
+        .map(|question| {
+            let (top, lines) = (height, lines(&question.name));
+            height += ROW + LINE * (lines.len() - 1) as f64;
+            (top, lines, question)
+        })
+        .collect();
     sheet(
-        (WIDTH, ROW * questions.len() as f64 + 4.0),
+        (WIDTH, height + 4.0),
         title,
         "likert",
-        &html! {
-            @for (k, question) in questions.iter().enumerate() {
-                @let top = ROW * k as f64;
-                text.label x="4" y=(unit(top + 13.0)) { (question.name) }
-                @for (answer, (x, width)) in bars(question.counts).into_iter().enumerate() {
-                    @let count = question.counts[answer];
-                    @if count > 0 {
-                        rect class={ "answer-" (answer + 1) } x=(unit(x)) y=(unit(top + 19.0)) width=(unit(width)) height="16" {}
-                        @if width >= 14.0 { text class={ "count count-" (answer + 1) } x=(unit(x + 0.5 * width)) y=(unit(top + 31.0)) text-anchor="middle" { (count) } }
-                    }
-                }
-            }
-        },
+        &html! { @for (top, lines, question) in &rows { (row(*top, lines, question)) } },
     )
+}
+
+fn row(top: f64, lines: &[String], question: &Question) -> Markup {
+    let bar = top + 19.0 + LINE * (lines.len() - 1) as f64;
+    html! {
+        text.label x="4" y=(unit(top + 13.0)) {
+            @for (k, line) in lines.iter().enumerate() { tspan x="4" dy=(if k == 0 { 0.0 } else { LINE }) { (line) } " " }
+        }
+        @for (answer, (x, width)) in bars(question.counts).into_iter().enumerate() {
+            @let count = question.counts[answer];
+            @if count > 0 {
+                rect class={ "answer-" (answer + 1) } x=(unit(x)) y=(unit(bar)) width=(unit(width)) height="16" {}
+                @if width >= 14.0 { text class={ "count count-" (answer + 1) } x=(unit(x + 0.5 * width)) y=(unit(bar + 12.0)) text-anchor="middle" { (count) } }
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -67,5 +100,20 @@ mod tests {
         assert_eq!(bars([0; 5]), [(320.0, 0.0); 5]);
         let figure = likert(&[Question { name: "<q>".into(), counts: [0, 2, 0, 0, 0] }], "t").into_string();
         assert!(figure.contains("&lt;q&gt;") && figure.matches("<rect").count() == 1, "{figure}");
+    }
+
+    #[test]
+    fn exact_a_long_question_is_broken_between_words_and_pushes_what_follows_down() {
+        let long = "physical activity ".repeat(10);
+        let broken = lines(&long);
+        assert_eq!(broken.join(" "), long.trim());
+        assert!(broken.len() == 3 && broken.iter().all(|line| line.chars().count() <= LINE_CHARACTERS), "{broken:?}");
+        assert_eq!((lines(""), lines(&"x".repeat(90)).len()), (vec![String::new()], 1));
+        let question = |name: &str| Question { name: name.into(), counts: [1, 0, 0, 0, 0] };
+        let figure = likert(&[question(&long), question("short")], "t").into_string();
+        assert!(
+            figure.contains(r#"y="49""#) && figure.contains(r#"y="91""#),
+            "bars below the third line and in the row after: {figure}"
+        );
     }
 }

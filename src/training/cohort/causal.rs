@@ -18,6 +18,8 @@ const RESAMPLES_MIN: usize = 200;
 const DRAWN_MAX: usize = 1_000_000;
 /// The resampling is the same in every run.
 const SEED: u64 = 20_221;
+/// The least and the most that feedback can have helped, as answers go.
+const SCALE: [f64; 2] = [1.0, 5.0];
 
 /// The model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -29,7 +31,7 @@ pub struct Causal {
     /// Performance (overall, % of what could be had) on strain and demand.
     pub performance: Regression,
     /// Points of performance per step of demand through strain: where feedback helped little (a standard deviation below the mean), at
-    /// the mean, where it helped much (a standard deviation above).
+    /// the mean, where it helped much (a standard deviation above); never beyond the scale of answers.
     pub indirect: [Indirect; 3],
     /// How much that effect changes per step of feedback: the moderation itself.
     pub moderation: Indirect,
@@ -101,7 +103,7 @@ fn estimate(people: &[Person]) -> Result<Causal, String> {
     let rows: Vec<[f64; 3]> = (0..people.len()).map(|k| [demand[k], feedback[k], product[k]]).collect();
     let second_rows: Vec<[f64; 2]> = (0..people.len()).map(|k| [strain[k], demand[k]]).collect();
     let drawn = resample(&rows, &strain, &second_rows, &performance);
-    let places = [-spread, 0.0, spread];
+    let places = [-spread, 0.0, spread].map(|at| at.clamp(SCALE[0] - middle, SCALE[1] - middle));
     let indirect = places.map(|at| Indirect {
         feedback: middle + at,
         effect: (a[1] + a[3] * at) * b[1],

@@ -30,11 +30,16 @@ pub fn answers(cohort: &Cohort) -> Markup {
     let first = of(None);
     html! {
         (legend(&key))
-        (figure(&format!("All first sessions, {} answers at most", cohort.trainees), &likert(&first, "Answers of all first sessions")))
+        (figure(&format!("All first sessions, {} answers at most", cohort.trainees), &scrolling(&first, "Answers of all first sessions")))
         @for (k, questions) in &later {
-            details.numbers { summary { "Those who repeated, repetition " (k) } (likert(questions, &format!("Answers in repetition {k}"))) }
+            details.numbers { summary { "Those who repeated, repetition " (k) } (scrolling(questions, &format!("Answers in repetition {k}"))) }
         }
     }
+}
+
+/// A chart that is read on a phone by moving it.
+fn scrolling(questions: &[Question], title: &str) -> Markup {
+    html! { div.scroll tabindex="0" role="region" aria-label=(title) { (likert(questions, title)) } }
 }
 
 /// A question in the shipped words; its key when they have none.
