@@ -61,8 +61,9 @@ pub fn list(visitor: &Visitor, listing: &Listing<'_>) -> Markup {
 #[must_use]
 pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
     let all = visitor.meets(Needs::Instructor);
+    // What a phone shows without being moved comes first: when, who, how well.
     let mut heads =
-        vec![("Started", false), ("Trainee", false), ("Scenario", false), ("Purpose", false), ("Overall", true), ("End", false)];
+        vec![("Started", false), ("Trainee", false), ("Overall", true), ("Scenario", false), ("Purpose", false), ("End", false)];
     if !all {
         heads.remove(1);
     }
@@ -74,9 +75,9 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
                 tr {
                     th scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
                     @if all { td { a href={ "/trainees/" (one.trainee) } { (one.trainee) } } }
+                    td.number { (words::number(one.overall, 1)) " of " (words::number(one.overall_max, 0)) }
                     td { (one.scenario) }
                     td { (one.purpose.as_deref().unwrap_or("–")) }
-                    td.number { (words::number(one.overall, 1)) " of " (words::number(one.overall_max, 0)) }
                     td { (one.end_reason.replace('_', " ")) }
                 }
             }
