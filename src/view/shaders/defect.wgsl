@@ -98,8 +98,14 @@ fn outline(q: vec2<f32>, half: vec2<f32>, seed: f32) -> f32 {
 // Depth under the surface, m.
 fn pit(q: vec2<f32>, half: vec2<f32>, seed: f32, deepest: f32) -> f32 {
     let e = outline(q, half, seed);
-    let rough = fbm(q * 45.0 + seed * 10.0, 0.0) - 0.5;
-    return deepest * smoothstep(1.0, 0.80, e) * (0.8 + 0.35 * rough);
+    // It breaks around its stones: lumps of centimetres, nothing finer.
+    let rough = lumps(q * 45.0 + seed * 10.0) - 0.5;
+    return deepest * smoothstep(1.0, 0.80, e) * (0.8 + 0.36 * rough);
+}
+
+// Noise without its finer octaves, whatever the footprint.
+fn lumps(p: vec2<f32>) -> f32 {
+    return textureSampleLevel(noise_map, noise_sampler, p / 16.0, 3.5).r;
 }
 
 fn frame_normal(in: Fragment, slope: vec2<f32>) -> vec3<f32> {
@@ -132,12 +138,18 @@ fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, loo
     let step = max(0.002, f);
     let here = pit(q, half, seed, deepest);
     let slope = -vec2<f32>(pit(q + vec2<f32>(step, 0.0), half, seed, deepest) - here, pit(q + vec2<f32>(0.0, step), half, seed, deepest) - here) / step;
-    (*look).matter.normal = frame_normal(in, clamp(slope, vec2<f32>(-2.5), vec2<f32>(2.5)));
-    let stone = pebbles(q * 38.0);
+    // Stones are no discs: their outlines are bent; they stand out of the mortar, which is paler where it broke.
+    let bent = q + 0.010 * (vec2<f32>(fbm(q * 30.0, f * 30.0), fbm(q * 30.0 + 40.0, f * 30.0)) - 0.5);
+    let stone = pebbles(bent * vec2<f32>(38.0, 45.0));
     let shown = 1.0 - smoothstep(0.006, 0.03, f);
-    var colour = vec3<f32>(0.46, 0.435, 0.39) * (0.8 + 0.4 * (fbm(q * 24.0 + seed, f * 24.0) - 0.5));
-    let pebble = mix(vec3<f32>(0.30, 0.27, 0.24), vec3<f32>(0.56, 0.53, 0.48), stone.y);
-    colour = mix(colour, pebble, shown * (1.0 - smoothstep(0.28, 0.42, stone.x)) * 0.8);
+    let stony = shown * (1.0 - smoothstep(0.30, 0.44, stone.x));
+    let knob = 0.7 * stony * (vec2<f32>(noise(q * 42.0), noise(q * 42.0 + 11.0)) - 0.5);
+    (*look).matter.normal = frame_normal(in, clamp(slope, vec2<f32>(-2.5), vec2<f32>(2.5)) + knob);
+    var colour = vec3<f32>(0.36, 0.335, 0.295) * (0.75 + 0.5 * fbm(q * 24.0 + seed, f * 24.0));
+    let pebble = mix(vec3<f32>(0.20, 0.18, 0.16), vec3<f32>(0.42, 0.37, 0.31), stone.y);
+    colour = mix(colour, pebble, 0.85 * stony);
+    // Mortar meets stone in a dark line.
+    colour *= 1.0 - 0.3 * shown * (1.0 - smoothstep(0.0, 0.08, abs(stone.x - 0.40)));
     let shelter = smoothstep(0.6, 1.0, e) * smoothstep(0.0, 0.06, deepest);
     (*look).matter.light *= 1.0 - 0.55 * shelter;
     colour *= mix(1.0, lip_shadow(in, q, half, deepest, g.sun.xyz), 0.55);
@@ -186,11 +198,13 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     let u = in.q / half;
     let wall = abs(in.size.z) > 0.3;
     var body = 0.0;
+    // What runs down wanders.
+    let y = in.q.y + 0.05 * (lumps(in.q * 13.0 + seed * 3.0) - 0.5) + 0.018 * (fbm(in.q * 31.0, f * 31.0) - 0.5);
     if wall {
         // x runs downhill: a source at the top, tongues below it.
         let down = 0.5 + 0.5 * u.x * sign(in.size.z);
-        let tongue = fbm(vec2<f32>(in.q.y * 17.0 + seed * 40.0, in.q.x * 1.2), f * 17.0);
-        let drip = fbm(vec2<f32>(in.q.y * 55.0 + seed * 11.0, in.q.x * 2.5), f * 55.0);
+        let tongue = fbm(vec2<f32>(y * 17.0 + seed * 40.0, in.q.x * 1.2), f * 17.0);
+        let drip = fbm(vec2<f32>(y * 55.0 + seed * 11.0, in.q.x * 2.5), f * 55.0);
         let side = 1.0 - smoothstep(0.25, 1.0, abs(u.y) + 0.9 * (tongue - 0.5));
         let reach = (0.15 + 0.95 * tongue + 0.35 * (drip - 0.5)) * (0.55 + 0.75 * side);
         let top = smoothstep(0.0, 0.03 + 0.06 * drip, down - 0.10 * drip);
@@ -200,10 +214,13 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
         body = (1.0 - smoothstep(0.02, 0.12, web)) * (1.0 - smoothstep(0.6, 1.0, outline(in.q, half, seed)));
         body = max(body, smoothstep(0.6, 0.72, fbm(in.q * 5.0 + seed * 8.0, f * 5.0)) * (1.0 - smoothstep(0.5, 0.9, length(u))));
     }
+    // It grows in crusts: thick ones are white, thin ones let the concrete through.
     let crust = fbm(in.q * 60.0, f * 60.0);
-    var colour = vec3<f32>(0.84, 0.83, 0.80) * (0.72 + 0.5 * crust);
+    let patches = smoothstep(0.30, 0.70, fbm(in.q * vec2<f32>(11.0, 23.0) + seed * 5.0, f * 23.0));
+    let thick = clamp(body * (0.25 + 0.75 * patches) + 0.7 * (crust - 0.5), 0.0, 1.0);
+    var colour = mix(vec3<f32>(0.50, 0.48, 0.44), vec3<f32>(0.80, 0.79, 0.75), smoothstep(0.3, 0.8, thick)) * (0.60 + 0.7 * crust);
     if in.size.y > 2.5 {
-        let stain = smoothstep(0.45, 0.75, fbm(vec2<f32>(in.q.y * 19.0 + 5.0 + seed, in.q.x * 1.2), f * 19.0));
+        let stain = smoothstep(0.45, 0.75, fbm(vec2<f32>(y * 19.0 + 5.0 + seed, in.q.x * 1.2), f * 19.0));
         colour = mix(colour, vec3<f32>(0.38, 0.17, 0.06), 0.75 * stain);
     }
     (*look).matter.albedo = colour;
@@ -211,7 +228,7 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     let turned = vec2<f32>(0.8 * in.q.x - 0.6 * in.q.y, 0.6 * in.q.x + 0.8 * in.q.y);
     let bump = 0.35 * (vec2<f32>(fbm(turned * 40.0, f * 40.0), fbm(turned * 40.0 + 19.0, f * 40.0)) - 0.5) * (1.0 - smoothstep(0.004, 0.02, f));
     (*look).matter.normal = frame_normal(in, bump);
-    (*look).alpha = clamp(body, 0.0, 1.0) * 0.92;
+    (*look).alpha = smoothstep(0.10, 0.60, thick) * min(1.0, 1.6 * body) * 0.94;
 }
 
 // The skin of the concrete is gone and its stones stand out.
