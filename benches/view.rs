@@ -11,8 +11,8 @@ use running::{Client, now, start};
 use spandrel::base::frames::{Enu, Vec3};
 use spandrel::base::time::SimTime;
 use spandrel::mav::dialect::{HEARTBEAT_DATA, MavMessage};
-use spandrel::view::arrange::Which;
 use spandrel::view::gpu::{Counts, Gpu, picture_texture};
+use spandrel::view::shot::Shot;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -51,22 +51,22 @@ struct Cost {
     counts: Counts,
 }
 
+/// Sends a shot to the device.
+fn drawn(studio: &mut Studio, shot: &Shot) -> Counts {
+    let (gpu, renderer) = studio.renderer();
+    let texture = picture_texture(gpu, shot.size_px);
+    renderer.draw(gpu, shot, &texture.create_view(&wgpu::TextureViewDescriptor::default()));
+    renderer.counts()
+}
+
 /// One frame: both views, each worked out and drawn as in the window, until they are there.
 fn frame(studio: &mut Studio, (from, look): (Vec3<Enu>, Vec3<Enu>), size_px: (u32, u32)) -> Cost {
     let start = now();
     let moment = studio.moment(from, look, false, at(1.0, 0.5, 0.0));
-    let mut counts = Counts::default();
-    for which in [Which::Inspector, Which::Camera] {
-        let shot = match which {
-            Which::Inspector => studio.stage().inspector(&moment, size_px),
-            Which::Camera => studio.stage().camera(&moment, size_px),
-        };
-        let (gpu, renderer) = studio.renderer();
-        let texture = picture_texture(gpu, size_px);
-        renderer.draw(gpu, &shot, &texture.create_view(&wgpu::TextureViewDescriptor::default()));
-        let of = renderer.counts();
-        counts = Counts { triangles: counts.triangles + of.triangles, draws: counts.draws + of.draws };
-    }
+    let inspector = studio.stage().inspector(&moment, size_px);
+    let counts = drawn(studio, &inspector);
+    let camera = studio.stage().camera(&moment, size_px);
+    let counts = counts.and(drawn(studio, &camera));
     studio.renderer().0.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
     Cost { frame: start.elapsed(), counts }
 }

@@ -1,6 +1,6 @@
 //! Feedback that was given, and how fast the trainee's hands answered.
 
-use super::figure;
+use super::{figure, scrolling};
 use crate::report::Review;
 use crate::report::cues::{Episode, KINDS, median};
 use crate::report::plots::{line, sheet, ticks, unit};
@@ -27,9 +27,7 @@ pub fn section(review: &Review) -> Markup {
                 }
             }
             @if answered(review).next().is_some() {
-                (figure("From the cue to the first movement of a stick; a dot is one cue, the bar their median", &html! {
-                    div.scroll tabindex="0" role="region" aria-label="Reaction times" { (reactions(review)) }
-                }))
+                (figure("From the cue to the first movement of a stick; a dot is one cue, the bar their median", &scrolling("Reaction times", &reactions(review))))
             }
             p.note { "A stick answers when it moves by a tenth of its travel within five seconds. A hand that was moving already may answer by chance." }
         }

@@ -1,6 +1,6 @@
 //! The flight on the site, its time line and its series, tied together by the slider.
 
-use super::{figure, legend};
+use super::{figure, legend, scrolling};
 use crate::report::cues::KINDS;
 use crate::report::plots::strips::{Strip, strips};
 use crate::report::plots::{colours, map};
@@ -25,7 +25,7 @@ pub fn section(review: &Review) -> Markup {
         (drawings(review))
         (figure("The session in time", &html! {
             (legend(&strip_legend()))
-            div.scroll tabindex="0" role="region" aria-label="Time line" { (strips(&rows(review), end_s(review), "Who flew, tasks, feedback, pictures and gaps over time")) }
+            (scrolling("Time line", &strips(&rows(review), end_s(review), "Who flew, tasks, feedback, pictures and gaps over time")))
         }))
         div.charts {
             @for (id, title, columns) in CHARTS {

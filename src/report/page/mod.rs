@@ -106,6 +106,11 @@ fn scripts(texts: &[&str]) -> Markup {
     html! { @for text in texts { script { (PreEscaped(text)) } } }
 }
 
+/// What is wider than a phone moves in a frame of its own, by finger or keys.
+fn scrolling(label: &str, body: &Markup) -> Markup {
+    html! { div.scroll tabindex="0" role="region" aria-label=(label) { (body) } }
+}
+
 /// A figure with its caption.
 fn figure(caption: &str, body: &Markup) -> Markup {
     html! { figure { figcaption { (caption) } (body) } }

@@ -38,7 +38,9 @@ pub struct Counts {
 }
 
 impl Counts {
-    fn and(self, other: Self) -> Self {
+    /// Both together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
         Self { triangles: self.triangles + other.triangles, draws: self.draws + other.draws }
     }
 }

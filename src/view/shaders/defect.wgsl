@@ -131,6 +131,17 @@ fn lip_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards
     return lit;
 }
 
+// Aggregate, so many stones a metre along and across; they are no discs: their outlines are bent by some of their size, m.
+fn stones(q: vec2<f32>, bend_m: f32, per_m: vec2<f32>, f: f32) -> vec2<f32> {
+    let bent = q + bend_m * (vec2<f32>(fbm(q * 30.0, f * 30.0), fbm(q * 30.0 + 40.0, f * 30.0)) - 0.5);
+    return pebbles(bent * per_m);
+}
+
+// How stones' faces tilt.
+fn knobs(q: vec2<f32>) -> vec2<f32> {
+    return vec2<f32>(noise(q * 42.0), noise(q * 42.0 + 11.0)) - 0.5;
+}
+
 // Broken concrete in a pit, with the edge's shadow.
 fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, look: ptr<function, Look>) {
     let seed = in.normal.w;
@@ -138,12 +149,11 @@ fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, loo
     let step = max(0.002, f);
     let here = pit(q, half, seed, deepest);
     let slope = -vec2<f32>(pit(q + vec2<f32>(step, 0.0), half, seed, deepest) - here, pit(q + vec2<f32>(0.0, step), half, seed, deepest) - here) / step;
-    // Stones are no discs: their outlines are bent; they stand out of the mortar, which is paler where it broke.
-    let bent = q + 0.010 * (vec2<f32>(fbm(q * 30.0, f * 30.0), fbm(q * 30.0 + 40.0, f * 30.0)) - 0.5);
-    let stone = pebbles(bent * vec2<f32>(38.0, 45.0));
+    // Stones stand out of the mortar, which is paler where it broke.
+    let stone = stones(q, 0.010, vec2<f32>(38.0, 45.0), f);
     let shown = 1.0 - smoothstep(0.006, 0.03, f);
     let stony = shown * (1.0 - smoothstep(0.30, 0.44, stone.x));
-    let knob = 0.7 * stony * (vec2<f32>(noise(q * 42.0), noise(q * 42.0 + 11.0)) - 0.5);
+    let knob = 0.7 * stony * knobs(q);
     (*look).matter.normal = frame_normal(in, clamp(slope, vec2<f32>(-2.5), vec2<f32>(2.5)) + knob);
     var colour = vec3<f32>(0.36, 0.335, 0.295) * (0.75 + 0.5 * fbm(q * 24.0 + seed, f * 24.0));
     let pebble = mix(vec3<f32>(0.20, 0.18, 0.16), vec3<f32>(0.42, 0.37, 0.31), stone.y);
@@ -235,15 +245,13 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
 fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let e = outline(in.q, half, in.normal.w) + 0.35 * (fbm(in.q * 12.0, f * 12.0) - 0.5);
-    // Stones are no discs: their outlines are bent.
-    let bent = in.q + 0.012 * (vec2<f32>(fbm(in.q * 30.0, f * 30.0), fbm(in.q * 30.0 + 40.0, f * 30.0)) - 0.5);
-    let stone = pebbles(bent * vec2<f32>(38.0, 47.0));
+    let stone = stones(in.q, 0.012, vec2<f32>(38.0, 47.0), f);
     let shown = 1.0 - smoothstep(0.006, 0.025, f);
     let pebble = mix(vec3<f32>(0.16, 0.15, 0.14), vec3<f32>(0.52, 0.47, 0.40), stone.y);
     let paste = vec3<f32>(0.25, 0.235, 0.21);
     let mask = 1.0 - smoothstep(0.30, 0.46, stone.x);
     (*look).matter.albedo = mix(vec3<f32>(0.27, 0.25, 0.225), mix(paste, pebble, mask), shown) * (0.85 + 0.4 * (fbm(in.q * 5.0, f * 5.0) - 0.5));
-    let bump = 1.2 * mask * (vec2<f32>(noise(in.q * 42.0), noise(in.q * 42.0 + 11.0)) - 0.5) * shown;
+    let bump = 1.2 * mask * knobs(in.q) * shown;
     (*look).matter.normal = frame_normal(in, bump);
     (*look).alpha = 1.0 - smoothstep(0.78, 1.02, e);
 }

@@ -1,6 +1,6 @@
 //! The questionnaire's answers, and how they stand to what was measured.
 
-use super::super::{figure, legend};
+use super::super::{figure, legend, scrolling};
 use super::{many, people_shown};
 use crate::report::plots::likert::{Question, likert};
 use crate::report::table::{Cell, Table};
@@ -30,16 +30,15 @@ pub fn answers(cohort: &Cohort) -> Markup {
     let first = of(None);
     html! {
         (legend(&key))
-        (figure(&format!("All first sessions, {} answers at most", cohort.trainees), &scrolling(&first, "Answers of all first sessions")))
+        (figure(&format!("All first sessions, {} answers at most", cohort.trainees), &chart(&first, "Answers of all first sessions")))
         @for (k, questions) in &later {
-            details.numbers { summary { "Those who repeated, repetition " (k) } (scrolling(questions, &format!("Answers in repetition {k}"))) }
+            details.numbers { summary { "Those who repeated, repetition " (k) } (chart(questions, &format!("Answers in repetition {k}"))) }
         }
     }
 }
 
-/// A chart that is read on a phone by moving it.
-fn scrolling(questions: &[Question], title: &str) -> Markup {
-    html! { div.scroll tabindex="0" role="region" aria-label=(title) { (likert(questions, title)) } }
+fn chart(questions: &[Question], title: &str) -> Markup {
+    scrolling(title, &likert(questions, title))
 }
 
 /// A question in the shipped words; its key when they have none.

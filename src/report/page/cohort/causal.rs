@@ -1,6 +1,6 @@
 //! The causal model: demand on strain on performance, with feedback as moderator.
 
-use super::super::figure;
+use super::super::{figure, scrolling};
 use crate::report::plots::intervals::{Estimate, intervals};
 use crate::report::plots::model::{Effect, Effects, model};
 use crate::report::table::{Cell, Table};
@@ -25,13 +25,9 @@ fn estimated(model_: &Causal) -> Markup {
         @if model_.n < SENSIBLE_N {
             p.caution { b { (model_.n) " people with whole answers." } " With fewer than " (SENSIBLE_N) " the model misses effects of medium size: read it as a description of these people, and as no proof." }
         }
-        (figure("The model; an arrow is dashed where zero lies in the 95 % interval of its effect", &html! {
-            div.scroll tabindex="0" role="region" aria-label="The causal model" { (model(&effects(model_), "Demand, state, performance, and feedback")) }
-        }))
+        (figure("The model; an arrow is dashed where zero lies in the 95 % interval of its effect", &scrolling("The causal model", &model(&effects(model_), "Demand, state, performance, and feedback"))))
         p.note { "Demand, strain and feedback are answers from 1 to 5; performance is the overall score in % of what could be had." }
-        (figure("Points of performance that a step of demand costs or brings by way of strain, by how much feedback helped, with 95 % intervals", &html! {
-            div.scroll tabindex="0" role="region" aria-label="Indirect effects" { (intervals(&indirect(model_), "% of the overall score per step of demand", "Indirect effect of demand by helpfulness of feedback")) }
-        }))
+        (figure("Points of performance that a step of demand costs or brings by way of strain, by how much feedback helped, with 95 % intervals", &scrolling("Indirect effects", &intervals(&indirect(model_), "% of the overall score per step of demand", "Indirect effect of demand by helpfulness of feedback"))))
         (effects_table(model_).shown())
         (coefficients(model_).folded())
     }
