@@ -6,7 +6,7 @@ use super::errors::AppError;
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{ChildStdin, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// A child has this long to open its sockets and build its site on a busy machine.
@@ -69,14 +69,23 @@ impl Child {
     /// When the child ends first, or says something else.
     pub fn announced(&mut self) -> Result<Value, AppError> {
         let name = self.name;
-        let line = self.lines.recv_timeout(START_LIMIT).map_err(|_| match self.ended() {
+        let line = self.lines.recv_timeout(START_LIMIT).map_err(|error| match self.ended_after(error) {
             Some(status) => {
-                let why = format!("the {name} did not start ({status}); its message stands above");
+                let why = format!("the {name} did not start ({status}); its message is in the terminal");
                 if status.code() == Some(2) { AppError::wrong(why) } else { AppError::failed(why) }
             }
             None => AppError::failed(format!("the {name} has not started after {} s", START_LIMIT.as_secs())),
         })?;
         serde_json::from_str(&line).map_err(|error| AppError::failed(format!("the {name} announced '{line}': {error}")))
+    }
+
+    /// How it ended that has not announced anything.
+    fn ended_after(&mut self, error: RecvTimeoutError) -> Option<ExitStatus> {
+        match error {
+            RecvTimeoutError::Timeout => self.ended(),
+            // Its output ends a moment before the process does.
+            RecvTimeoutError::Disconnected => self.finish(),
+        }
     }
 
     /// A further line of its results, if there is one by now.
@@ -124,5 +133,18 @@ impl Drop for Child {
         if self.ended().is_none() {
             self.finish();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_child_that_does_not_start_is_told_of_and_where_its_message_is() {
+        // The tests' own program knows no --announce: it says so, and ends.
+        let mut child = Child::start("view", &[]).unwrap();
+        let told = child.announced().unwrap_err().to_string();
+        assert!(told.starts_with("the view did not start (") && told.ends_with("its message is in the terminal"), "{told}");
     }
 }

@@ -2,6 +2,8 @@
 //! sans-IO core. Results go to standard output, everything else to standard error.
 
 mod args;
+#[cfg(feature = "view")]
+pub mod aside;
 mod assess;
 mod check;
 mod children;

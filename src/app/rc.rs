@@ -85,7 +85,7 @@ pub struct Args {
 /// # Errors
 /// When there is no device or terminal, it is not calibrated, files are wrong, or the vehicle vanishes.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let profiles = Profiles::at(args.profiles.clone())?;
+    let profiles = Profiles::at(args.profiles.clone());
     if args.list {
         return list(&profiles);
     }
@@ -199,6 +199,8 @@ fn fly(pilot: &mut Pilot, hub: &mut Hub, socket: SocketId, vehicle: SocketAddr, 
 }
 
 fn calibrate(args: &Args, profiles: &Profiles, stop: &Stop) -> Result<(), AppError> {
+    // What cannot be kept is not asked for.
+    profiles.folder()?;
     let mut source = Source::device(args.device.as_deref())?;
     let mode = StickMode::numbered(args.stick_mode).unwrap_or(StickMode::Two);
     let mut wizard = Wizard::new(source.of().clone(), mode);
@@ -237,4 +239,23 @@ fn enters() -> Receiver<()> {
         }
     });
     receiver
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: Args,
+    }
+
+    #[test]
+    fn exact_a_calibration_that_cannot_be_kept_is_not_begun() {
+        let args = Line::parse_from(["rc", "--calibrate"]).args;
+        let told = calibrate(&args, &Profiles::default(), &Stop::default()).unwrap_err().to_string();
+        assert!(told.contains("name a folder with --profiles"), "{told}");
+    }
 }

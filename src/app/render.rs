@@ -48,7 +48,8 @@ pub struct Args {
     /// Which view of a session
     #[arg(long, value_name = "VIEW", value_parser = ["camera", "inspector", "both"], default_value = "both")]
     view: String,
-    /// Size of each view, px [default: 1280x720; of photographs the camera's, without a graphics card smaller]
+    /// Size of each view, px; the camera's keeps its sensor's shape within it [default: 1280x720; of photographs the camera's, without a
+    /// graphics card smaller]
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
     /// How much the picture may cost: low, medium, high or ultra

@@ -221,6 +221,11 @@ pub fn whose(path: &Path) -> Result<(String, u64), AppError> {
     }
 }
 
+/// What a session was flown for, where somebody chose and `session.json` can be read; quicker than reading all of it.
+pub fn purpose(path: &Path) -> Option<String> {
+    described(&path.join(SESSION)).ok()?["purpose"].as_str().map(str::to_owned)
+}
+
 /// A session that is being flown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Underway {
@@ -320,6 +325,18 @@ mod tests {
         let (a, b) = (make(), make());
         assert_ne!(a, b);
         assert!(a.is_dir() && b.is_dir());
+    }
+
+    #[test]
+    fn exact_what_a_session_was_for_is_told_where_somebody_chose() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_eq!(purpose(folder.path()), None, "nothing describes it");
+        for (text, told) in
+            [("{}", None), ("no JSON", None), (r#"{"purpose": null}"#, None), (r#"{"purpose": "practice"}"#, Some("practice"))]
+        {
+            std::fs::write(folder.path().join(SESSION), text).unwrap();
+            assert_eq!(purpose(folder.path()).as_deref(), told, "{text}");
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@ mod course;
 mod flight;
 mod offers;
 mod photographs;
+mod questions;
 mod window;
 
 use super::args::{self, JobArgs, TraineeId};
@@ -163,4 +164,29 @@ Take off, do the tasks, land on the pad; the scores follow. Ctrl-C ends the sess
             "No window: fly by the ground station's map and instruments, or by a script."
         },
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: Args,
+    }
+
+    /// Arguments as on a command line.
+    pub fn parsed(words: &[&str]) -> Args {
+        Line::parse_from(["train"].iter().chain(words)).args
+    }
+
+    #[test]
+    fn exact_a_window_is_told_of_only_where_there_is_one() {
+        let ports = parsed(&[]).ports;
+        let told = |window| how_to_connect("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
+        assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));
+        assert!(told(false).contains("No window: fly by") && !told(false).contains("A window shows"), "{}", told(false));
+    }
 }

@@ -10,9 +10,10 @@ use std::path::PathBuf;
 /// Watch a flight in a window, live: the inspector's view and the camera's, with the head-up display
 ///
 /// Draws from the vehicle's telemetry and the scenario alone, so it also shows a real autopilot's vehicle, and it may run on another
-/// machine. With --fly the keyboard in the window (and a calibrated controller, where one is connected) flies. Tab swaps the views, the
-/// mouse looks around, the wheel zooms, F looks after the aircraft again, M hides the map. A graphics card is not needed: a software
-/// Vulkan driver does (Debian and Ubuntu: mesa-vulkan-drivers).
+/// machine. Defects and traffic are those of the seed that the simulator says, also when it begins anew; --seed is for a vehicle that says
+/// none, and holds until the simulator has spoken. With --fly the keyboard in the window (and a calibrated controller, where one is
+/// connected) flies. Tab swaps the views, the mouse looks around, the wheel zooms, F looks after the aircraft again, M hides the map. A
+/// graphics card is not needed: a software Vulkan driver does (Debian and Ubuntu: mesa-vulkan-drivers).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\

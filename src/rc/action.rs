@@ -25,10 +25,14 @@ pub enum Action {
     GimbalUp,
     /// The camera down by a step.
     GimbalDown,
+    /// The camera sees nearer by a step.
+    CameraZoomIn,
+    /// The camera sees wider by a step.
+    CameraZoomOut,
 }
 
 /// All actions with their names in files.
-pub const ALL: [(&str, Action); 11] = [
+pub const ALL: [(&str, Action); 13] = [
     ("lamp", Action::Lamp),
     ("snapshot", Action::Snapshot),
     ("arm", Action::Arm),
@@ -40,6 +44,8 @@ pub const ALL: [(&str, Action); 11] = [
     ("position", Action::Position),
     ("gimbal_up", Action::GimbalUp),
     ("gimbal_down", Action::GimbalDown),
+    ("camera_zoom_in", Action::CameraZoomIn),
+    ("camera_zoom_out", Action::CameraZoomOut),
 ];
 
 impl Action {

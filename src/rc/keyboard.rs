@@ -1,6 +1,6 @@
 //! Keys in place of sticks: a key held is a stick pushed.
 
-use super::{Action, Sticks};
+use super::{Action, Sticks, key};
 use crate::base::time::SimTime;
 use crate::base::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
@@ -43,7 +43,7 @@ const PUSHES: [(&str, Push, &str); 8] = [
     ("turn_right", Push::TurnRight, "d"),
 ];
 
-const KEYS: [(Action, &str); 11] = [
+const KEYS: [(Action, &str); 13] = [
     (Action::Lamp, "b"),
     (Action::Snapshot, "p"),
     (Action::Arm, "1"),
@@ -55,6 +55,8 @@ const KEYS: [(Action, &str); 11] = [
     (Action::Position, "o"),
     (Action::GimbalUp, "pageup"),
     (Action::GimbalDown, "pagedown"),
+    (Action::CameraZoomIn, "]"),
+    (Action::CameraZoomOut, "["),
 ];
 
 /// What a key does in the window of the view; a terminal has none.
@@ -120,8 +122,7 @@ impl Default for Sounds {
     }
 }
 
-/// Which key does what. Keys by name: a letter, a digit, another sign, `up`, `down`, `left`, `right`, `space`, `enter`, `pageup`,
-/// `pagedown`, `tab`, `escape`, `backspace`.
+/// Which key does what. Keys by their names, as [`key`] has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Keys {
     push: f64,
@@ -161,26 +162,20 @@ impl Keys {
                 wishes: BTreeMap::new(),
                 sounds: Sounds::default(),
             };
-            let mut taken: BTreeMap<String, &str> = BTreeMap::new();
+            let mut taken = BTreeMap::new();
             let mut s = r.section(&mut root, "sticks");
             for (name, push, usual) in PUSHES {
-                let key = r.text(&mut s, name, Some(usual)).to_lowercase();
-                own(&mut r, &s, name, &key, &mut taken);
-                keys.pushes.insert(key, push);
+                keys.pushes.insert(bound(&mut r, &mut s, (name, usual), &mut taken), push);
             }
             r.finish(&s);
             let mut s = r.section(&mut root, "actions");
             for (action, usual) in KEYS {
-                let key = r.text(&mut s, action.name(), Some(usual)).to_lowercase();
-                own(&mut r, &s, action.name(), &key, &mut taken);
-                keys.actions.insert(key, action);
+                keys.actions.insert(bound(&mut r, &mut s, (action.name(), usual), &mut taken), action);
             }
             r.finish(&s);
             let mut s = r.section(&mut root, "window");
             for (name, wish, usual) in WISHES {
-                let key = r.text(&mut s, name, Some(usual)).to_lowercase();
-                own(&mut r, &s, name, &key, &mut taken);
-                keys.wishes.insert(key, wish);
+                keys.wishes.insert(bound(&mut r, &mut s, (name, usual), &mut taken), wish);
             }
             r.finish(&s);
             keys.sounds = sounds(&mut r, &mut root);
@@ -199,7 +194,28 @@ impl Keys {
         self.wishes.get(&key.to_lowercase()).copied()
     }
 
-    /// The key of a wish or action by its name in files.
+    /// A key that flies: one of the sticks'.
+    #[must_use]
+    pub fn is_stick(&self, key: &str) -> bool {
+        self.pushes.contains_key(&key.to_lowercase())
+    }
+
+    /// The key of a stick, an action or a wish for people, by the name of that duty in files; empty when there is no such duty.
+    #[must_use]
+    pub fn label(&self, name: &str) -> String {
+        self.of(name).map_or(String::new(), key::label)
+    }
+
+    /// Every duty by its name in files, with its key for people.
+    #[must_use]
+    pub fn labels(&self) -> BTreeMap<&'static str, String> {
+        let sticks = PUSHES.into_iter().map(|(name, ..)| name);
+        let actions = KEYS.into_iter().map(|(action, _)| action.name());
+        let wishes = WISHES.into_iter().map(|(name, ..)| name);
+        sticks.chain(actions).chain(wishes).map(|name| (name, self.label(name))).collect()
+    }
+
+    /// The key of a stick, an action or a wish by the name of that duty in files.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<&str> {
         let push = PUSHES.iter().find(|p| p.0 == name).map(|p| p.1);
@@ -235,10 +251,20 @@ fn sounds(r: &mut Reader, root: &mut Section) -> Sounds {
     sounds
 }
 
-fn own(r: &mut Reader, s: &Section, name: &'static str, key: &str, taken: &mut BTreeMap<String, &'static str>) {
-    if let Some(before) = taken.insert(key.to_owned(), name) {
-        r.complain(s, name, key, "a key of its own", &format!("does {before} already"));
+/// The key of a duty: one that there is, and that does nothing else.
+fn bound(
+    r: &mut Reader,
+    s: &mut Section,
+    (name, usual): (&'static str, &str),
+    taken: &mut BTreeMap<String, &'static str>,
+) -> String {
+    let key = r.text(s, name, Some(usual)).to_lowercase();
+    if !key::is_key(&key) {
+        r.complain(s, name, &key, &key::allowed(), "no such key");
+    } else if let Some(before) = taken.insert(key.clone(), name) {
+        r.complain(s, name, &key, "a key of its own", &format!("does {before} already"));
     }
+    key
 }
 
 /// Keys that are held now.
@@ -345,5 +371,26 @@ mod tests {
         assert_eq!((board.keys().wish("Tab"), board.keys().wish("w")), (Some(Wish::Swap), None));
         let told = Keys::read("keys.toml", "format = 1\n[sticks]\nup = \"b\"\n[actions]\nfly = \"f\"\n").unwrap_err().to_string();
         assert!(told.contains("does up already") && told.contains("fly"), "{told}");
+    }
+
+    #[test]
+    fn exact_a_key_that_no_keyboard_has_is_told_with_its_line() {
+        let text = "format = 1\n[actions]\nlamp = \"F5\"\n[window]\nmap = \"shift\"\n";
+        let told = Keys::read("keys.toml", text).unwrap_err().to_string();
+        assert!(told.contains("keys.toml:3: actions.lamp = f5: no such key (allowed: one sign, or up, "), "{told}");
+        assert!(told.contains("keys.toml:5: window.map = shift: no such key"), "{told}");
+    }
+
+    #[test]
+    fn exact_every_duty_has_a_key_that_people_can_read() {
+        let (usual, every) = (Keys::default(), PUSHES.len() + KEYS.len() + WISHES.len());
+        let labels = usual.labels();
+        let keys: std::collections::BTreeSet<&str> = labels.keys().filter_map(|name| usual.of(name)).collect();
+        assert_eq!((labels.len(), keys.len()), (every, every), "one key each");
+        assert!(keys.into_iter().all(key::is_key));
+        let label = |name: &str| usual.label(name);
+        assert_eq!([label("pause"), label("forward"), label("lamp"), label("camera_zoom_in")], ["Esc", "Up", "B", "]"]);
+        assert_eq!(label("fly"), "");
+        assert!(usual.is_stick("W") && usual.is_stick("up") && !usual.is_stick("b") && !usual.is_stick("tab"));
     }
 }

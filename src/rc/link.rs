@@ -26,6 +26,8 @@ const AGAIN_S: f64 = 0.5;
 const TIMES: u8 = 5;
 /// What buttons depend on, and how often, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
 const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
+/// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: one press zooms by one step of the camera's own.
+const ZOOM_STEP: f32 = 0.0;
 /// One press of a gimbal button, degrees.
 const GIMBAL_STEP_DEG: f32 = 10.0;
 
@@ -142,8 +144,7 @@ impl Link {
         if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
             let done = self.pending.remove(k);
             if result != MavResult::MAV_RESULT_ACCEPTED {
-                let name = result_name(result);
-                self.told.push_back(format!("{}: {name}", done.what));
+                self.tell(done.what, refusal(command, result));
             }
         }
     }
@@ -151,8 +152,7 @@ impl Link {
     /// Asks the vehicle for something. Without a vehicle it says so.
     pub fn act(&mut self, action: Action, now: SimTime) {
         let Some(system) = self.heard.system else {
-            self.told.push_back(format!("{}: no vehicle has been heard yet", action.name()));
-            return;
+            return self.tell(action.name(), "no vehicle has been heard yet");
         };
         let (component, command, params) = self.wish(action);
         let command = station::command(system, component, command, params);
@@ -191,6 +191,8 @@ impl Link {
             }
             Action::GimbalUp => self.aim(GIMBAL_STEP_DEG),
             Action::GimbalDown => self.aim(-GIMBAL_STEP_DEG),
+            Action::CameraZoomIn => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+            Action::CameraZoomOut => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         }
     }
 
@@ -239,7 +241,7 @@ impl Link {
                 return true;
             }
             if p.sent == TIMES {
-                self.told.push_back(format!("{}: the vehicle does not answer", p.what));
+                self.tell(p.what, "the vehicle does not answer");
                 return false;
             }
             p.command.confirmation = p.sent;
@@ -249,6 +251,10 @@ impl Link {
             true
         });
         self.pending = pending;
+    }
+
+    fn tell(&mut self, what: &str, words: &str) {
+        self.told.push_back(format!("{}: {words}", what.replace('_', " ")));
     }
 
     fn send(&mut self, message: &MavMessage) {
@@ -267,12 +273,13 @@ impl Link {
     }
 }
 
-fn result_name(result: MavResult) -> &'static str {
-    match result {
-        MavResult::MAV_RESULT_TEMPORARILY_REJECTED => "not now",
-        MavResult::MAV_RESULT_DENIED => "denied",
-        MavResult::MAV_RESULT_UNSUPPORTED => "the vehicle has no such thing",
-        MavResult::MAV_RESULT_CANCELLED => "cancelled",
+fn refusal(command: MavCmd, result: MavResult) -> &'static str {
+    match (command, result) {
+        (_, MavResult::MAV_RESULT_TEMPORARILY_REJECTED) => "not now",
+        (_, MavResult::MAV_RESULT_DENIED) => "denied",
+        (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED) => "this camera's lens does not zoom",
+        (_, MavResult::MAV_RESULT_UNSUPPORTED) => "the vehicle has no such thing",
+        (_, MavResult::MAV_RESULT_CANCELLED) => "cancelled",
         _ => "failed",
     }
 }
@@ -280,7 +287,7 @@ fn result_name(result: MavResult) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mav::dialect::HEARTBEAT_DATA;
+    use crate::mav::dialect::{COMMAND_ACK_DATA, HEARTBEAT_DATA};
 
     fn at(s: f64) -> SimTime {
         SimTime::from_s(s)
@@ -347,19 +354,32 @@ mod tests {
         assert_eq!(messages.len(), 1);
     }
 
+    fn answer(link: &mut Link, command: MavCmd, result: MavResult) {
+        let ack = COMMAND_ACK_DATA { command, result, target_system: SYSTEM, ..Default::default() };
+        link.receive(&Encoder::new(1, 1).encode(&MavMessage::COMMAND_ACK(ack)));
+    }
+
+    #[test]
+    fn exact_the_camera_zooms_by_steps_and_one_that_cannot_is_told_in_plain_words() {
+        let mut link = known();
+        for (action, step) in [(Action::CameraZoomIn, 1.0), (Action::CameraZoomOut, -1.0)] {
+            link.act(action, at(0.0));
+            let messages = sent(&mut link, 0.0, 0.1);
+            let asked = messages.iter().find_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c) } else { None }).unwrap();
+            assert_eq!((asked.command, asked.target_component), (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, CAMERA));
+            assert_eq!([asked.param1, asked.param2, asked.param3], [0.0, step, 0.0]);
+        }
+        answer(&mut link, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED);
+        assert_eq!(link.poll_told().as_deref(), Some("camera zoom out: this camera's lens does not zoom"));
+    }
+
     #[test]
     fn exact_a_command_is_said_until_it_is_answered() {
         let mut link = known();
         link.act(Action::Lamp, at(0.0));
         let count = |messages: &[MavMessage]| messages.iter().filter(|m| matches!(m, MavMessage::COMMAND_LONG(_))).count();
         assert_eq!(count(&sent(&mut link, 0.0, 1.1)), 3);
-        let ack = MavMessage::COMMAND_ACK(crate::mav::dialect::COMMAND_ACK_DATA {
-            command: MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF,
-            result: MavResult::MAV_RESULT_DENIED,
-            target_system: SYSTEM,
-            ..Default::default()
-        });
-        link.receive(&Encoder::new(1, 1).encode(&ack));
+        answer(&mut link, MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, MavResult::MAV_RESULT_DENIED);
         assert_eq!(count(&sent(&mut link, 1.1, 5.0)), 0);
         assert_eq!(link.poll_told().as_deref(), Some("lamp: denied"));
         link.act(Action::Snapshot, at(5.0));

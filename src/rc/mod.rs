@@ -1,11 +1,13 @@
 //! Controllers: what a device reports, through its calibration, into sticks, and sticks into MAVLink.
 //!
 //! A device is a list of raw axes and buttons without meaning ([`raw`]). A [`profile`] says which axis is which stick direction, where it
-//! rests and ends, and what the buttons do; the [`wizard`] makes one by asking. The [`keyboard`] stands in where there is no device.
+//! rests and ends, and what the buttons do; the [`wizard`] makes one by asking. The [`keyboard`] stands in where there is no device, and
+//! [`key`] names its keys.
 //! [`link`] sends the result to a vehicle; [`record`] writes events down and plays them again. No clock, no device, no socket in here.
 
 pub mod action;
 pub mod axis;
+pub mod key;
 pub mod keyboard;
 pub mod link;
 pub mod profile;

@@ -234,7 +234,7 @@ mod tests {
                 .enumerate()
                 .map(|(k, (_, way, _))| (*way, axis(k as u32 + 3, if k == 1 { -1.0 } else { 1.0 })))
                 .collect(),
-            buttons: [(0, Action::Lamp), (7, Action::Snapshot), (9, Action::Snapshot)].into(),
+            buttons: [(0, Action::Lamp), (7, Action::Snapshot), (9, Action::Snapshot), (11, Action::CameraZoomIn)].into(),
         }
     }
 

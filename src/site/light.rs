@@ -83,6 +83,19 @@ pub struct LightModel {
     disc: Vec<(f64, f64)>,
 }
 
+/// What one ray meets.
+#[derive(Debug, Clone, Copy)]
+enum Met {
+    /// The sky.
+    Sky,
+    /// Land or water beyond the ray's reach.
+    Far,
+    /// Ground or water: its albedo, the share of the sun's light on it, its normal's height.
+    Outdoors { albedo: f64, sun: f64, up: f64 },
+    /// A member, or what drives and walks: the share of the sun's light on it.
+    Structure { sun: f64 },
+}
+
 /// Sums over one bundle of rays: mean luminance share by what the rays met, times π.
 #[derive(Debug, Clone, Copy, Default)]
 struct Gathered {
@@ -118,7 +131,8 @@ impl LightModel {
         let day = self.daylight(at);
         let origin = position_m + normal.unwrap_or_else(Vec3::zero) * LIFT_M;
         let facing = normal.map_or(0.25, |n| n.dot(day.sun).max(0.0));
-        let direct = if facing > 0.0 { facing * self.direct_lux(origin, &day, cast) } else { 0.0 };
+        let lit = facing > 0.0 && day.direct_normal_lux > 0.0 && is_sunlit(origin, day.sun, cast);
+        let direct = if lit { facing * day.direct_normal_lux } else { 0.0 };
         let gathered = match normal {
             Some(n) => self.gather(origin, over(n, &self.disc), &day, cast),
             None => self.gather(origin, self.sphere.iter().copied(), &day, cast),
@@ -139,34 +153,47 @@ impl LightModel {
         cast: Cast,
     ) -> (f64, f64) {
         let origin = position_m + normal * LIFT_M;
+        let shines = sun.up() > 0.0;
+        let met: Vec<Met> = over(normal, rays).map(|direction| self.meet(origin, direction, (sun, shines), cast)).collect();
         let under = |direct_normal_lux: f64, sky_lux: f64| {
             let day = Daylight { sun, direct_normal_lux, sky_lux };
-            self.gather(origin, over(normal, rays), &day, cast).indirect_lux()
+            self.sum(met.iter().copied(), &day).indirect_lux()
         };
-        (under(0.0, 1.0), if sun.up() > 0.0 { under(1.0, 0.0) } else { 0.0 })
-    }
-
-    fn direct_lux(&self, origin: Vec3<Enu>, day: &Daylight, cast: Cast) -> f64 {
-        let shaded = day.direct_normal_lux <= 0.0 || cast(origin, day.sun, SHADOW_REACH_M).is_some();
-        if shaded { 0.0 } else { day.direct_normal_lux }
+        (under(0.0, 1.0), if shines { under(1.0, 0.0) } else { 0.0 })
     }
 
     fn gather(&self, origin: Vec3<Enu>, rays: impl ExactSizeIterator<Item = Vec3<Enu>>, day: &Daylight, cast: Cast) -> Gathered {
-        let share = 1.0 / rays.len() as f64;
+        let sun = (day.sun, day.direct_normal_lux > 0.0);
+        self.sum(rays.map(|direction| self.meet(origin, direction, sun, cast)), day)
+    }
+
+    /// What a ray meets; where the sun does not shine, no shadow is looked for.
+    fn meet(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: Cast) -> Met {
+        let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
+            return if direction.up() > 0.0 { Met::Sky } else { Met::Far };
+        };
+        let point = origin + direction * hit.distance_m + hit.normal * LIFT_M;
+        let facing = hit.normal.dot(sun).max(0.0);
+        let sun = if shines && facing > 0.0 && is_sunlit(point, sun, cast) { facing } else { 0.0 };
+        match self.outdoor_albedo(hit.surface) {
+            Some(albedo) => Met::Outdoors { albedo, sun, up: hit.normal.up() },
+            None => Met::Structure { sun },
+        }
+    }
+
+    fn sum(&self, met: impl ExactSizeIterator<Item = Met>, day: &Daylight) -> Gathered {
+        let share = 1.0 / met.len() as f64;
         let mut sum = Gathered::default();
-        for direction in rays {
-            let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
-                sum.outside_lux += share * if direction.up() > 0.0 { day.sky_lux } else { self.far_lux(day) };
-                continue;
-            };
-            let point = origin + direction * hit.distance_m + hit.normal * LIFT_M;
-            let sun = hit.normal.dot(day.sun).max(0.0);
-            let direct = if sun > 0.0 { sun * self.direct_lux(point, day, cast) } else { 0.0 };
-            match self.outdoor_albedo(hit.surface) {
-                // Ground and water see most of the sky wherever they are seen from (estimate: the share above the horizon).
-                Some(albedo) => sum.outside_lux += share * albedo * (direct + day.sky_lux * 0.5 * (1.0 + hit.normal.up())),
-                None => {
-                    sum.structure_lux += share * STRUCTURE_ALBEDO * direct;
+        for met in met {
+            match met {
+                Met::Sky => sum.outside_lux += share * day.sky_lux,
+                Met::Far => sum.outside_lux += share * self.far_lux(day),
+                Met::Outdoors { albedo, sun, up } => {
+                    // Ground and water see most of the sky wherever they are seen from (estimate: the share above the horizon).
+                    sum.outside_lux += share * albedo * (sun * day.direct_normal_lux + day.sky_lux * 0.5 * (1.0 + up));
+                }
+                Met::Structure { sun } => {
+                    sum.structure_lux += share * STRUCTURE_ALBEDO * (sun * day.direct_normal_lux);
                     sum.structure_share += share;
                 }
             }
@@ -194,6 +221,11 @@ impl Gathered {
     fn indirect_lux(&self) -> f64 {
         (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_share)
     }
+}
+
+/// Nothing shades a point from the sun.
+fn is_sunlit(point: Vec3<Enu>, sun: Vec3<Enu>, cast: Cast) -> bool {
+    cast(point, sun, SHADOW_REACH_M).is_none()
 }
 
 /// A cosine-weighted bundle over the hemisphere about `n`.

@@ -220,6 +220,12 @@ impl Camera {
         0.5 * SENSOR_MM / math::tan(0.5 * self.hfov_rad)
     }
 
+    /// Width of its pictures over their height.
+    #[must_use]
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.width_px) / f64::from(self.height_px)
+    }
+
     /// Focal length in pixels of the ideal pinhole.
     #[must_use]
     pub fn focal_px(&self) -> f64 {

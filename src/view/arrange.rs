@@ -39,6 +39,27 @@ pub struct Place {
 /// Width of the small view as a share of the window's.
 const SMALL: f64 = 0.3;
 
+impl Place {
+    /// The largest place of this shape (width over height) in the middle of this one, in a window of that shape: what a camera's sensor does
+    /// not see is not shown as if it did.
+    #[must_use]
+    pub fn fitted(self, aspect: f64, window: f64) -> Self {
+        let own = self.width / self.height * window;
+        let (width, height) =
+            if own > aspect { (self.width * aspect / own, self.height) } else { (self.width, self.height * own / aspect) };
+        let (left, top) = (self.left + 0.5 * (self.width - width), self.top + 0.5 * (self.height - height));
+        Self { left, top, width, height, ..self }
+    }
+}
+
+/// The largest picture of this shape (width over height) within a size, px; even, as video needs it.
+#[must_use]
+pub fn fitted_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
+    let (w, h) = (f64::from(width), f64::from(height));
+    let even = |px: f64, most: u32| (2 * (0.5 * px).round() as u32).clamp(2, most.max(2));
+    if w / h > aspect { (even(h * aspect, width), height) } else { (width, even(w / aspect, height)) }
+}
+
 impl Arrangement {
     /// The one that Tab gives next.
     #[must_use]
@@ -47,6 +68,29 @@ impl Arrangement {
             Self::Beside => Self::Camera,
             Self::Camera => Self::Inspector,
             Self::Inspector => Self::Beside,
+        }
+    }
+
+    /// Where the window's own words stand, shares of its width and height: their left and lower edge, and how wide they may be. Never over
+    /// the display's warnings.
+    #[must_use]
+    pub fn words(self) -> (f64, f64, f64) {
+        match self {
+            Self::Beside => (0.0, 1.0, 0.5),
+            // Above the four warnings at the lower left.
+            Self::Camera => (0.0, 0.69, 0.45),
+            // Left of the small view.
+            Self::Inspector => (0.0, 1.0, 0.5 - 0.5 * SMALL),
+        }
+    }
+
+    /// Where a button in the inspector's view stands: its middle, shares of the window's width and height.
+    #[must_use]
+    pub fn button(self) -> (f64, f64) {
+        match self {
+            Self::Beside => (0.25, 0.04),
+            Self::Camera => (0.5, 0.9675),
+            Self::Inspector => (0.5, 0.04),
         }
     }
 
@@ -92,6 +136,22 @@ mod tests {
         assert_eq!(seen, Arrangement::Beside);
         let [left, right] = seen.places();
         assert_eq!((left.which, left.left, right.left), (Which::Inspector, 0.0, 0.5));
+    }
+
+    #[test]
+    fn exact_a_camera_keeps_the_shape_of_its_sensor() {
+        let whole = Place { which: Which::Camera, left: 0.5, top: 0.0, width: 0.5, height: 1.0 };
+        let near = |place: Place, left: f64, top: f64, width: f64, height: f64| {
+            let off = [place.left - left, place.top - top, place.width - width, place.height - height];
+            assert!(off.iter().all(|off| off.abs() < 1e-12), "{place:?}");
+        };
+        // Half of a window of 1920 x 1080 px is higher than 4:3, a whole one is wider.
+        near(whole.fitted(4.0 / 3.0, 16.0 / 9.0), 0.5, 1.0 / 6.0, 0.5, 2.0 / 3.0);
+        near(Place { left: 0.0, width: 1.0, ..whole }.fitted(4.0 / 3.0, 16.0 / 9.0), 0.125, 0.0, 0.75, 1.0);
+        assert_eq!(fitted_px((1280, 720), 4.0 / 3.0), (960, 720));
+        assert_eq!(fitted_px((640, 1001), 16.0 / 9.0), (640, 360));
+        assert_eq!(fitted_px((4000, 3000), 4.0 / 3.0), (4000, 3000));
+        assert_eq!(fitted_px((1, 1), 16.0 / 9.0), (1, 2));
     }
 
     #[test]

@@ -1,17 +1,19 @@
-//! What is drawn is cut into squares of ground, so that a picture sends only those that it can show.
+//! What is drawn is cut into squares of ground, and what stands around them into sectors, so that a picture sends only those that it can show.
 
 use super::matrix::Matrix;
 use super::mesh::{Mesh, Vertex};
 use super::scene::Instance;
 use crate::base::frames::{Enu, Vec3};
+use crate::base::math;
 use std::collections::BTreeMap;
 
 /// Side of a square, m (estimate: some squares lie in every picture, most do not).
 const CELL_M: f64 = 80.0;
 /// What lies farther from the origin than this is backdrop, m.
 const BACKDROP_M: f64 = 500.0;
-/// Side of its squares, m (estimate: a dozen for all of it, because a draw costs as much as fifty triangles by software).
-const BACKDROP_CELL_M: f64 = 3_000.0;
+/// Sectors of it around the origin: a view of 84 degrees shows a third of them. By software a draw costs as much as fifty triangles, a sixth of
+/// a sector of mountains.
+const SECTORS: f64 = 16.0;
 
 /// A ball around everything in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,19 +59,47 @@ fn position(v: &Vertex) -> Vec3<Enu> {
     Vec3::new(x, y, z)
 }
 
-/// Number of a cell; true for the backdrop's.
-type Cell = (bool, i64, i64);
+/// What lies in a cell, for a picture's edges to decide whether it shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounds {
+    /// Around it.
+    pub ball: Ball,
+    /// Its corners; none where the ball alone is known.
+    corners_m: Vec<Vec3<Enu>>,
+}
+
+impl Bounds {
+    /// Of a mesh.
+    #[must_use]
+    pub fn of(mesh: &Mesh) -> Self {
+        Self { ball: Ball::of(mesh), corners_m: mesh.vertices.iter().map(position).collect() }
+    }
+}
+
+impl From<Ball> for Bounds {
+    fn from(ball: Ball) -> Self {
+        Self { ball, corners_m: Vec::new() }
+    }
+}
+
+/// A square's column and row, or a sector of the backdrop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Cell {
+    Square(i64, i64),
+    Sector(i64),
+}
 
 fn cell(p: Vec3<Enu>, backdrop: bool) -> Cell {
-    let far = backdrop || p.east().abs().max(p.north().abs()) > BACKDROP_M;
-    let side_m = if far { BACKDROP_CELL_M } else { CELL_M };
-    (far, (p.east() / side_m).floor() as i64, (p.north() / side_m).floor() as i64)
+    if backdrop || p.east().abs().max(p.north().abs()) > BACKDROP_M {
+        return Cell::Sector((math::atan2(p.east(), p.north()) / math::TAU * SECTORS).floor() as i64);
+    }
+    Cell::Square((p.east() / CELL_M).floor() as i64, (p.north() / CELL_M).floor() as i64)
 }
 
 /// Numbers of corners in a cell by those in the whole.
 type Numbers = BTreeMap<u32, u32>;
 
-/// A mesh's triangles by cell; a `backdrop` has large ones alone.
+/// A mesh's triangles by cell; a `backdrop` has sectors alone.
 #[must_use]
 pub fn cut(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     let mut cells: BTreeMap<Cell, (Mesh, Numbers)> = BTreeMap::new();
@@ -131,13 +161,27 @@ impl Frustum {
     /// False where a ball is certainly outside.
     #[must_use]
     pub fn may_show(&self, ball: &Ball) -> bool {
-        let [x, y, z] = ball.centre_m.array();
-        self.0.iter().all(|[a, b, c, d]| {
+        self.0.iter().all(|plane| {
+            let [a, b, c, _] = plane;
             let length = (a * a + b * b + c * c).sqrt();
             // An endless view has no far plane.
-            length < 1e-12 || a * x + b * y + c * z + d >= -ball.radius_m * length
+            length < 1e-12 || inside(plane, ball.centre_m) >= -ball.radius_m * length
         })
     }
+
+    /// False where a cell is certainly outside: all of it beyond one of the picture's edges.
+    #[must_use]
+    pub fn may_show_cell(&self, bounds: &Bounds) -> bool {
+        let corners = &bounds.corners_m;
+        let reaches = |plane: &[f64; 4]| corners.is_empty() || corners.iter().any(|corner| inside(plane, *corner) >= 0.0);
+        self.may_show(&bounds.ball) && self.0.iter().all(reaches)
+    }
+}
+
+/// How far inside a plane a point lies, in the plane's own unit.
+fn inside([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
+    let [x, y, z] = p.array();
+    a * x + b * y + c * z + d
 }
 
 #[cfg(test)]
@@ -175,6 +219,24 @@ mod tests {
         assert!(!frustum.may_show(&high) && !mirrored.may_show(&high));
         let low = Ball { centre_m: Vec3::new(0.0, 40.0, 6.0), radius_m: 1.0 };
         assert!(frustum.may_show(&low) && mirrored.may_show(&low));
+    }
+
+    #[test]
+    fn exact_a_long_wall_beside_the_picture_is_left_out_though_its_ball_is_not() {
+        let eye = Eye::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
+        let frustum = Frustum::of(&eye.view_projection(1.5));
+        let wall = |east: f64| {
+            let mut mesh = Mesh::default();
+            mesh.block([east, -50.0, 0.0], [east + 1.0, 250.0, 20.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
+            Bounds::of(&mesh)
+        };
+        let (beside, across) = (wall(-260.0), wall(-60.0));
+        assert!(frustum.may_show(&beside.ball) && !frustum.may_show_cell(&beside));
+        assert!(frustum.may_show_cell(&across) && frustum.may_show_cell(&Bounds::from(across.ball)));
+        // From within a cell no corner needs to be in the picture.
+        let mut hall = Mesh::default();
+        hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
+        assert!(frustum.may_show_cell(&Bounds::of(&hall)));
     }
 
     #[test]

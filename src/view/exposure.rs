@@ -3,6 +3,7 @@
 use super::camera::Eye;
 use super::sky::Sky;
 use crate::base::frames::{Enu, Vec3};
+use crate::base::math;
 use crate::site::{At, CameraPose, Site, Surface, look};
 use crate::vehicle::{Camera, Lamp};
 
@@ -12,7 +13,7 @@ const GRID: (u32, u32) = (7, 5);
 const AIM: f64 = 0.24;
 /// Reflectance taken for whatever is hit (estimate: between wet concrete and grass).
 const ALBEDO: f64 = 0.25;
-/// A bright place counts no more than this many times the middle one: the sky does not black out a soffit.
+/// A bright place counts no more than this many times the middling ones: the sky does not black out a soffit.
 const HIGHLIGHT: f64 = 5.0;
 /// The inspector's eyes see no better than this, lx (estimate: end of colour vision).
 const EYE_LUX: f64 = 3.0;
@@ -73,8 +74,17 @@ pub fn meter(site: &Site, eye: &Eye, aspect: f64, light: &Lighting) -> f64 {
             seen.push(seen_lux(site, eye.position_m, ray, light));
         }
     }
+    metered(seen)
+}
+
+/// The mean of what is seen, lx, over what it is to come out at. A bright place counts no more than [`HIGHLIGHT`] times the middling ones, which
+/// are the half from the lower quartile on, taken together by their geometric mean: one place that is dark here and bright there moves that
+/// a little, where a median would leap from a soffit to the sky.
+fn metered(mut seen: Vec<f64>) -> f64 {
     seen.sort_by(f64::total_cmp);
-    let most = seen[seen.len() / 2] * HIGHLIGHT;
+    let middling = &seen[seen.len() / 4..seen.len() / 4 + seen.len() / 2];
+    let logs = middling.iter().map(|lux| math::ln(lux.max(EYE_LUX * AIM))).sum::<f64>();
+    let most = HIGHLIGHT * math::exp(logs / middling.len() as f64);
     let mean = seen.iter().map(|lux| lux.min(most)).sum::<f64>() / seen.len() as f64;
     mean / AIM
 }
@@ -99,7 +109,65 @@ fn seen_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -> f
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::random::RandomStream;
     use crate::site::defects::REFERENCE_CAMERA;
+
+    /// Places that are metered.
+    const PLACES: usize = (GRID.0 * GRID.1) as usize;
+    /// Rounding of a sum of 35 numbers, a share of it.
+    const ROUNDING: f64 = 1e-12;
+
+    fn near(found: f64, expected: f64) -> bool {
+        (found / expected - 1.0).abs() < ROUNDING
+    }
+
+    #[test]
+    fn exact_calm_light_is_metered_by_its_mean() {
+        for lux in [1.0, 300.0, 20_000.0] {
+            assert!(near(metered(vec![lux; PLACES]), lux / AIM));
+        }
+        // From 1 to 4.4: nothing outshines the middling places five times.
+        let slope: Vec<f64> = (0..PLACES).map(|k| 1_000.0 + 100.0 * k as f64).collect();
+        assert!(near(metered(slope), 2_700.0 / AIM));
+    }
+
+    #[test]
+    fn exact_a_few_bright_places_black_nothing_out() {
+        let mut seen = vec![100.0; PLACES];
+        seen[..5].fill(1e5);
+        assert!(near(metered(seen), (30.0 * 100.0 + 5.0 * HIGHLIGHT * 100.0) / PLACES as f64 / AIM));
+    }
+
+    #[test]
+    fn prop_one_place_that_turns_bright_never_makes_the_light_leap() {
+        // From a soffit at noon to the sky beside the sun.
+        const DARK_LUX: f64 = 30.0;
+        const RANGE: f64 = 1_000.0;
+        // The middling 17 of 35 share the logarithm of the range. Under their cap all places together count at least as 27 middling ones (the 17,
+        // whose mean is no less than their geometric mean, and the 10 above), and the place itself as five at most.
+        let leap = math::pow(RANGE, 1.0 / 17.0) * (1.0 + HIGHLIGHT / 27.0);
+        // By a hundredth of its light a place moves the whole by less than its share of both.
+        let nudge = 1.0 + 0.01 * (1.0 / 17.0 + HIGHLIGHT / 27.0);
+        let mut stream = RandomStream::new(7, "view.exposure");
+        for bright in 0..PLACES {
+            for turn in 0..100 {
+                let other = |stream: &mut RandomStream| DARK_LUX * math::pow(RANGE, stream.uniform());
+                let mut seen: Vec<f64> = (0..PLACES).map(|k| if k < bright { DARK_LUX * RANGE } else { DARK_LUX }).collect();
+                // Every other time there is all sorts of light between both.
+                seen.iter_mut().filter(|_| turn % 2 == 1).for_each(|lux| *lux = other(&mut stream));
+                let at = if turn == 0 { bright } else { stream.below(PLACES) };
+                let with = |lux: f64| {
+                    let mut seen = seen.clone();
+                    seen[at] = lux;
+                    metered(seen)
+                };
+                let (dark, light) = (with(DARK_LUX), with(DARK_LUX * RANGE));
+                assert!(light >= dark && light < dark * leap, "{dark} to {light} lx among {seen:?}");
+                let nudged = with(seen[at] * 1.01) / with(seen[at]);
+                assert!((1.0 - ROUNDING..nudge).contains(&nudged), "{nudged} among {seen:?}");
+            }
+        }
+    }
 
     #[test]
     fn exact_the_camera_opens_up_to_its_limit_and_no_further() {

@@ -174,6 +174,20 @@ mod tests {
     }
 
     #[test]
+    fn exact_satellites_that_nobody_counts_are_not_known() {
+        let mut feed = Feed::default();
+        let gps = |satellites_visible| {
+            let fix_type = GpsFixType::GPS_FIX_TYPE_3D_FIX;
+            MavMessage::GPS_RAW_INT(GPS_RAW_INT_DATA { fix_type, satellites_visible, ..Default::default() })
+        };
+        let mut known = |count| {
+            feed.hear(&Encoder::new(1, 1).encode(&gps(count)), SimTime::ZERO);
+            feed.gnss().and_then(Gnss::known)
+        };
+        assert_eq!([known(0), known(11), known(u8::MAX)], [Some(0), Some(11), None]);
+    }
+
+    #[test]
     fn exact_modes_have_the_names_of_their_ground_stations() {
         assert_eq!(mode_name(false, 4 << 16 | 5 << 24), "Return");
         assert_eq!(mode_name(true, 5), "Loiter");

@@ -36,12 +36,21 @@ impl Gaze {
     /// inspector to it, m.
     pub fn turn(&mut self, right_rad: f64, up_rad: f64, to: Vec3<Enu>) {
         if self.follows {
+            // What was seen narrowed stays as near as it was.
+            let zoom = math::tan(0.5 * INSPECTOR_FOV_RAD) / math::tan(0.5 * self.vfov_rad(to.norm()));
+            self.zoom = zoom.clamp(*ZOOM.start(), *ZOOM.end());
             self.follows = false;
             self.bearing_rad = math::atan2(to.east(), to.north());
             self.pitch_rad = math::atan2(to.up() - EYE_HEIGHT_M, to.horizontal_norm());
         }
         self.bearing_rad = math::wrap_pi(self.bearing_rad + right_rad);
         self.pitch_rad = (self.pitch_rad + up_rad).clamp(-STEEPEST_RAD, STEEPEST_RAD);
+    }
+
+    /// How far one turns, rad, for a pixel of a view so many pixels high: what is under a pointer that drags stays there.
+    #[must_use]
+    pub fn rad_px(&self, height_px: f64, to: Vec3<Enu>) -> f64 {
+        self.vfov_rad(to.norm()) / height_px.max(1.0)
     }
 
     /// Nearer (above 1) or wider.
@@ -93,6 +102,18 @@ mod tests {
         assert_eq!(gaze.eye(STANDS, Vec3::new(-9.0, 3.0, 50.0), 1.5).forward, east, "the aircraft moves, the eyes do not");
         gaze.turn(0.0, 99.0, north);
         assert!((math::asin(gaze.eye(STANDS, north, 1.5).forward.up()) - STEEPEST_RAD).abs() < 1e-9);
+    }
+
+    #[test]
+    fn exact_a_drag_follows_the_pointer_and_who_turns_keeps_what_was_seen_near() {
+        let mut gaze = Gaze::default();
+        let far = Vec3::new(0.0, 150.0, EYE_HEIGHT_M);
+        let before = gaze.eye(STANDS, far, 1.0).hfov_rad;
+        // The eye stands half a step nearer than the inspector.
+        let apart = 0.01;
+        gaze.turn(0.0, 0.0, far);
+        assert!((gaze.eye(STANDS, far, 1.0).hfov_rad / before - 1.0).abs() < apart);
+        assert!((gaze.rad_px(500.0, far) * 500.0 / before - 1.0).abs() < apart, "a drag over the whole view turns by all of it");
     }
 
     #[test]

@@ -17,8 +17,8 @@ pub struct Quality {
     pub lamp_shadow: bool,
     /// Size of the reflection on the water as a share of the picture; 0: the sky alone is reflected.
     pub reflection: f64,
-    /// Ground and lake are drawn by fewer triangles where nobody sees the difference; the lake mirrors no boulders, hangers and
-    /// railings, and trees only where they are near.
+    /// Ground and lake are drawn by fewer triangles where nobody sees the difference, and no bed in deep water; the lake mirrors no boulders,
+    /// hangers and railings, trees only where they are near, and simpler bridges and mountains.
     pub sparse: bool,
     /// Spacing at which light is worked out on the bridges, m.
     pub light_cell_m: f64,

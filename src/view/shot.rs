@@ -64,6 +64,12 @@ impl Finish {
         Self { exposure, noise: NOISE_AT_100 * (exposure.iso / 100.0).sqrt(), vignette: VIGNETTE, before: moved }
     }
 
+    /// A sensor makes noise, a lens dark corners: eyes have neither.
+    #[must_use]
+    pub fn is_camera(&self) -> bool {
+        self.noise > 0.0 || self.vignette > 0.0
+    }
+
     /// A person's eyes: no noise, no blur.
     #[must_use]
     pub fn eyes(exposure: Exposure) -> Self {

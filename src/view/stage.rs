@@ -8,7 +8,7 @@ use super::hud::{Hud, Track};
 use super::scene::{DronePose, Scene};
 use super::shot::{Beam, Finish, Shot, wind};
 use super::sky::Sky;
-use crate::base::frames::{Enu, Vec3};
+use crate::base::frames::{Enu, Rotation, Vec3};
 use crate::base::math;
 use crate::base::time::SimTime;
 use crate::scenario::Scenario;
@@ -42,6 +42,25 @@ pub struct Moment {
     pub camera: CameraPose,
     /// The camera's lens as it is zoomed.
     pub lens: Camera,
+    /// How fast the camera turns.
+    pub turn: Turn,
+}
+
+/// How fast a camera on a gimbal turns; by default it does not.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Turn {
+    /// Its heading, rad/s, clockwise from above.
+    pub heading_rad_s: f64,
+    /// Its pitch over the horizon, rad/s, up positive.
+    pub pitch_rad_s: f64,
+}
+
+impl Turn {
+    /// The angular velocity, rad/s, of a camera whose right is there: the gimbal keeps that level.
+    #[must_use]
+    pub fn angular_rad_s(&self, right: Vec3<Enu>) -> Vec3<Enu> {
+        right * self.pitch_rad_s - Vec3::new(0.0, 0.0, self.heading_rad_s)
+    }
 }
 
 impl Stage<'_> {
@@ -56,8 +75,7 @@ impl Stage<'_> {
     pub fn camera(&self, moment: &Moment, size_px: (u32, u32)) -> Shot {
         let eye = Eye::of(&moment.camera, &moment.lens);
         let shot = self.through(eye, Some(&moment.camera), &moment.lens, None, (moment.at, size_px));
-        let opened = moment.camera.position_m - moment.velocity_m_s * shot.finish.exposure.time_s;
-        let before = Eye { position_m: opened, ..eye };
+        let before = opened(&eye, moment, shot.finish.exposure.time_s);
         Shot { finish: Finish::camera(shot.finish.exposure, Some(before)), ..shot }
     }
 
@@ -124,6 +142,13 @@ impl Stage<'_> {
     }
 }
 
+/// The eye when the shutter opened, so many s before it closed: it moved and turned since.
+fn opened(eye: &Eye, moment: &Moment, time_s: f64) -> Eye {
+    let back = Rotation::<Enu, Enu>::identity().turned_by(moment.turn.angular_rad_s(eye.right) * -time_s);
+    let position_m = eye.position_m - moment.velocity_m_s * time_s;
+    Eye { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
+}
+
 /// What the display tells besides the moment itself and the feed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Told {
@@ -137,6 +162,8 @@ pub struct Told {
     pub pictures: usize,
     /// When the last one was taken.
     pub taken: Option<SimTime>,
+    /// What flashes does so by this, s: the wall's time where the flight is live, for simulation time may stand or run fast; else the film's.
+    pub flash_s: f64,
 }
 
 impl Told {
@@ -151,6 +178,7 @@ impl Told {
             silent_s: newest.map_or(0.0, |newest| (at - newest).s()),
             pictures: taken.clone().count(),
             taken: taken.map(|shot| shot.0).max(),
+            flash_s: at.s(),
         }
     }
 }
@@ -189,7 +217,7 @@ pub fn display(stage: &Stage, moment: &Moment, told: &Told, (feed, held): (&Feed
         left_s: scenario.scoring.time_max_s - told.begun.map_or(0.0, |begun| (at - begun).s()),
         pictures: told.pictures,
         shutter: shutter(told.taken, at),
-        time_s: at.s(),
+        time_s: told.flash_s,
         position_m: moment.drone.position_m,
         heading_rad: moment.drone.ned_from_frd.yaw_rad(),
         pad_m,
@@ -221,5 +249,59 @@ pub fn parked(scenario: &Scenario, vehicle: &Vehicle) -> DronePose {
         position_m: team.pad_m + Vec3::new(0.0, 0.0, feet),
         ned_from_frd: crate::base::frames::Rotation::from_euler(0.0, 0.0, math::wrap_pi(team.pad_heading_deg.to_radians())),
         spinning: false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::site::defects::REFERENCE_CAMERA;
+
+    const ROUNDING: f64 = 1e-12;
+
+    /// A camera that looks from the origin to the north, so steeply up.
+    fn moment(pitch_deg: f64, turn: Turn) -> Moment {
+        let (up, north) = math::sin_cos(pitch_deg.to_radians());
+        let zero = Vec3::new(0.0, 0.0, 0.0);
+        Moment {
+            at: SimTime::ZERO,
+            drone: DronePose { position_m: zero, ned_from_frd: Rotation::identity(), spinning: true },
+            velocity_m_s: Vec3::new(3.0, 0.0, -2.0),
+            camera: aimed(zero, Vec3::new(0.0, north, up), false),
+            lens: REFERENCE_CAMERA,
+            turn,
+        }
+    }
+
+    fn before(moment: &Moment, time_s: f64) -> Eye {
+        opened(&Eye::of(&moment.camera, &moment.lens), moment, time_s)
+    }
+
+    #[test]
+    fn exact_a_turning_camera_looked_elsewhere_when_its_shutter_opened() {
+        let (degree, fast) = (1.0_f64.to_radians(), 100.0_f64.to_radians());
+        let yawed = before(&moment(0.0, Turn { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
+        // Clockwise it came from the west, by a degree.
+        assert!((math::atan2(yawed.forward.east(), yawed.forward.north()) + degree).abs() < ROUNDING, "{yawed:?}");
+        assert!(yawed.forward.up().abs() < ROUNDING && yawed.right.up().abs() < ROUNDING);
+        assert!(
+            (yawed.forward.dot(yawed.right)).abs() < ROUNDING
+                && (yawed.position_m - Vec3::new(-0.03, 0.0, 0.02)).norm() < ROUNDING
+        );
+        // Upwards it came from below, whatever its pitch.
+        for pitch_deg in [0.0, -60.0, 60.0] {
+            let tilted = before(&moment(pitch_deg, Turn { heading_rad_s: 0.0, pitch_rad_s: fast }), 0.01);
+            assert!((math::asin(tilted.forward.up()).to_degrees() - (pitch_deg - 1.0)).abs() < 1e-9, "{tilted:?}");
+            assert!((tilted.right - Vec3::new(1.0, 0.0, 0.0)).norm() < ROUNDING);
+        }
+        let steep = before(&moment(60.0, Turn { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
+        assert!((steep.forward.up() - math::sin(60.0_f64.to_radians())).abs() < ROUNDING, "its pitch stays");
+    }
+
+    #[test]
+    fn exact_a_camera_that_does_not_turn_looked_the_same_way() {
+        let still = moment(-20.0, Turn::default());
+        let (eye, opened) = (Eye::of(&still.camera, &still.lens), before(&still, 0.01));
+        assert!((opened.forward - eye.forward).norm() < ROUNDING && (opened.right - eye.right).norm() < ROUNDING);
     }
 }

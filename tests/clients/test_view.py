@@ -22,8 +22,8 @@ PRESS_AGAIN_S = 20.0
 
 @pytest.fixture
 def screen(tmp_path):
-    """A virtual display."""
-    opened = display.Display(tmp_path)
+    """A virtual display; half of it has the shape of the camera's sensor."""
+    opened = display.Display(tmp_path, width=1280, height=480)
     yield opened
     opened.close()
 
@@ -81,9 +81,8 @@ def test_wire_the_window_shows_both_views_and_flies_by_its_keys(screen, tmp_path
             return len(display.pixels_of(screen.photograph(), YELLOW)) == 0
 
         spandrel.wait_for("the map is hidden", hidden, DRAW_LIMIT_S)
-        beside = len(display.pixels_of(screen.photograph(), GREEN))
         screen.tap("Tab")
-        spandrel.wait_for("the camera's view is large", lambda: bigger(screen, beside), DRAW_LIMIT_S)
+        spandrel.wait_for("the camera's view has the window", lambda: in_the_middle(screen), DRAW_LIMIT_S)
 
         link = asking.connect(watcher)
         spandrel.wait_for("it may arm", lambda: armable(link), DRAW_LIMIT_S)
@@ -112,10 +111,11 @@ def with_display(screen):
     return [photograph] if len(display.pixels_of(photograph, GREEN)) > 0 else []
 
 
-def bigger(screen, before):
-    """The display has grown with its view."""
-    green = display.pixels_of(screen.photograph(), GREEN)
-    return len(green) > 0 and len(green) != before and green[:, 1].max() > 0.8 * screen.size[0]
+def in_the_middle(screen):
+    """The camera's view stands in the middle of the window, with its sensor's shape: bars are left and right of it."""
+    photograph = screen.photograph()
+    green, bar = display.pixels_of(photograph, GREEN), screen.size[0] // 4
+    return len(green) > 0 and 0.6 < green[:, 1].max() / screen.size[0] < 0.75 and contrast(photograph[: screen.size[1] // 4, : bar - 4]) < 1.0
 
 
 def armable(link):
@@ -160,5 +160,6 @@ def test_wire_training_goes_on_without_a_display(tmp_path, asked, title):
         spandrel.wait_for("it flies", lambda: "Take off, do the tasks" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
         assert title in told.read_text(encoding="utf-8")
         assert "no display" in told.read_text(encoding="utf-8") and training.poll() is None
+        assert "A window shows" not in told.read_text(encoding="utf-8"), "a window that is not there is not told of"
     finally:
         spandrel.end(training)

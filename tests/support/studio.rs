@@ -15,6 +15,7 @@ use spandrel::view::quality::Quality;
 use spandrel::view::scene::{DronePose, Scene};
 use spandrel::view::shot::Shot;
 use spandrel::view::stage::{Moment, Stage, aimed, parked};
+use std::sync::Arc;
 
 /// A midsummer forenoon, 2026-06-21 09:00 UTC: high sun in the south-east.
 pub const FORENOON: i64 = 1_782_032_400;
@@ -54,7 +55,7 @@ pub struct Studio {
     pub scenario: Scenario,
     pub vehicle: Vehicle,
     pub site: Site,
-    pub scene: Scene,
+    pub scene: Arc<Scene>,
     pub gpu: Gpu,
     /// Simulation time of its pictures.
     pub at: SimTime,
@@ -72,7 +73,7 @@ impl Studio {
         let quality = Quality::named(quality).unwrap();
         let vehicle = phantom();
         let site = Site::build(&scenario, seed);
-        let scene = Scene::build(&scenario, &site, &vehicle, &quality, at);
+        let scene = Arc::new(Scene::build(&scenario, &site, &vehicle, &quality, at));
         let renderer = Renderer::new(&gpu, quality, &scene);
         let overlay = Overlay::new(&gpu);
         Self { scenario, vehicle, site, scene, gpu, at, renderer, overlay }
@@ -108,6 +109,6 @@ impl Studio {
         let yaw = math::atan2(to.east(), to.north());
         let drone = DronePose { position_m: from, ned_from_frd: Rotation::from_euler(0.02, -0.05, yaw), spinning: true };
         let camera = aimed(from + to.unit() * 0.1, look, lamp);
-        Moment { at: self.at, drone, velocity_m_s, camera, lens: self.vehicle.camera }
+        Moment { at: self.at, drone, velocity_m_s, camera, lens: self.vehicle.camera, turn: Default::default() }
     }
 }

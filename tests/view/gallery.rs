@@ -7,6 +7,7 @@ use spandrel::base::math;
 use spandrel::base::time::SimTime;
 use spandrel::scenario::PlacedDefect;
 use spandrel::site::catalogue;
+use spandrel::view::arrange::fitted_px;
 use spandrel::view::hud::state::cue;
 use spandrel::view::hud::{self, Gnss, Hud, Track};
 use spandrel::view::picture::Picture;
@@ -211,8 +212,10 @@ fn regress_both_views_with_every_state_of_the_display() {
         let aspect = f64::from(VIEW.0) / f64::from(VIEW.1);
         let inspector = studio.stage().inspector(&moment, VIEW);
         let marked = hud::marker(&inspector.eye, aspect, moment.drone.position_m);
-        let camera = studio.stage().camera(&moment, VIEW);
-        let views = [studio.draw_with(&inspector, &marked), studio.draw_with(&camera, &hud::layout(&display, aspect))];
+        let seen = fitted_px(VIEW, moment.lens.aspect());
+        let camera = studio.stage().camera(&moment, seen);
+        let shown = hud::layout(&display, f64::from(seen.0) / f64::from(seen.1));
+        let views = [studio.draw_with(&inspector, &marked), studio.draw_with(&camera, &shown)];
         wall.hang(&format!("views-{name}"), &beside(&views));
     }
     wall.all_hold();

@@ -2,6 +2,7 @@
 //! and whether a picture shows what the measures say it shows.
 #![allow(missing_docs, reason = "a test")]
 
+mod aside;
 mod compare;
 mod contrast;
 mod gallery;

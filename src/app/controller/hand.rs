@@ -61,9 +61,9 @@ impl Hand {
         };
         let profile = profile.ok_or_else(|| {
             AppError::failed(format!(
-                "'{}' is not calibrated: run `spandrel rc --calibrate` (no {})",
+                "'{}' is not calibrated: run `spandrel rc --calibrate` ({})",
                 device.name,
-                profiles.path(&device).display()
+                profiles.missing(&device)
             ))
         })?;
         let log = record.map(|path| Log::begin(path, &device)).transpose()?;

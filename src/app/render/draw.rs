@@ -12,6 +12,7 @@ use crate::scenario::{PlacedDefect, Scenario};
 use crate::site::Site;
 use crate::site::gates::Gates;
 use crate::vehicle::{Camera, Vehicle};
+use crate::view::arrange::fitted_px;
 use crate::view::camera::Eye;
 use crate::view::gpu::{Gpu, GpuError, Overlay, Renderer};
 use crate::view::hud;
@@ -27,7 +28,10 @@ const LARGEST_PX: u32 = 8192;
 
 impl From<GpuError> for AppError {
     fn from(error: GpuError) -> Self {
-        Self::failed(error.to_string())
+        match error {
+            GpuError::TooLarge(..) => Self::wrong(format!("{error}: give a smaller --size")),
+            GpuError::NoDevice(_) | GpuError::Failed(_) => Self::failed(error.to_string()),
+        }
     }
 }
 
@@ -150,6 +154,7 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
     if args.view != "inspector" {
         let mut heard = recorded.heard();
         let display = stage::hud(&stage, &moment, &recorded.flight, (heard.until(at), true), true);
+        let size = fitted_px(size, vehicle.camera.aspect());
         views.push((stage.camera(&moment, size), if args.no_hud { Vec::new() } else { hud::layout(&display, aspect(size)) }));
     }
     drawing.draw(args, &views)
@@ -231,10 +236,15 @@ impl Brush<'_> {
     }
 }
 
+/// Pictures in a row; lower ones stand in the middle of black.
 fn beside(pictures: &[Picture]) -> Picture {
-    let height = pictures.iter().map(|p| p.height).min().unwrap_or(0);
+    const BLACK: [u8; 4] = [0, 0, 0, 255];
+    let height = pictures.iter().map(|p| p.height).max().unwrap_or(0);
     let width = pictures.iter().map(|p| p.width).sum();
-    let row = |p: &Picture, y: u32| p.rgba[(4 * y * p.width) as usize..(4 * (y + 1) * p.width) as usize].to_vec();
+    let row = |p: &Picture, y: u32| match y.checked_sub((height - p.height) / 2).filter(|y| *y < p.height) {
+        Some(y) => p.rgba[(4 * y * p.width) as usize..(4 * (y + 1) * p.width) as usize].to_vec(),
+        None => BLACK.repeat(p.width as usize),
+    };
     let rgba = (0..height).flat_map(|y| pictures.iter().flat_map(move |p| row(p, y))).collect();
     Picture { width, height, rgba }
 }

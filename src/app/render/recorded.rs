@@ -14,8 +14,9 @@ use crate::telemetry::sample::{Header, truth_time};
 use crate::telemetry::{Flight, Timeline, tlog};
 use crate::vehicle::Vehicle;
 use crate::view::feed::Feed;
+use crate::view::live::Trace;
 use crate::view::scene::DronePose;
-use crate::view::stage::Moment;
+use crate::view::stage::{Moment, Turn};
 use std::path::{Path, PathBuf};
 
 /// A session folder that holds a flight.
@@ -144,5 +145,50 @@ fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<Moment> {
         velocity_m_s: state.velocity_m_s,
         camera: attention::pose(flight, at, vehicle)?,
         lens: attention::camera(flight, at, &vehicle.camera),
+        turn: turn(flight, at),
     })
+}
+
+/// How fast the camera turned, by what was told around a time, as in the live view.
+fn turn(flight: &Flight, at: SimTime) -> Turn {
+    // What was told last by then, and next.
+    let near = |after: usize, count: usize| after.saturating_sub(1)..count.min(after + 1);
+    let (truths, pitches) = (&flight.truths, flight.gimbal.all());
+    let mut trace = Trace::default();
+    let around = near(truths.partition_point(|truth| truth.time <= at), truths.len());
+    truths[around].iter().for_each(|truth| trace.push(*truth));
+    let around = near(pitches.partition_point(|told| told.0 <= at), pitches.len());
+    pitches[around].iter().for_each(|told| trace.push_gimbal(told.0, told.2));
+    trace.turn_at(at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::frames::{Rotation, Vec3};
+    use crate::telemetry::Truth;
+
+    #[test]
+    fn exact_a_recorded_camera_turned_as_its_samples_say() {
+        let truth = |ms: i64, yaw_deg: f64| Truth {
+            time: SimTime::from_ms(ms),
+            position_m: Vec3::new(0.0, 0.0, 10.0),
+            velocity_m_s: Vec3::new(0.0, 0.0, 0.0),
+            ned_from_frd: Rotation::from_euler(0.0, 0.0, yaw_deg.to_radians()),
+        };
+        let mut flight = Flight::default();
+        assert_eq!(turn(&flight, SimTime::ZERO), Turn::default());
+        flight.truths = [(0, 0.0), (20, 2.0), (40, 2.0), (60, 1.0)].map(|(ms, yaw_deg)| truth(ms, yaw_deg)).to_vec();
+        for (ms, pitch_rad) in [(0, 0.0), (50, 0.05), (100, 0.0)] {
+            flight.gimbal.push(SimTime::from_ms(ms), ms, pitch_rad);
+        }
+        for (ms, heading_deg_s, pitch_rad_s) in
+            [(10, 100.0, 1.0), (20, 0.0, 1.0), (55, -50.0, -1.0), (60, 0.0, -1.0), (100, 0.0, 0.0)]
+        {
+            let found = turn(&flight, SimTime::from_ms(ms));
+            let near =
+                (found.heading_rad_s.to_degrees() - heading_deg_s).abs() < 1e-6 && (found.pitch_rad_s - pitch_rad_s).abs() < 1e-9;
+            assert!(near, "{ms} ms: {found:?}");
+        }
+    }
 }

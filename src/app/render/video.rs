@@ -9,6 +9,7 @@ use super::draw::{Drawing, aspect, instant, quality, size};
 use super::recorded::Recorded;
 use crate::base::time::SimTime;
 use crate::report::pictures::Picture;
+use crate::view::arrange::fitted_px;
 use crate::view::hud;
 use crate::view::stage;
 use crate::view::video::{Encoder, Mp4, Piece, VideoError, webvtt};
@@ -32,12 +33,13 @@ impl From<VideoError> for AppError {
 /// Draws the film to `path`, and its chapters beside it.
 pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     let preset = quality(&args.quality)?;
-    let size_px = size(args.size.as_deref().unwrap_or("1280x720"))?;
+    let within_px = size(args.size.as_deref().unwrap_or("1280x720"))?;
     if !(1.0..=60.0).contains(&args.fps) {
         return Err(AppError::wrong(format!("--fps {}: give pictures a second, 1 to 60", args.fps)));
     }
     let recorded = Recorded::read(Path::new(&args.what))?;
     let (from, to) = span(args, &recorded)?;
+    let size_px = fitted_px(within_px, recorded.vehicle().camera.aspect());
     let drawing = Drawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
     let drawing = drawing.with_gates(recorded.gates());
     let bits_s = BITS_PX * f64::from(size_px.0) * f64::from(size_px.1) * args.fps;

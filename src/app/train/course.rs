@@ -3,6 +3,7 @@
 use super::flight::{Flight, Outcome};
 use super::offers;
 use super::photographs::Photographs;
+use super::questions;
 use super::window::Window;
 use super::{Args, USUAL, camera, tell};
 use crate::app::args::{self, TraineeId};
@@ -31,7 +32,10 @@ pub struct Course<'a> {
     args: &'a Args,
     log: tracing::Level,
     stop: Stop,
+    /// The window while it is there.
     window: Option<Window>,
+    /// Somebody closed the window: this machine draws, although none is there any more.
+    closed: bool,
     web: Option<Pages>,
     told: bool,
     photographs: Photographs,
@@ -40,7 +44,7 @@ pub struct Course<'a> {
 /// What comes after a flight.
 enum Next {
     Fly(Choice),
-    /// Somebody has seen the end and closed it.
+    /// Somebody wants no further flight.
     Leave,
     /// There is no window that could ask.
     Nobody,
@@ -49,7 +53,7 @@ enum Next {
 impl<'a> Course<'a> {
     /// Nothing is started yet.
     pub fn new(args: &'a Args, log: tracing::Level, stop: Stop) -> Self {
-        Self { args, log, stop, window: None, web: None, told: false, photographs: Photographs::default() }
+        Self { args, log, stop, window: None, closed: false, web: None, told: false, photographs: Photographs::default() }
     }
 
     /// Flies as often as is asked for.
@@ -63,8 +67,7 @@ impl<'a> Course<'a> {
             scenario: self.args.scenario.clone().unwrap_or_else(|| USUAL.to_owned()),
             purpose: self.args.purpose.said(),
         };
-        let mut next =
-            if self.args.choose || self.args.scenario.is_none() { self.first(&usual) } else { Next::Fly(usual.clone()) };
+        let mut next = if self.args.choose || self.args.scenario.is_none() { self.first(&usual) } else { self.given(&usual) };
         let mut result = Ok(());
         let mut last = None;
         while let Next::Fly(choice) = next {
@@ -84,7 +87,8 @@ impl<'a> Course<'a> {
             last = Some(session);
             next = self.next(&choice);
         }
-        let seen = matches!(next, Next::Leave);
+        // Who leaves by the window has seen the end; what is still asked is answered from the pages.
+        let seen = matches!(next, Next::Leave) && !last.as_deref().is_some_and(questions::are_open);
         if let Some(window) = self.window.take() {
             window.close();
         }
@@ -95,9 +99,31 @@ impl<'a> Course<'a> {
         result
     }
 
+    /// There is a window; one that is over is let go of.
+    fn is_open(&mut self) -> bool {
+        let Some(window) = &mut self.window else { return false };
+        let open = window.is_open();
+        if !open {
+            self.closed |= window.closed;
+            self.window = None;
+        }
+        open
+    }
+
+    /// Waits until the window stands; false when there is none that does.
+    fn stands(&mut self) -> bool {
+        let ready = self.window.as_mut().is_some_and(|window| window.is_ready(&self.stop));
+        self.is_open() && ready
+    }
+
+    /// The window stands on a display.
+    fn shows(&mut self) -> bool {
+        self.is_open() && self.window.as_ref().is_some_and(|window| window.ready)
+    }
+
     /// The window asks, and not the command line alone.
     fn asks(&mut self) -> bool {
-        self.told && self.window.as_mut().is_some_and(Window::is_open)
+        self.told && self.is_open()
     }
 
     fn say(&mut self, message: &ToWindow) {
@@ -106,9 +132,15 @@ impl<'a> Course<'a> {
         }
     }
 
+    /// The command line's choice, once the window stands or is known not to: nobody flies before there is something to see.
+    fn given(&mut self, usual: &Choice) -> Next {
+        self.stands();
+        if self.stop.asked() { Next::Leave } else { Next::Fly(usual.clone()) }
+    }
+
     /// The first choice: the window's, or without one the command line's.
     fn first(&mut self, usual: &Choice) -> Next {
-        if self.window.as_mut().is_some_and(Window::is_ready) {
+        if self.stands() {
             self.serve(None);
             self.offer(usual);
             match self.next(usual) {
@@ -116,9 +148,12 @@ impl<'a> Course<'a> {
                 next => return next,
             }
             // Who closes the window wants no flight; one that breaks off is done without.
-            if self.stop.asked() || self.window.as_ref().is_some_and(|window| window.closed) {
+            if self.closed {
                 return Next::Leave;
             }
+        }
+        if self.stop.asked() {
+            return Next::Leave;
         }
         tracing::info!(
             "nobody is asked: {} flies {}; say --trainee, --scenario and --purpose for another choice",
@@ -151,7 +186,7 @@ impl<'a> Course<'a> {
                     FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
                 }
             }
-            if !window.is_open() || self.stop.asked() {
+            if !self.is_open() || self.stop.asked() {
                 return Next::Nobody;
             }
             std::thread::sleep(LOOK);
@@ -166,8 +201,9 @@ impl<'a> Course<'a> {
             if let Some(flying) = flight.flying(self.args) {
                 self.say(&flying);
             }
+            let shown = self.shows();
             let web = self.web.as_ref().map(|web| web.server.address());
-            print!("{}", flight.told(self.args, web, self.window.is_some()));
+            print!("{}", flight.told(self.args, web, shown));
             let outcome = flight.wait(&mut self.window, &self.stop);
             if matches!(outcome, Outcome::Over) && self.stop.asked() {
                 // Who interrupts is not asked again.
@@ -193,10 +229,12 @@ impl<'a> Course<'a> {
             Outcome::Lost(error) => Err(error),
             Outcome::Over | Outcome::Restart => told,
         };
-        if self.window.as_mut().is_some_and(|window| window.is_open() || window.closed) && result.is_ok() {
+        let open = self.is_open();
+        // Where the window broke off nothing can be drawn; who interrupts waits for no pictures.
+        if (open || self.closed) && result.is_ok() && !self.stop.asked() {
             self.photographs.draw(session);
         }
-        if self.window.is_some() {
+        if open {
             self.offer(choice);
             let web = self.web.as_ref().map(|web| web.server.address());
             let trouble = result.as_ref().err().map(ToString::to_string);
@@ -236,14 +274,18 @@ impl<'a> Course<'a> {
         let (Some(web), true, false) = (&self.web, std::io::stdin().is_terminal(), self.stop.asked()) else { return };
         let address = offers::ended(session, Some(web.server.address()), None).questionnaire;
         println!("in a browser  {address}   (the pages stay until you press Enter)");
-        let pressed = self.stop.clone();
+        // Enter ends the pages alone: the photographs are still waited for.
+        let over = Stop::default();
+        let pressed = over.clone();
         std::thread::spawn(move || {
             let mut line = String::new();
             // The end of the input ends it, too.
             let _ = std::io::stdin().read_line(&mut line);
             pressed.ask();
         });
-        web.server.until(&self.stop);
+        while !over.asked() && !self.stop.asked() {
+            std::thread::sleep(LOOK);
+        }
     }
 }
 
@@ -255,4 +297,23 @@ fn checked(choice: &Choice) -> Result<(), AppError> {
 
 fn port_of(address: &str) -> Option<u16> {
     address.rsplit(':').next()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::parsed;
+    use super::*;
+    use crate::view::flow::pipe::Purpose;
+
+    #[test]
+    fn exact_a_window_that_breaks_off_is_let_go_of_before_the_flight_is_told() {
+        let args = parsed(&["--scenario", "drill-hover"]);
+        let mut course = Course::new(&args, tracing::Level::WARN, Stop::default());
+        course.window = Some(Window::broken());
+        let choice = Choice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
+        assert!(matches!(course.given(&choice), Next::Fly(flown) if flown == choice));
+        assert!(course.window.is_none() && !course.shows() && !course.closed);
+        course.stop.ask();
+        assert!(matches!(course.given(&choice), Next::Leave), "who interrupts wants no flight");
+    }
 }

@@ -3,10 +3,10 @@
 use crate::app::files;
 use crate::app::records::session_folders;
 use crate::app::report;
-use crate::app::session_folder::whose;
+use crate::app::session_folder::{purpose, whose};
 use crate::monitor::folder::{ASSESSMENT, REPORT};
 use crate::scenario::Scenario;
-use crate::view::flow::pipe::{Choice, Ended, Job, Offers, Person, SCORES, Score};
+use crate::view::flow::pipe::{Choice, Ended, Job, Offers, Person, Purpose, SCORES, Score};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -29,15 +29,18 @@ pub fn offers(sessions: &Path, choice: &Choice, web: Option<&str>) -> Offers {
     }
 }
 
-/// Who has flown here, and how often.
+/// Who has flown here, how often, and how often for practice.
 fn people(sessions: &Path) -> Vec<Person> {
     // A folder that is not there yet holds nobody.
     let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
-    let mut count: BTreeMap<String, u32> = BTreeMap::new();
-    for (trainee, _) in folders.iter().filter_map(|folder| whose(folder).ok()) {
-        *count.entry(trainee).or_default() += 1;
+    let mut count: BTreeMap<String, (u32, u32)> = BTreeMap::new();
+    for folder in &folders {
+        let Ok((trainee, _)) = whose(folder) else { continue };
+        let practice = purpose(folder).as_deref() == Some(Purpose::Practice.word());
+        let (sessions, practices) = count.entry(trainee).or_default();
+        (*sessions, *practices) = (*sessions + 1, *practices + u32::from(practice));
     }
-    count.into_iter().map(|(name, sessions)| Person { name, sessions }).collect()
+    count.into_iter().map(|(name, (sessions, practices))| Person { name, sessions, practices }).collect()
 }
 
 fn kind(scenario: &Scenario) -> String {
@@ -87,7 +90,7 @@ fn why(end: &Value, session: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::flow::pipe::Purpose;
+    use crate::monitor::folder::{SESSION, TELEMETRY};
 
     fn choice() -> Choice {
         Choice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice }
@@ -101,6 +104,24 @@ mod tests {
         let kind = |name: &str| offers.scenarios.iter().find(|job| job.name == name).map(|job| job.kind.clone());
         assert_eq!(kind("two-bridges").as_deref(), Some("4 tasks, 2 bridges, 10 defects"));
         assert_eq!(kind("drill-hover").as_deref(), Some("1 task"));
+    }
+
+    #[test]
+    fn exact_people_are_counted_by_sessions_and_by_practices() {
+        let sessions = tempfile::tempdir().unwrap();
+        for (k, (trainee, purpose)) in
+            [("anna", Some("practice")), ("anna", Some("assessment")), ("anna", None), ("bert", Some("assessment"))]
+                .into_iter()
+                .enumerate()
+        {
+            let folder = sessions.path().join(k.to_string());
+            std::fs::create_dir(&folder).unwrap();
+            std::fs::write(folder.join(TELEMETRY), "").unwrap();
+            let session = serde_json::json!({ "trainee": trainee, "started_unix_us": 1, "purpose": purpose });
+            std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
+        }
+        let person = |name: &str, sessions, practices| Person { name: name.into(), sessions, practices };
+        assert_eq!(people(sessions.path()), [person("anna", 3, 1), person("bert", 1, 0)]);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::Args;
 use crate::app::args::Port;
 use crate::app::children::Child;
 use crate::app::clock::Stopwatch;
+use crate::app::stop::Stop;
 use crate::view::flow::pipe::{self, FromWindow, ToWindow};
 use std::time::Duration;
 
@@ -16,6 +17,8 @@ const OPEN_LIMIT: Duration = Duration::from_secs(60);
 pub struct Window {
     child: Child,
     over: bool,
+    /// It has said that it stands on a display.
+    pub ready: bool,
     /// It was closed, and did not break off.
     pub closed: bool,
     flies: bool,
@@ -49,15 +52,23 @@ impl Window {
         }
         let opened = Child::start_beside("view", &words, &[spare_threads()]);
         let child = opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()?;
-        Some(Self { child, over: false, closed: false, flies: false, complained: false })
+        Some(Self::of(child))
     }
 
-    /// Waits until it stands on a display; false when it does not.
-    pub fn is_ready(&mut self) -> bool {
+    fn of(child: Child) -> Self {
+        Self { child, over: false, ready: false, closed: false, flies: false, complained: false }
+    }
+
+    /// Waits until it stands on a display; false when it does not, or somebody interrupts.
+    pub fn is_ready(&mut self, stop: &Stop) -> bool {
         let watch = Stopwatch::start();
-        while watch.elapsed() < OPEN_LIMIT && self.is_open() {
+        while self.is_open() && !stop.asked() {
             if self.hear() == Some(FromWindow::Ready) {
                 return true;
+            }
+            if watch.elapsed() > OPEN_LIMIT {
+                tracing::warn!("the window has not opened after {} s: it is not waited for", OPEN_LIMIT.as_secs());
+                return false;
             }
             std::thread::sleep(LOOK);
         }
@@ -78,7 +89,10 @@ impl Window {
     pub fn hear(&mut self) -> Option<FromWindow> {
         while let Some(line) = self.child.line() {
             match pipe::read(&line) {
-                Ok(message) => return Some(message),
+                Ok(message) => {
+                    self.ready |= message == FromWindow::Ready;
+                    return Some(message);
+                }
                 Err(error) if !self.complained => {
                     self.complained = true;
                     tracing::warn!("from the window: {error}; such lines are left alone");
@@ -95,14 +109,7 @@ impl Window {
         if let Some(status) = ended.filter(|_| !self.over) {
             self.over = true;
             self.closed = status.success();
-            tracing::info!(
-                "{}",
-                match (self.closed, self.flies) {
-                    (true, false) => "the window is closed",
-                    (true, true) => "the window is closed: the session goes on without",
-                    (false, _) => "there is no window (its message stands above): the session goes on without",
-                }
-            );
+            tracing::info!("{}", farewell(self.closed, self.flies));
         }
         !self.over
     }
@@ -114,8 +121,38 @@ impl Window {
     }
 }
 
+fn farewell(closed: bool, flies: bool) -> &'static str {
+    match (closed, flies) {
+        (true, false) => "the window is closed",
+        (true, true) => "the window is closed: the session goes on without",
+        (false, _) => "there is no window (its message is in the terminal): the session goes on without",
+    }
+}
+
 /// Mesa's software driver takes every processor unless it is told otherwise; half of them are the simulator's and the monitor's.
 pub fn spare_threads() -> (&'static str, String) {
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     ("LP_NUM_THREADS", (all / 2).max(1).to_string())
+}
+
+#[cfg(test)]
+impl Window {
+    /// One that breaks off at once: the tests' own program knows no --announce.
+    pub fn broken() -> Self {
+        Self::of(Child::start("view", &[]).unwrap())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_window_that_breaks_off_is_neither_ready_nor_closed() {
+        let mut window = Window::broken();
+        assert!(!window.is_ready(&Stop::default()) && !window.is_open());
+        assert!(!window.ready && !window.closed);
+        assert!(farewell(window.closed, true).contains("its message is in the terminal"));
+        assert!(!farewell(true, false).contains("message"), "who closes a window needs no reason");
+    }
 }

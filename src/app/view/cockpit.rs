@@ -25,7 +25,7 @@ use crate::app::files;
 use crate::app::priority;
 use crate::app::render::size;
 use crate::app::stop::Stop;
-use crate::view::flow::Flow;
+use crate::view::flow::{Flow, Names};
 use flight::Flight;
 use lead::Lead;
 use pilot::{Ask, Pilot};
@@ -58,12 +58,13 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     if args.led || args.fly.is_some() {
         crew.pilot = Some(Pilot::start(args, keys.clone())?);
     }
+    let names = Names::new(keys.labels());
     let flow = if args.led {
         crew.lead = Some(Lead::listen(&stop));
-        Flow::new(!args.no_sound)
+        Flow::new(!args.no_sound, names)
     } else {
         crew.flight = Some(Flight::begin(args.listen, args.connect, (scenario, vehicle), args.job.seed)?);
-        Flow::watching(!args.no_sound)
+        Flow::watching(!args.no_sound, names)
     };
     if let (Some(pilot), Some(vehicle)) = (&crew.pilot, args.fly) {
         pilot.ask(Ask::Fly(vehicle));

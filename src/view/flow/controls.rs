@@ -82,7 +82,13 @@ pub fn page(pen: &mut Pen, controls: &Controls, rows: &[Row], focus: usize) {
     let below = 0.22 + size + 0.16;
     if controls.device.is_none() {
         columns(pen, (left, y + 0.02), half, &controls.keys);
-        pen.lines((x, below), room, SMALL, Colour::White, "Press the keys that fly: the dots must follow.");
+        pen.lines(
+            (x, below),
+            room,
+            SMALL,
+            Colour::White,
+            "Press the keys that fly: the dots must follow. Tab and Enter, or the mouse, go on.",
+        );
     } else if controls.wizard.is_some() || !controls.calibrated {
         axes(pen, (x, below), room, &controls.axes);
     } else {

@@ -3,6 +3,7 @@
 
 mod controls;
 mod menu;
+mod names;
 mod over;
 mod page;
 mod paused;
@@ -17,13 +18,15 @@ mod tutorial;
 
 pub use controls::Controls;
 pub use menu::{Deed, Kind, Row};
+pub use names::Names;
 pub use page::{Order, Page, Press};
 pub use sheet::Sheet;
 pub use tutorial::PICTURES;
 
+use crate::view::arrange::Arrangement;
 use crate::view::hud::Point;
 use pipe::{Choice, Ended, Flying, FromWindow, Offers, Purpose, ToWindow};
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 /// Where the window stands.
 #[derive(Debug, Clone)]
@@ -37,7 +40,13 @@ pub struct Flow {
     flying: Option<Flying>,
     ended: Option<Ended>,
     words: Option<String>,
-    taught: bool,
+    /// Who has read the tutorial, or flown a practice, in this window.
+    taught: BTreeSet<String>,
+    names: Names,
+    /// What is waited for.
+    awaited: &'static str,
+    /// How the views share the window.
+    pub arrangement: Arrangement,
     /// The pause was asked for to begin anew.
     anew: bool,
     sound: bool,
@@ -45,9 +54,9 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// Nothing is known yet. `sound`: it is on.
+    /// Nothing is known yet. `sound`: it is on; `names`: of the keys.
     #[must_use]
-    pub fn new(sound: bool) -> Self {
+    pub fn new(sound: bool, names: Names) -> Self {
         Self {
             page: Page::Opening,
             focus: 0,
@@ -57,7 +66,10 @@ impl Flow {
             flying: None,
             ended: None,
             words: None,
-            taught: false,
+            taught: BTreeSet::new(),
+            names,
+            awaited: "",
+            arrangement: Arrangement::default(),
             anew: false,
             sound,
             out: VecDeque::new(),
@@ -66,8 +78,8 @@ impl Flow {
 
     /// A flight that is watched without anybody who leads it: no page but the flight.
     #[must_use]
-    pub fn watching(sound: bool) -> Self {
-        Self { page: Page::Flight, ..Self::new(sound) }
+    pub fn watching(sound: bool, names: Names) -> Self {
+        Self { page: Page::Flight, ..Self::new(sound, names) }
     }
 
     /// What is shown.
@@ -80,6 +92,12 @@ impl Flow {
     #[must_use]
     pub fn choice(&self) -> &Choice {
         &self.choice
+    }
+
+    /// The keys that fly are tried: they do nothing else on this page.
+    #[must_use]
+    pub fn tries_keys(&self) -> bool {
+        self.page == Page::Controls && self.controls.device.is_none()
     }
 
     /// Time stands still.
@@ -168,8 +186,9 @@ impl Flow {
             }
             ToWindow::Ended(ended) => {
                 self.ended = Some(ended);
-                self.flying = None;
-                self.taught = true;
+                if let Some(flown) = self.flying.take().filter(|flown| flown.choice.purpose == Purpose::Practice) {
+                    self.taught.insert(flown.choice.trainee);
+                }
                 self.out.push_back(Order::Land);
                 self.go(Page::Over);
             }

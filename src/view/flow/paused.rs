@@ -2,7 +2,7 @@
 
 use super::menu::{self, Row};
 use super::pipe::Purpose;
-use super::sheet::{Pen, SMALL, Sheet, TITLE};
+use super::sheet::{Pen, SMALL, Sheet, TITLE, width_of};
 use super::{Flow, Press};
 use crate::view::hud::{Colour, Side};
 
@@ -21,12 +21,16 @@ pub fn page(mut pen: Pen, rows: &[Row], focus: usize) -> Sheet {
 
 /// A practice can be paused by a click, too.
 pub fn button(flow: &Flow, mut pen: Pen) -> Sheet {
-    let middle = 0.5 * pen.width;
+    // In the inspector's view: the camera's has its display at all edges.
+    let (across, down) = flow.arrangement.button();
     if flow.flying.as_ref().is_some_and(|flying| flying.choice.purpose == Purpose::Practice) {
-        let (x, y) = (middle - 0.09, 0.945);
-        pen.panel((x, y), (0.18, 0.045), Colour::Shade);
-        pen.spot((x, y), (0.18, 0.045), Press::Escape);
-        pen.text((middle, y + 0.0225), Side::Middle, SMALL, Colour::White, "Pause (Esc)");
+        let words = flow.names.fill("Pause ({pause})");
+        let (width, height) = (width_of(&words, SMALL) + 0.03, 0.045);
+        let middle = pen.across(across);
+        let (x, y) = (middle - 0.5 * width, down - 0.5 * height);
+        pen.panel((x, y), (width, height), Colour::Shade);
+        pen.spot((x, y), (width, height), Press::Escape);
+        pen.text((middle, down), Side::Middle, SMALL, Colour::White, words);
     }
     pen.done()
 }

@@ -33,6 +33,8 @@ pub struct Person {
     pub name: String,
     /// Sessions so far.
     pub sessions: u32,
+    /// How many of them were practices.
+    pub practices: u32,
 }
 
 /// A job that can be flown.
@@ -188,7 +190,7 @@ mod tests {
     fn exact_every_message_survives_its_line() {
         let score = Some(Score { raw: -9.0, pct: 91.0 });
         let offers = Offers {
-            trainees: vec![Person { name: "anna".into(), sessions: 3 }],
+            trainees: vec![Person { name: "anna".into(), sessions: 3, practices: 2 }],
             scenarios: vec![Job { name: "drill-hover".into(), title: "Drill: \"hover\"\n".into(), kind: "drill".into() }],
             choice: choice(),
             web: None,

@@ -6,6 +6,7 @@ use super::{Controls, Flow, Order, Page, Press, tutorial};
 
 /// Most signs of a pseudonym, as everywhere.
 const NAME_MAX: usize = 32;
+const READY: &str = "The simulator gets ready ...";
 /// Steps of dead band and expo.
 const FINE: f64 = 0.01;
 const COARSE: f64 = 0.1;
@@ -20,8 +21,8 @@ impl Flow {
         match press {
             Press::Up => self.focus = if self.focus == 0 { last } else { self.focus - 1 },
             Press::Down => self.focus = if self.focus >= last { 0 } else { self.focus + 1 },
-            Press::Left if kind == Some(Kind::Button) => self.back(),
-            Press::Right if kind == Some(Kind::Button) => self.activate(&rows),
+            // A page may come under a key that flies: left and right change values, and nothing else.
+            Press::Left | Press::Right if kind == Some(Kind::Button) => {}
             Press::Left => self.step(&rows, false),
             Press::Right => self.step(&rows, true),
             Press::Enter => self.activate(&rows),
@@ -101,10 +102,10 @@ impl Flow {
         }
     }
 
-    /// Whoever has never flown here reads the tutorial before the first practice.
-    fn is_new(&self) -> bool {
-        let flown = |offers: &Offers| offers.trainees.iter().any(|p| p.name == self.choice.trainee && p.sessions > 0);
-        !self.taught && self.choice.purpose == Purpose::Practice && !self.offers.as_ref().is_some_and(flown)
+    /// Whoever has flown no practice here yet reads the tutorial before the first one.
+    pub(super) fn is_new(&self) -> bool {
+        let flown = |offers: &Offers| offers.trainees.iter().any(|p| p.name == self.choice.trainee && p.practices > 0);
+        !self.taught.contains(&self.choice.trainee) && !self.offers.as_ref().is_some_and(flown)
     }
 
     fn activate(&mut self, rows: &[Row]) {
@@ -119,7 +120,7 @@ impl Flow {
             Deed::Sound => self.toggle_sound(),
             Deed::Look => self.out.push_back(Order::Look),
             Deed::Calibrate => self.out.push_back(Order::Calibrate),
-            Deed::Fly if self.is_new() => self.go(Page::Tutorial(0, true)),
+            Deed::Fly if self.choice.purpose == Purpose::Practice && self.is_new() => self.go(Page::Tutorial(0, true)),
             Deed::Fly => self.choose(),
             Deed::Back => self.back(),
             Deed::Next => self.turn(),
@@ -128,15 +129,15 @@ impl Flow {
             Deed::Cancel => self.out.push_back(Order::Cancel),
             Deed::Resume => self.tell(FromWindow::Resume),
             Deed::Restart => {
-                self.leave();
+                self.leave(READY);
                 self.tell(FromWindow::Restart);
             }
             Deed::End => {
-                self.leave();
+                self.leave("The flight is scored ...");
                 self.tell(FromWindow::End);
             }
             Deed::Again => {
-                self.leave();
+                self.leave(READY);
                 self.tell(FromWindow::Again);
             }
             Deed::Other => self.go(Page::Start),
@@ -150,14 +151,19 @@ impl Flow {
     }
 
     /// The simulator works at what comes next.
-    fn leave(&mut self) {
+    fn leave(&mut self, awaited: &'static str) {
         self.out.push_back(Order::Land);
+        self.wait(awaited);
+    }
+
+    fn wait(&mut self, awaited: &'static str) {
+        self.awaited = awaited;
         self.go(Page::Waiting);
     }
 
     fn choose(&mut self) {
         self.tell(FromWindow::Chosen(self.choice.clone()));
-        self.go(Page::Waiting);
+        self.wait(READY);
     }
 
     fn turn(&mut self) {
@@ -171,7 +177,7 @@ impl Flow {
     }
 
     fn taught_enough(&mut self) {
-        self.taught = true;
+        self.taught.insert(self.choice.trainee.clone());
         match self.page {
             Page::Tutorial(_, true) => self.choose(),
             _ => self.go(Page::Start),

@@ -10,6 +10,8 @@ pub const TITLE: f64 = 0.075;
 pub const TEXT: f64 = 0.038;
 /// Lesser text.
 pub const SMALL: f64 = 0.032;
+/// From one line of text to the next, heights of the text.
+pub const LINE: f64 = 1.35;
 /// The font's mean width of a sign as a share of its height (egui's Ubuntu Light, lower case; a little wide, so that nothing overflows).
 const SIGN: f64 = 0.48;
 /// Pages are no wider than this many heights: lines stay readable on wide windows.
@@ -74,6 +76,12 @@ impl Pen {
         Self { sheet: Sheet::default(), aspect, left: 0.5 * (aspect - width), width }
     }
 
+    /// What a share of the window's width is on the page, heights.
+    #[must_use]
+    pub fn across(&self, share: f64) -> f64 {
+        share * self.aspect - self.left
+    }
+
     /// A place in shares of the window.
     fn place(&self, x: f64, y: f64) -> Point {
         at((self.left + x) / self.aspect, y)
@@ -101,7 +109,7 @@ impl Pen {
         let mut y = y;
         for line in wrapped(words, width, height) {
             self.text((x, y), Side::Left, height, colour, line);
-            y += 1.35 * height;
+            y += LINE * height;
         }
         y
     }

@@ -1,7 +1,7 @@
 //! The first page: who flies what, and what for. And what stands there while the simulator works.
 
 use super::pipe::Purpose;
-use super::sheet::{Pen, SMALL, Sheet, TEXT, TITLE};
+use super::sheet::{LINE, Pen, SMALL, Sheet, TEXT, TITLE, wrapped};
 use super::{Flow, Page, controls, menu, over, paused, tutorial};
 use crate::view::hud::{Colour, Side};
 
@@ -19,15 +19,13 @@ impl Flow {
         match self.page {
             Page::Start => self.start(&mut pen, &rows),
             Page::Controls | Page::Calibrating => controls::page(&mut pen, &self.controls, &rows, self.focus),
-            Page::Tutorial(page, _) => tutorial::page(&mut pen, page, &rows, self.focus),
+            Page::Tutorial(page, _) => tutorial::page(&mut pen, page, &rows, self.focus, &self.names),
             Page::Over => over::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
-            Page::Waiting => waiting(&mut pen, "The simulator gets ready ..."),
+            Page::Waiting => waiting(&mut pen, self.awaited),
             Page::Opening | Page::Flight | Page::Paused => waiting(&mut pen, "Spandrel"),
         }
         if let Some(words) = &self.words {
-            let width = pen.width;
-            pen.panel((0.0, 0.925), (width, 0.06), Colour::Card);
-            pen.text((0.5 * width, 0.955), Side::Middle, TEXT, Colour::Yellow, words.clone());
+            told(&mut pen, words);
         }
         pen.done()
     }
@@ -53,10 +51,12 @@ impl Flow {
         let known = offers.and_then(|o| o.trainees.iter().find(|p| p.name == self.choice.trainee)).map_or(0, |p| p.sessions);
         let who = match known {
             _ if self.choice.trainee.is_empty() => "Type a pseudonym: no real name is kept.".to_owned(),
-            0 => "Has not flown here yet: the tutorial comes before the first practice.".to_owned(),
+            0 => "Has not flown here yet.".to_owned(),
             1 => "Has flown one session here.".to_owned(),
             n => format!("Has flown {n} sessions here."),
         };
+        let new = !self.choice.trainee.is_empty() && self.is_new();
+        let who = if new { format!("{who} The tutorial comes before the first practice.") } else { who };
         let job = offers.and_then(|o| o.scenarios.iter().find(|job| job.name == self.choice.scenario));
         let job = job.map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
         let purpose = match self.choice.purpose {
@@ -68,6 +68,21 @@ impl Flow {
             told.push(("Sessions in a browser", web.clone()));
         }
         told
+    }
+}
+
+/// What a person is to read now, along the lower edge, over whatever stands there.
+fn told(pen: &mut Pen, words: &str) {
+    let (width, margin) = (pen.width, 0.04);
+    let lines = wrapped(words, width - 2.0 * margin, TEXT);
+    let high = LINE * TEXT * lines.len() as f64 + 0.025;
+    let top = (0.985 - high).max(0.0);
+    pen.panel((0.0, top), (width, high), Colour::Card);
+    for (k, line) in lines.into_iter().enumerate() {
+        let y = top + 0.0125 + LINE * TEXT * (k as f64 + 0.5);
+        if y < 0.985 {
+            pen.text((0.5 * width, y), Side::Middle, TEXT, Colour::Yellow, line);
+        }
     }
 }
 

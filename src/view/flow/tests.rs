@@ -1,14 +1,17 @@
 //! The way through the pages by keys, what is refused where, and what stands on each page.
 
 use super::pipe::{Choice, Ended, Flying, FromWindow, Job, Offers, Person, Purpose, Score, ToWindow};
-use super::{Controls, Flow, Order, PICTURES, Page, Press};
+use super::{Controls, Flow, Names, Order, PICTURES, Page, Press};
 use crate::view::hud::{Item, Point};
 use std::net::SocketAddr;
 
 fn offers() -> Offers {
     let job = |name: &str, title: &str| Job { name: name.into(), title: title.into(), kind: "1 task".into() };
     Offers {
-        trainees: vec![Person { name: "anna".into(), sessions: 2 }, Person { name: "bert".into(), sessions: 0 }],
+        trainees: vec![
+            Person { name: "anna".into(), sessions: 2, practices: 1 },
+            Person { name: "bert".into(), sessions: 0, practices: 0 },
+        ],
         scenarios: vec![job("drill-hover", "Drill: hover"), job("two-bridges", "Two bridges")],
         choice: Choice { trainee: "anna".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice },
         web: Some("http://127.0.0.1:8080".into()),
@@ -31,8 +34,16 @@ fn ended() -> Ended {
     }
 }
 
+/// Keys by names that nothing else on a page has.
+fn names() -> Names {
+    let sticks = ["up", "down", "turn_left", "turn_right", "forward", "back", "left", "right"];
+    let rest =
+        ["swap", "follow", "pause", "arm", "take_off", "land", "lamp", "snapshot", "gimbal_up", "gimbal_down", "camera_zoom_in"];
+    Names::new(sticks.into_iter().chain(rest).map(|duty| (duty, format!("<{duty}>"))).collect())
+}
+
 fn started() -> Flow {
-    let mut flow = Flow::new(true);
+    let mut flow = Flow::new(true, names());
     flow.hear(ToWindow::Offers(offers()));
     flow
 }
@@ -92,6 +103,69 @@ fn exact_a_new_trainee_reads_the_tutorial_first_and_may_skip_it() {
     press(&mut flow, &[Press::Row(4)]);
     (0..6).for_each(|_| flow.press(Press::Enter));
     assert_eq!((flow.page(), orders(&mut flow).len()), (Page::Start, 0));
+}
+
+fn choose_practice(flow: &mut Flow) {
+    if flow.choice().purpose == Purpose::Assessment {
+        press(flow, &[Press::Row(2), Press::Right]);
+    }
+}
+
+#[test]
+fn exact_every_trainee_reads_the_tutorial_before_the_first_practice() {
+    let mut flow = in_flight(Purpose::Assessment);
+    flow.hear(ToWindow::Ended(ended()));
+    // From the start page, by its rows: a name, on to the controller, fly.
+    let named = |flow: &mut Flow, name: &str| {
+        flow.press(Press::Row(0));
+        press(flow, &[Press::Backspace; 32]);
+        name.chars().for_each(|sign| flow.press(Press::Sign(sign)));
+        press(flow, &[Press::Row(3), Press::Enter]);
+        flow.page()
+    };
+    press(&mut flow, &[Press::Row(3)]);
+    assert_eq!(flow.page(), Page::Start);
+    choose_practice(&mut flow);
+    assert_eq!(named(&mut flow, "cora"), Page::Tutorial(0, true), "an assessment has taught nobody");
+    press(&mut flow, &[Press::Row(2)]);
+    flow.hear(flying(&flow.choice().clone()));
+    flow.hear(ToWindow::Ended(ended()));
+    press(&mut flow, &[Press::Row(3), Press::Row(3), Press::Enter]);
+    assert_eq!(flow.page(), Page::Waiting, "cora has flown a practice");
+    flow.hear(ToWindow::Refused { words: String::new() });
+    assert_eq!(named(&mut flow, "dan"), Page::Tutorial(0, true), "the next one has not");
+}
+
+#[test]
+fn exact_a_key_that_flies_does_nothing_on_a_page_that_comes_under_it() {
+    let mut flow = in_flight(Purpose::Practice);
+    flow.hear(ToWindow::Ended(ended()));
+    orders(&mut flow);
+    press(&mut flow, &[Press::Left, Press::Right, Press::Down, Press::Right, Press::Up]);
+    assert_eq!((flow.page(), orders(&mut flow).len()), (Page::Over, 0));
+    let mut flow = started();
+    assert!(!flow.tries_keys());
+    press(&mut flow, &[Press::Row(3), Press::Right, Press::Left]);
+    assert_eq!(flow.page(), Page::Controls);
+    assert!(flow.tries_keys(), "keys fly: they are tried here");
+    flow.look(Controls { device: Some("Pad".into()), ..Controls::default() });
+    assert!(!flow.tries_keys(), "a controller's values are chosen by keys");
+}
+
+#[test]
+fn exact_pages_name_the_keys_as_they_are_set_and_what_is_waited_for() {
+    let (mut flight, mut seen) = (in_flight(Purpose::Practice), String::new());
+    for (name, flow) in every_page() {
+        assert!(!words(&flow).contains('{'), "{name}: {}", words(&flow));
+        seen.push_str(&words(&flow));
+    }
+    assert!(["<swap>", "<follow>", "<lamp>", "<pause>"].into_iter().all(|key| seen.contains(key)), "{seen}");
+    flight.hear(ToWindow::Paused { on: true });
+    press(&mut flight, &[Press::Row(2)]);
+    assert!(words(&flight).contains("scored"), "{}", words(&flight));
+    flight.hear(ToWindow::Refused { words: "a word ".repeat(80) });
+    let lines = words(&flight).lines().filter(|line| line.contains("a word")).count();
+    assert!(lines > 2, "a long refusal is broken into lines: {lines}");
 }
 
 #[test]
@@ -173,7 +247,7 @@ fn exact_the_profile_changes_by_steps_within_its_range() {
 
 /// Every page that there is.
 fn every_page() -> Vec<(String, Flow)> {
-    let mut all = vec![("opening".to_owned(), Flow::new(true)), ("start".to_owned(), started())];
+    let mut all = vec![("opening".to_owned(), Flow::new(true, names())), ("start".to_owned(), started())];
     let mut controls = started();
     controls.press(Press::Row(3));
     controls.controls.keys = "w up\ns down\n1 arm".into();

@@ -1,6 +1,7 @@
 //! A few pages before the first practice, as the paper's protocol has it: real pictures of ours with arrows and words, and the display as it
 //! is drawn in flight.
 
+use super::Names;
 use super::menu::{self, Row, STEP};
 use super::sheet::{Pen, SMALL, TITLE, width_of};
 use crate::base::frames::Vec3;
@@ -23,8 +24,8 @@ pub const PICTURES: [(&str, &[u8]); 9] = [
 /// Shape of the large pictures.
 const WIDE: f64 = 16.0 / 9.0;
 
-/// A page: its title, what is drawn into the box on the left, what is said on the right.
-type Leaf = (&'static str, fn(&mut Pen, Frame), &'static str);
+/// A page: its title, what is drawn into the box on the left, what is said on the right; `{duty}` stands for a key.
+type Leaf = (&'static str, fn(&mut Pen, Frame, &Names), &'static str);
 
 const LEAVES: [Leaf; PAGES] = [
     (
@@ -36,8 +37,8 @@ const LEAVES: [Leaf; PAGES] = [
     (
         "two views",
         views,
-        "On the left what you see from where you stand, on the right what the drone's camera sees.\n\nTab makes one of them large. Drag \
-         with the mouse to look around, turn the wheel to zoom; F looks at the drone again.",
+        "On the left what you see from where you stand, on the right what the drone's camera sees.\n\n{swap} makes one of them large. \
+         Drag with the mouse to look around, turn the wheel to see nearer; {follow} looks at the drone again.",
     ),
     (
         "the display",
@@ -55,14 +56,14 @@ const LEAVES: [Leaf; PAGES] = [
     (
         "defects",
         defects,
-        "The same defects from 1, 3 and 8 m. A photograph counts when the defect is inside the corner marks, sharp, lit, not seen \
-         edge-on, and a crack at least half a pixel wide: go near, or zoom.\n\nStains and form lines are no defects. Every photograph \
+        "The same defects from 1, 3 and 8 m. A photograph counts when the defect is inside the corner marks, lit, not seen \
+         edge-on, and a crack at least half a pixel wide: go near, or zoom ({camera_zoom_in}) with a camera that can.\n\nStains and form lines are no defects. Every photograph \
          that shows nothing new costs accuracy.",
     ),
     (
         "light, and what counts",
         light,
-        "Dark places need the lamp (B): the same place without and with it.\n\nConformity: on the path, not too fast. Efficiency: home \
+        "Dark places need the lamp ({lamp}): the same place without and with it.\n\nConformity: on the path, not too fast. Efficiency: home \
          within 15 minutes. Safety: touch nothing; a person or a vehicle that is hit ends the session. Accuracy: every defect once.",
     ),
 ];
@@ -90,15 +91,15 @@ impl Frame {
     }
 }
 
-pub fn page(pen: &mut Pen, page: usize, rows: &[Row], focus: usize) {
+pub fn page(pen: &mut Pen, page: usize, rows: &[Row], focus: usize, names: &Names) {
     let Some((title, picture, words)) = LEAVES.get(page) else { return };
     let left = 0.04;
     pen.text((left, 0.07), Side::Left, TITLE, Colour::White, format!("Tutorial {} of {PAGES}: {title}", page + 1));
     let width = (0.60 * pen.width).min(0.70 * WIDE);
-    picture(pen, Frame { x: left, y: 0.15, width, height: width / WIDE });
+    picture(pen, Frame { x: left, y: 0.15, width, height: width / WIDE }, names);
     let x = left + width + 0.06;
     let room = pen.width - x - 0.03;
-    pen.lines((x, 0.17), room, if room < 0.6 { 0.92 * SMALL } else { SMALL }, Colour::White, words);
+    pen.lines((x, 0.17), room, if room < 0.6 { 0.92 * SMALL } else { SMALL }, Colour::White, &names.fill(words));
     menu::draw(pen, (x, 0.97 - STEP * rows.len() as f64), room, rows, focus);
 }
 
@@ -114,7 +115,7 @@ fn label(pen: &mut Pen, frame: Frame, words: &str, from: (f64, f64), to: (f64, f
     pen.text((x, y), Side::Middle, SMALL, Colour::Yellow, words);
 }
 
-fn job(pen: &mut Pen, frame: Frame) {
+fn job(pen: &mut Pen, frame: Frame, _: &Names) {
     pen.picture("job", frame.at(0.0, 0.0), (frame.width, frame.height));
     label(pen, frame, "take off and land here", (0.26, 0.86), (0.075, 0.62));
     label(pen, frame, "suspension bridge", (0.62, 0.07), (0.55, 0.22));
@@ -122,7 +123,7 @@ fn job(pen: &mut Pen, frame: Frame) {
     label(pen, frame, "round the pier: task 4", (0.24, 0.07), (0.235, 0.355));
 }
 
-fn views(pen: &mut Pen, frame: Frame) {
+fn views(pen: &mut Pen, frame: Frame, _: &Names) {
     let half = frame.part((0.0, 0.0), (0.5, 0.5));
     let other = frame.part((0.5, 0.0), (0.5, 0.5));
     pen.picture("inspector", half.at(0.0, 0.0), (half.width, half.height));
@@ -143,7 +144,7 @@ fn views(pen: &mut Pen, frame: Frame) {
     );
 }
 
-fn display(pen: &mut Pen, frame: Frame) {
+fn display(pen: &mut Pen, frame: Frame, _: &Names) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
     inset(pen, &layout(&example(0), WIDE), frame);
     for (words, from, to) in [
@@ -158,7 +159,7 @@ fn display(pen: &mut Pen, frame: Frame) {
     }
 }
 
-fn warnings(pen: &mut Pen, frame: Frame) {
+fn warnings(pen: &mut Pen, frame: Frame, _: &Names) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
     let display = Hud { hit: Some("pier".into()), battery_pct: Some(24.0), speed_m_s: 5.3, ..example(0b11_1100) };
     inset(pen, &layout(&display, WIDE), frame);
@@ -166,7 +167,7 @@ fn warnings(pen: &mut Pen, frame: Frame) {
     label(pen, frame, "battery is red", (0.62, 0.22), (0.86, 0.085));
 }
 
-fn defects(pen: &mut Pen, frame: Frame) {
+fn defects(pen: &mut Pen, frame: Frame, _: &Names) {
     for (k, (name, words)) in
         [("crack", "crack"), ("spall", "spall"), ("efflorescence", "efflorescence"), ("corrosion", "corrosion")]
             .into_iter()
@@ -186,7 +187,7 @@ fn defects(pen: &mut Pen, frame: Frame) {
     }
 }
 
-fn light(pen: &mut Pen, frame: Frame) {
+fn light(pen: &mut Pen, frame: Frame, names: &Names) {
     let first = frame.part((0.0, 0.0), (0.49, 0.49));
     let second = frame.part((0.51, 0.0), (0.49, 0.49));
     pen.picture("dark", first.at(0.0, 0.0), (first.width, first.height));
@@ -195,9 +196,10 @@ fn light(pen: &mut Pen, frame: Frame) {
     label(pen, second, "with the lamp", (0.3, 1.14), (0.38, 0.85));
     label(pen, second, "look at such spots from near", (0.62, 0.68), (0.33, 0.33));
     let (x, y) = frame.at(0.0, 0.72);
-    let words = "Sticks let go: the drone keeps its place. Keys: 1 motors on, T take-off, W S up and down, A D turn, arrows fly, B lamp, P \
-                 photograph, Page up and down turn the camera, L land, Esc pause.";
-    pen.lines((x, y), frame.width, SMALL, Colour::Grey, words);
+    let words = "Sticks let go: the drone keeps its place. Keys: {arm} motors on, {take_off} take-off, {up} {down} up and down, {turn_left} \
+                 {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} turn \
+                 the camera, {land} land, {pause} pause.";
+    pen.lines((x, y), frame.width, SMALL, Colour::Grey, &names.fill(words));
 }
 
 /// A display in the middle of a flight.

@@ -14,6 +14,9 @@ pub enum GpuError {
     /// It stopped working.
     #[error("the graphics device failed: {0}")]
     Failed(String),
+    /// No texture of it holds such a picture: width, height and the device's longest side, px.
+    #[error("a picture of {0} x {1} px is too large for this graphics device, which draws at most {2} px a side")]
+    TooLarge(u32, u32, u32),
 }
 
 /// An open device.
@@ -65,6 +68,14 @@ impl Gpu {
         self.fault.get().cloned().map(GpuError::Failed)
     }
 
+    /// Refuses a picture of a size, px, that no texture of the device holds.
+    ///
+    /// # Errors
+    /// When a side is longer than the device's longest.
+    pub fn check_size(&self, size_px: (u32, u32)) -> Result<(), GpuError> {
+        fits(size_px, self.device.limits().max_texture_dimension_2d)
+    }
+
     fn request(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>, software: bool) -> Result<Self, GpuError> {
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
@@ -73,8 +84,9 @@ impl Gpu {
             apply_limit_buckets: false,
         };
         let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|e| GpuError::NoDevice(e.to_string()))?;
-        let limits =
-            wgpu::Limits { max_texture_dimension_2d: adapter.limits().max_texture_dimension_2d, ..wgpu::Limits::default() };
+        // The largest pictures that the device can draw, and buffers that they can be read back through.
+        let wgpu::Limits { max_texture_dimension_2d, max_buffer_size, .. } = adapter.limits();
+        let limits = wgpu::Limits { max_texture_dimension_2d, max_buffer_size, ..wgpu::Limits::default() };
         let descriptor = wgpu::DeviceDescriptor { label: Some("spandrel"), required_limits: limits, ..Default::default() };
         let (device, queue) =
             pollster::block_on(adapter.request_device(&descriptor)).map_err(|e| GpuError::NoDevice(e.to_string()))?;
@@ -82,6 +94,10 @@ impl Gpu {
         let info = adapter.get_info();
         Ok(Self { fault, device, queue, name: info.name, software: info.device_type == wgpu::DeviceType::Cpu, adapter })
     }
+}
+
+fn fits((width, height): (u32, u32), longest: u32) -> Result<(), GpuError> {
+    if width.max(height) > longest { Err(GpuError::TooLarge(width, height, longest)) } else { Ok(()) }
 }
 
 /// Keeps what goes wrong beside any call (an error that nobody asks for, a card that is pulled out or hangs); by itself that would end the
@@ -104,6 +120,15 @@ fn watch(device: &wgpu::Device) -> Arc<OnceLock<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_a_picture_too_large_is_refused_with_its_size_and_the_limit() {
+        assert_eq!(fits((8192, 16), 8192), Ok(()));
+        for (width, height) in [(8193, 16), (16, 8193)] {
+            let told = fits((width, height), 8192).expect_err("too large").to_string();
+            assert!(told.contains(&format!("{width} x {height} px")) && told.contains("at most 8192 px"), "{told}");
+        }
+    }
 
     #[test]
     fn regress_a_device_that_fails_is_told_and_no_panic() {

@@ -3,11 +3,14 @@
 mod device;
 mod overlay;
 mod pass;
+mod picture;
 mod pipelines;
+mod recent;
 mod renderer;
 mod targets;
 mod uniforms;
 
 pub use device::{Gpu, GpuError};
 pub use overlay::{Overlay, Pictures, paint, paint_sheet};
-pub use renderer::{Counts, Renderer, picture_texture, read};
+pub use picture::{fill, picture_texture, read};
+pub use renderer::{Counts, Renderer};

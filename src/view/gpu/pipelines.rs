@@ -55,8 +55,8 @@ pub struct Pipelines {
     pub sky_mirrored: wgpu::RenderPipeline,
     /// Depth in a shadow map.
     pub shadow: wgpu::RenderPipeline,
-    /// From light to a picture.
-    pub develop: wgpu::RenderPipeline,
+    /// From light to a picture, for eyes and for a camera.
+    pub develop: [wgpu::RenderPipeline; 2],
 }
 
 const fn attribute(shader_location: u32, offset: u64, format: wgpu::VertexFormat) -> wgpu::VertexAttribute {
@@ -363,7 +363,7 @@ impl Pipelines {
             sky_mirrored: build(gpu, &Kind { samples: 1, ..back }),
             sky: build(gpu, &back),
             shadow: build(gpu, &dark),
-            develop: build(gpu, &film),
+            develop: [0.0, 1.0].map(|sensor| special(gpu, &film, &[("SENSOR", sensor)])),
             smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None, false),
             tiled: sampler(gpu, wgpu::AddressMode::Repeat, None, quality.smooth_noise),
             compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(NEARER), false),

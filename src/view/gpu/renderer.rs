@@ -1,32 +1,29 @@
 //! Draws shots of one scene.
 
+mod back;
 mod labels;
 mod sight;
+mod still;
 
-use super::device::{Gpu, GpuError};
-use super::overlay::Overlay;
+use super::device::Gpu;
 use super::pass::{Copies, Solid, begin, begin_depth, upload};
-use super::pipelines::{DEPTH, LabelPipelines, Looks, PICTURE, Pipelines};
+use super::pipelines::{DEPTH, LabelPipelines, Looks, Pipelines};
+use super::recent::Recent;
 use super::targets::{Targets, noise_texture, tile_texture};
 use super::uniforms::{Develop, Globals, MAPS, Maps};
 use crate::base::frames::{Enu, Vec3};
 use crate::site::catalogue;
-use crate::view::cells::{self, Ball, Frustum};
-use crate::view::hud::Item;
-use crate::view::picture::Picture;
+use crate::view::cells::{self, Bounds, Frustum};
 use crate::view::quality::Quality;
-use crate::view::scene::{Instance, Model, Patch, Scene, Seen};
+use crate::view::scene::{Instance, Model, Patch, Scene};
 use crate::view::shadows::{self, Map};
 use crate::view::shot::Shot;
 use crate::view::tiles;
 use sight::View;
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use still::{Fixed, fixed};
 
 /// The sun's map over the whole site is drawn anew when the sun has moved so far (cosine of a quarter of a degree).
 const SUN_MOVED: f64 = 0.999_990_5;
-/// Texture copies must start rows at multiples of this, bytes.
-const ROW: u32 = 256;
 
 /// What one picture cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -45,15 +42,6 @@ impl Counts {
     }
 }
 
-/// What stands in one cell.
-struct Fixed {
-    solid: Arc<Solid>,
-    copies: Copies,
-    casts: bool,
-    seen: Seen,
-    ball: Ball,
-}
-
 /// A scene on the device, and how it is drawn.
 pub struct Renderer {
     quality: Quality,
@@ -64,7 +52,7 @@ pub struct Renderer {
     models: Vec<Option<Solid>>,
     /// How far models reach from their origin, m.
     reaches_m: Vec<f64>,
-    water: Vec<(Solid, Ball)>,
+    water: Vec<(Solid, Bounds)>,
     patches: Vec<(u32, wgpu::Buffer, u32)>,
     bounds_m: (Vec3<Enu>, f64),
     water_m: f64,
@@ -74,7 +62,7 @@ pub struct Renderer {
     bound_mirrored: wgpu::BindGroup,
     maps: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
     site_map_sun: Option<Vec3<Enu>>,
-    targets: BTreeMap<(u32, u32), Targets>,
+    targets: Recent<(u32, u32), Targets>,
     counts: Counts,
 }
 
@@ -121,7 +109,7 @@ impl Renderer {
             reaches_m: scene.models.iter().map(cells::reach_m).collect(),
             water: cells::cut(&scene.water, false)
                 .iter()
-                .filter_map(|cell| Some((Solid::new(gpu, cell)?, Ball::of(cell))))
+                .filter_map(|cell| Some((Solid::new(gpu, cell)?, Bounds::of(cell))))
                 .collect(),
             patches: patches(gpu, &scene.patches),
             bounds_m: scene.bounds_m,
@@ -132,7 +120,7 @@ impl Renderer {
             globals,
             globals_mirrored,
             site_map_sun: None,
-            targets: BTreeMap::new(),
+            targets: Recent::new(),
             counts: Counts::default(),
             labels: None,
             quality,
@@ -171,7 +159,7 @@ impl Renderer {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw_maps(gpu, &mut encoder, shot, (&sun_maps, lamp_map.as_ref()), &moving);
         let targets =
-            self.targets.remove(&shot.size_px).unwrap_or_else(|| Targets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
+            self.targets.take(&shot.size_px).unwrap_or_else(|| Targets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
         if self.quality.reflection > 0.0 && view.lake {
             let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &view);
             self.counts = self.counts.and(mirrored);
@@ -182,36 +170,12 @@ impl Renderer {
         gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
         {
             let mut pass = begin(&mut encoder, target, None, None);
-            pass.set_pipeline(&self.pipelines.develop);
+            pass.set_pipeline(&self.pipelines.develop[usize::from(shot.finish.is_camera())]);
             pass.set_bind_group(0, &targets.develop, &[]);
             pass.draw(0..3, 0..1);
         }
-        self.targets.insert(shot.size_px, targets);
+        self.targets.put(shot.size_px, targets);
         gpu.queue.submit([encoder.finish()]);
-    }
-
-    /// Draws a shot and reads it back.
-    ///
-    /// # Errors
-    /// When the device fails.
-    pub fn picture(&mut self, gpu: &Gpu, shot: &Shot) -> Result<Picture, GpuError> {
-        let texture = picture_texture(gpu, shot.size_px);
-        self.draw(gpu, shot, &texture.create_view(&wgpu::TextureViewDescriptor::default()));
-        read(gpu, &texture)
-    }
-
-    /// Draws a shot with a display over it and reads it back.
-    ///
-    /// # Errors
-    /// When the device fails.
-    pub fn picture_with(&mut self, gpu: &Gpu, shot: &Shot, overlay: &mut Overlay, items: &[Item]) -> Result<Picture, GpuError> {
-        let texture = picture_texture(gpu, shot.size_px);
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        self.draw(gpu, shot, &view);
-        if !items.is_empty() {
-            overlay.draw(gpu, items, &view, shot.size_px);
-        }
-        read(gpu, &texture)
     }
 
     fn moving(&self, gpu: &Gpu, moving: &[(Model, Instance)]) -> Vec<(Model, Copies)> {
@@ -244,7 +208,7 @@ impl Renderer {
             pass.set_pipeline(&self.pipelines.shadow);
             pass.set_bind_group(0, group, &[]);
             let lit = Frustum::of(&map.projection);
-            for fixed in self.fixed.iter().filter(|fixed| fixed.casts && lit.may_show(&fixed.ball)) {
+            for fixed in self.fixed.iter().filter(|fixed| fixed.casts && lit.may_show_cell(&fixed.bounds)) {
                 count(&mut self.counts, fixed.solid.triangles(), &fixed.copies);
                 fixed.solid.draw(&mut pass, &fixed.copies);
             }
@@ -293,10 +257,11 @@ impl Renderer {
         (in_lake, eye_m): (bool, Vec3<Enu>),
         counts: &mut Counts,
     ) {
-        let shows = |fixed: &&Fixed| shown.may_show(&fixed.ball) && fixed.seen.shows(in_lake, fixed.ball.from_m(eye_m));
+        let shows =
+            |fixed: &&Fixed| shown.may_show_cell(&fixed.bounds) && fixed.seen.shows(in_lake, fixed.bounds.ball.from_m(eye_m));
         let mut still: Vec<&Fixed> = self.fixed.iter().filter(shows).collect();
         // Near things first: what they hide is not shaded.
-        still.sort_by(|a, b| a.ball.from_m(eye_m).total_cmp(&b.ball.from_m(eye_m)));
+        still.sort_by(|a, b| a.bounds.ball.from_m(eye_m).total_cmp(&b.bounds.ball.from_m(eye_m)));
         for (look, pipeline) in pipelines {
             pass.set_pipeline(pipeline);
             let still = still.iter().map(|fixed| (&*fixed.solid, &fixed.copies));
@@ -336,16 +301,17 @@ impl Renderer {
         self.draw_solids(&mut pass, &self.pipelines.surfaces[view.lamp], (moving, &shown), (false, view.eye_m), &mut counts);
         let patches = self.draw_patches(&mut pass, &self.pipelines.defects);
         counts = counts.and(patches);
-        pass.set_pipeline(&self.pipelines.sky);
-        pass.draw(0..3, 0..1);
-        counts.draws += 1;
         pass.set_pipeline(&self.pipelines.water[view.lamp]);
         pass.set_bind_group(1, &targets.water, &[]);
-        for (water, _) in self.water.iter().filter(|(_, ball)| view.lake && shown.may_show(ball)) {
+        for (water, _) in self.water.iter().filter(|(_, bounds)| view.lake && shown.may_show_cell(bounds)) {
             water.draw_alone(&mut pass);
             counts.draws += 1;
             counts.triangles += u64::from(water.triangles());
         }
+        // The lake has kept its depth: no sky is shaded behind it.
+        pass.set_pipeline(&self.pipelines.sky);
+        pass.draw(0..3, 0..1);
+        counts.draws += 1;
         pass.set_pipeline(&self.pipelines.sheer);
         for (model, copies) in moving.iter().filter(|(model, _)| *model == Model::Disc) {
             let Some(Some(solid)) = self.models.get(*model as usize) else { continue };
@@ -413,93 +379,7 @@ fn layer(gpu: &Gpu, pipelines: &Pipelines, maps: &wgpu::Texture, k: u32) -> (wgp
     (view, data, group)
 }
 
-/// Everything that stands still, cell by cell.
-fn fixed(gpu: &Gpu, scene: &Scene) -> Vec<Fixed> {
-    let mut all = Vec::new();
-    for part in &scene.parts {
-        let mut add = |solid: Arc<Solid>, instances: &[Instance], ball: Ball| {
-            all.extend(Copies::new(gpu, instances).map(|copies| Fixed {
-                solid,
-                copies,
-                casts: part.casts,
-                seen: part.seen,
-                ball,
-            }));
-        };
-        if part.instances == [Instance::HERE] {
-            for cell in cells::cut(&part.mesh, part.backdrop) {
-                if let Some(solid) = Solid::new(gpu, &cell) {
-                    add(Arc::new(solid), &part.instances, Ball::of(&cell));
-                }
-            }
-        } else if let Some(solid) = Solid::new(gpu, &part.mesh).map(Arc::new) {
-            for (instances, ball) in cells::grouped(&part.mesh, &part.instances) {
-                add(Arc::clone(&solid), &instances, ball);
-            }
-        }
-    }
-    all
-}
-
 fn count(counts: &mut Counts, triangles: u32, copies: &Copies) {
     counts.draws += 1;
     counts.triangles += u64::from(triangles) * u64::from(copies.count());
-}
-
-/// A texture for a finished picture that can be read back, and shown in a window.
-pub fn picture_texture(gpu: &Gpu, size_px: (u32, u32)) -> wgpu::Texture {
-    colour_texture(gpu, size_px, (PICTURE, wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING))
-}
-
-/// A texture that is drawn into, and what else is done with it.
-fn colour_texture(
-    gpu: &Gpu,
-    (width, height): (u32, u32),
-    (format, also): (wgpu::TextureFormat, wgpu::TextureUsages),
-) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width: width.max(1), height: height.max(1), depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | also,
-        view_formats: &[],
-    })
-}
-
-/// Reads a texture back.
-///
-/// # Errors
-/// When the device fails.
-pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Picture, GpuError> {
-    let (width, height) = (texture.width(), texture.height());
-    Ok(Picture { width, height, rgba: read_bytes(gpu, texture, 4)? })
-}
-
-/// Reads a texture's pixels back, so many bytes each.
-fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, pixel: u32) -> Result<Vec<u8>, GpuError> {
-    let (width, height) = (texture.width(), texture.height());
-    let row = (pixel * width).div_ceil(ROW) * ROW;
-    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("read"),
-        size: u64::from(row) * u64::from(height),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encoder.copy_texture_to_buffer(
-        texture.as_image_copy(),
-        wgpu::TexelCopyBufferInfo {
-            buffer: &buffer,
-            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
-        },
-        texture.size(),
-    );
-    gpu.queue.submit([encoder.finish()]);
-    buffer.map_async(wgpu::MapMode::Read, .., |_| {});
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Failed(error.to_string()))?;
-    let mapped = buffer.get_mapped_range(..).map_err(|error| GpuError::Failed(error.to_string()))?;
-    Ok(mapped.chunks(row as usize).flat_map(|line| &line[..(pixel * width) as usize]).copied().collect())
 }

@@ -1,15 +1,26 @@
 //! The head-up display of the camera view: a pure function from what telemetry says to things to draw, placed as assessment.md has them
 //! (speed upper left, battery upper right, messages lower left). Whoever draws needs to know nothing of what they mean.
 
+#[cfg(test)]
+mod apart;
+mod battery;
+mod brief;
 mod icons;
 pub mod layout;
+mod letters;
 mod map;
 mod marker;
+mod messages;
+mod pane;
 pub mod state;
+mod status;
+#[cfg(test)]
+mod tests;
 
-pub use layout::{SILENT_S, layout};
+pub use layout::{layout, layout_px};
 pub use marker::marker;
 pub use state::{Gnss, Hud, Track};
+pub use status::SILENT_S;
 
 /// A place in the picture: 0..1 to the right and down.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,8 +7,19 @@ use crate::base::frames::{Enu, Vec3};
 pub struct Gnss {
     /// Has a fix in three dimensions.
     pub fixed: bool,
-    /// Satellites used.
+    /// Satellites used, as the wire counts them: [`Self::known`].
     pub satellites: u8,
+}
+
+impl Gnss {
+    /// The wire's count where nobody counts (GPS_RAW_INT.satellites_visible).
+    const UNKNOWN: u8 = 255;
+
+    /// Satellites used, if that is known.
+    #[must_use]
+    pub fn known(self) -> Option<u8> {
+        (self.satellites != Self::UNKNOWN).then_some(self.satellites)
+    }
 }
 
 /// A task's reference path for the map.
@@ -61,7 +72,7 @@ pub struct Hud {
     pub pictures: usize,
     /// A picture was taken just now.
     pub shutter: bool,
-    /// Simulation time, s: what flashes does so by this.
+    /// What flashes does so by this, s: time that goes on whatever is shown, the wall's where a flight is live.
     pub time_s: f64,
     /// Where the drone is, m.
     pub position_m: Vec3<Enu>,

@@ -3,9 +3,12 @@
 
 pub mod clock;
 mod estimate;
+mod series;
 mod trace;
+mod video;
 
 pub use trace::{Pose, Trace};
+pub use video::Video;
 
 use super::feed::Feed;
 use super::scene::DronePose;
@@ -13,7 +16,7 @@ use super::stage::{LIFT_OFF_M, Moment, Told};
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Encoder, Received};
-use crate::mav::dialect::{MavCmd, MavMessage, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
+use crate::mav::dialect::{MavCmd, MavMessage};
 use crate::mav::station;
 use crate::scenario::Scenario;
 use crate::site::CameraPose;
@@ -74,34 +77,6 @@ pub struct Live {
     video: Option<Video>,
 }
 
-/// A stream of the camera's view that runs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Video {
-    /// Width, px.
-    pub width_px: u32,
-    /// Height, px.
-    pub height_px: u32,
-    /// Pictures a second.
-    pub rate_hz: f64,
-    /// Bits a second.
-    pub bits_s: u32,
-}
-
-impl Video {
-    fn status(&self) -> MavMessage {
-        let side = |px: u32| u16::try_from(px).unwrap_or(u16::MAX);
-        MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
-            framerate: self.rate_hz as f32,
-            bitrate: self.bits_s,
-            flags: VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING,
-            resolution_h: side(self.width_px),
-            resolution_v: side(self.height_px),
-            stream_id: 1,
-            ..VIDEO_STREAM_STATUS_DATA::default()
-        })
-    }
-}
-
 /// What begins anew with the simulator.
 #[derive(Debug, Clone, Default)]
 struct State {
@@ -112,7 +87,6 @@ struct State {
     /// Outputs of the rotors, 0 to 1; none while they stand.
     outputs: Option<[f64; 4]>,
     battery_pct: Option<f64>,
-    field_of_view_rad: Option<f64>,
     begun: Option<SimTime>,
     /// It flew already when it was first heard, and the vehicle is asked since when; when it is asked next.
     since_when: Option<SimTime>,
@@ -242,6 +216,7 @@ impl Live {
     fn sample(&mut self, sample: &Sample, wall: SimTime) {
         let now = self.state.trace.newest().unwrap_or_default();
         let state = &mut self.state;
+        let time = sample.own_time.filter(|own| *own <= now + RESTART_AFTER).unwrap_or(now);
         match sample.said {
             Said::Truth(truth) => {
                 if !self.spoken {
@@ -251,13 +226,10 @@ impl Live {
                 }
                 self.truth(truth, wall);
             }
-            Said::GimbalPitch(pitch_rad) => {
-                let time = sample.own_time.filter(|own| *own <= now + RESTART_AFTER).unwrap_or(now);
-                state.trace.push_gimbal(time, pitch_rad);
-            }
+            Said::GimbalPitch(pitch_rad) => state.trace.push_gimbal(time, pitch_rad),
             Said::Light(on) => state.lamp = on,
             Said::Battery(pct) => state.battery_pct = Some(pct),
-            Said::FieldOfView(rad) => state.field_of_view_rad = Some(rad),
+            Said::FieldOfView(rad) => state.trace.push_lens(time, rad),
             Said::Beat { armed, .. } => state.armed = armed,
             Said::Snapshot(number) => {
                 if state.pictures.insert((number, sample.own_time)) {
@@ -265,7 +237,7 @@ impl Live {
                 }
             }
             Said::Traffic(code) => state.gates.hear(code),
-            Said::Seed(seed) => self.seed = Some(seed),
+            Said::Seed(seed) => self.hear_seed(seed),
             Said::ScenarioCrc(crc) => self.scenario_crc = Some(crc),
             Said::Sticks(_) | Said::Contact(_) | Said::Hits(_) | Said::Respawns(_) | Said::Clearance(_) | Said::OnGround(_) => {}
         }
@@ -278,6 +250,8 @@ impl Live {
                 return;
             }
             self.restart();
+            // What has begun anew says its own.
+            (self.seed, self.scenario_crc) = (None, None);
         }
         self.backwards = 0;
         self.heard = Some(wall);
@@ -289,8 +263,17 @@ impl Live {
         self.state.trace.push(truth);
     }
 
+    /// Another seed is another session, even where its clock has not gone back.
+    fn hear_seed(&mut self, seed: u64) {
+        if self.seed.is_some_and(|known| known != seed) {
+            self.restart();
+        }
+        self.seed = Some(seed);
+    }
+
     fn restart(&mut self) {
         self.head.restart();
+        self.backwards = 0;
         self.state = State::default();
     }
 
@@ -358,7 +341,7 @@ impl Live {
         let at = self.head.advance(wall)?;
         let state = &self.state;
         let pose = state.trace.at(at)?;
-        let lens = state.field_of_view_rad.map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera });
+        let lens = state.trace.lens_at(at).map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera });
         let gimbal_rad = state.trace.gimbal_at(at);
         let moment = Moment {
             at,
@@ -366,6 +349,7 @@ impl Live {
             velocity_m_s: pose.velocity_m_s,
             camera: CameraPose::on(&vehicle.camera, (pose.position_m, pose.ned_from_frd), gimbal_rad, state.lamp),
             lens,
+            turn: state.trace.turn_at(at),
         };
         let told = Told {
             battery_pct: state.battery_pct,
@@ -373,6 +357,7 @@ impl Live {
             silent_s: self.heard.map_or(0.0, |heard| (wall - heard).s().max(0.0)),
             pictures: state.pictures.len(),
             taken: state.taken,
+            flash_s: wall.s(),
         };
         Some(Now { moment, told, gates: state.gates.clone() })
     }

@@ -81,6 +81,7 @@ fn exact_the_moment_lies_between_samples_and_tells_what_was_heard() {
     let later = wire.now(4_980).expect("it stands");
     assert!((later.told.silent_s - 3.0).abs() < 1e-9, "the link is silent");
     assert_eq!(later.moment.at, SimTime::from_ms(6_980));
+    assert!((later.told.flash_s - now.told.flash_s - 2.99).abs() < 1e-9, "what flashes does so while everything stands");
 }
 
 #[test]
@@ -99,6 +100,36 @@ fn exact_a_restarted_simulator_begins_anew_and_strangers_are_not_drawn() {
     let now = wire.now(1_400).expect("it flies again");
     assert!(now.moment.at < SimTime::from_ms(500) && (now.moment.drone.position_m.east() + 5.0).abs() < WIRE_M);
     assert!(!now.moment.camera.lamp_on);
+}
+
+#[test]
+fn exact_a_restarted_simulator_is_believed_when_it_says_another_seed() {
+    let mut wire = Wire::new();
+    let say_seed = |wire: &mut Wire, value: i32, wall_ms: i64| {
+        wire.say(
+            &MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { name: "seed".into(), value, ..Default::default() }),
+            wall_ms,
+        );
+    };
+    wire.truth(60_000, 0, 5.0);
+    say_seed(&mut wire, 7, 0);
+    wire.truth(60_020, 20, 5.0);
+    for k in 0..20 {
+        wire.truth(20 * k, 1_000 + 20 * k, -5.0);
+    }
+    assert_eq!(wire.live.seed(), None, "the former one is nobody's");
+    say_seed(&mut wire, 8, 1_400);
+    assert_eq!(wire.live.seed(), Some(8));
+    assert!(wire.now(1_400).is_some(), "one restart, not two");
+    // The next begins so soon that its clock does not go back by much: its seed tells.
+    wire.say(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_420);
+    say_seed(&mut wire, 9, 1_440);
+    assert_eq!((wire.live.seed(), wire.now(1_440)), (Some(9), None));
+    wire.truth(100, 1_460, 3.0);
+    let now = wire.now(1_460).expect("it flies");
+    assert!(!now.moment.camera.lamp_on && (now.moment.drone.position_m.east() - 3.0).abs() < WIRE_M);
+    say_seed(&mut wire, 9, 1_480);
+    assert!(wire.now(1_480).is_some(), "said again, it is the same session");
 }
 
 #[test]

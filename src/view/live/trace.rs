@@ -1,14 +1,20 @@
 //! The last seconds of what moves, and what holds between two samples of it.
 
+use super::series::Series;
 use crate::base::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use crate::base::math;
 use crate::base::time::SimTime;
 use crate::telemetry::Truth;
+use crate::view::stage::Turn;
 use std::collections::VecDeque;
 
 /// Samples older than this behind the newest are forgotten.
-const KEPT: SimTime = SimTime::from_ms(3_000);
+pub(super) const KEPT: SimTime = SimTime::from_ms(3_000);
 /// Between samples farther apart than this nothing is made up.
-const GAP: SimTime = SimTime::from_ms(1_000);
+pub(super) const GAP: SimTime = SimTime::from_ms(1_000);
+/// The lens is drawn so much later than everything else: it is told at 5 Hz, and with what the picture is behind anyway
+/// ([`BEHIND_S`](super::clock::BEHIND_S)) its next telling has come by then, 20 ms of jitter included (estimate).
+const LENS_BEHIND: SimTime = SimTime::from_ms(160);
 /// A step that no aircraft flies, m and m/s: it was put back.
 const JUMP_M: f64 = 3.0;
 const JUMP_M_S: f64 = 40.0;
@@ -34,7 +40,8 @@ impl Pose {
 #[derive(Debug, Clone, Default)]
 pub struct Trace {
     truths: VecDeque<Truth>,
-    gimbal: VecDeque<(SimTime, f64)>,
+    gimbal: Series,
+    lens: Series,
 }
 
 impl Trace {
@@ -53,12 +60,12 @@ impl Trace {
 
     /// The gimbal's pitch over the horizon, rad, at a time.
     pub fn push_gimbal(&mut self, time: SimTime, pitch_rad: f64) {
-        let after = self.gimbal.partition_point(|known| known.0 <= time);
-        self.gimbal.insert(after, (time, pitch_rad));
-        let newest = self.gimbal.back().map_or(SimTime::ZERO, |last| last.0);
-        while self.gimbal.len() > 2 && self.gimbal.front().is_some_and(|first| newest.saturating_sub(first.0) > KEPT) {
-            self.gimbal.pop_front();
-        }
+        self.gimbal.push(time, pitch_rad);
+    }
+
+    /// The camera's horizontal field of view, rad, at a time.
+    pub fn push_lens(&mut self, time: SimTime, hfov_rad: f64) {
+        self.lens.push(time, hfov_rad);
     }
 
     /// Forgets everything.
@@ -75,10 +82,10 @@ impl Trace {
     /// The aircraft at a time; before the first sample as at the first, after the last as at the last.
     #[must_use]
     pub fn at(&self, time: SimTime) -> Option<Pose> {
-        let after = self.truths.partition_point(|truth| truth.time <= time);
-        let before = self.truths.get(after.saturating_sub(1))?;
-        let next = self.truths.get(after).filter(|next| after > 0 && continues(before, next));
-        let Some(next) = next else { return Some(Pose::of(before)) };
+        let Some((before, next)) = self.around(time) else {
+            let after = self.truths.partition_point(|truth| truth.time <= time);
+            return self.truths.get(after.saturating_sub(1)).map(Pose::of);
+        };
         let t = share(before.time, next.time, time);
         Some(Pose {
             position_m: before.position_m.lerp(next.position_m, t),
@@ -90,16 +97,34 @@ impl Trace {
     /// The gimbal's pitch at a time, rad; level while nothing has been heard.
     #[must_use]
     pub fn gimbal_at(&self, time: SimTime) -> f64 {
-        let after = self.gimbal.partition_point(|known| known.0 <= time);
-        let Some(before) = self.gimbal.get(after.saturating_sub(1)) else { return 0.0 };
-        match self.gimbal.get(after).filter(|next| after > 0 && next.0 - before.0 <= GAP) {
-            Some(next) => before.1 + (next.1 - before.1) * share(before.0, next.0, time),
-            None => before.1,
-        }
+        self.gimbal.at(time).unwrap_or(0.0)
+    }
+
+    /// The horizontal field of view that is drawn at a time, rad: a little late, so that a zoom goes evenly. None: nothing has been heard.
+    #[must_use]
+    pub fn lens_at(&self, time: SimTime) -> Option<f64> {
+        self.lens.at(time.saturating_sub(LENS_BEHIND))
+    }
+
+    /// How fast the camera turns at a time: as evenly as between the samples; not at all where nothing is made up.
+    #[must_use]
+    pub fn turn_at(&self, time: SimTime) -> Turn {
+        let heading_rad_s = self.around(time).map_or(0.0, |(before, next)| {
+            math::wrap_pi(next.ned_from_frd.yaw_rad() - before.ned_from_frd.yaw_rad()) / (next.time - before.time).s()
+        });
+        Turn { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
+    }
+
+    /// The samples before and after a time, where the aircraft flew from one to the other.
+    fn around(&self, time: SimTime) -> Option<(&Truth, &Truth)> {
+        let after = self.truths.partition_point(|truth| truth.time <= time);
+        let before = self.truths.get(after.checked_sub(1)?)?;
+        self.truths.get(after).filter(|next| continues(before, next)).map(|next| (before, next))
     }
 }
 
-fn share(from: SimTime, to: SimTime, at: SimTime) -> f64 {
+/// How far a time is from one to another, 0 to 1.
+pub(super) fn share(from: SimTime, to: SimTime, at: SimTime) -> f64 {
     (at - from).s() / (to - from).s().max(1e-9)
 }
 
@@ -136,6 +161,39 @@ mod tests {
         trace.push_gimbal(SimTime::from_ms(0), 0.0);
         trace.push_gimbal(SimTime::from_ms(40), 0.4);
         assert!((trace.gimbal_at(SimTime::from_ms(10)) - 0.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn exact_the_camera_turns_as_fast_as_its_samples_lie_apart() {
+        let mut trace = Trace::default();
+        assert_eq!(trace.turn_at(SimTime::ZERO), Turn::default());
+        // Over south, where headings leap by a full turn.
+        for sample in [truth(0, 0.0, 179.0), truth(20, 0.0, 181.0), truth(40, 0.0, 181.0)] {
+            trace.push(sample);
+        }
+        trace.push_gimbal(SimTime::from_ms(0), 0.0);
+        trace.push_gimbal(SimTime::from_ms(40), -0.02);
+        let turn = trace.turn_at(SimTime::from_ms(5));
+        assert!((turn.heading_rad_s.to_degrees() - 100.0).abs() < 1e-6 && (turn.pitch_rad_s + 0.5).abs() < 1e-12, "{turn:?}");
+        assert!(trace.turn_at(SimTime::from_ms(25)).heading_rad_s.abs() < 1e-9);
+        assert_eq!(trace.turn_at(SimTime::from_ms(40)), Turn::default(), "held");
+    }
+
+    #[test]
+    fn exact_a_zoom_goes_evenly_although_it_is_told_five_times_a_second() {
+        let mut trace = Trace::default();
+        assert_eq!(trace.lens_at(SimTime::ZERO), None);
+        let (mut shown, from_ms) = (Vec::new(), 2_000);
+        for ms in (0..3_000).step_by(20) {
+            if ms % 200 == 0 {
+                trace.push_lens(SimTime::from_ms(ms), 1.5 - 0.2 * ms as f64 / 1_000.0);
+            }
+            // The picture is three samples behind.
+            shown.extend((ms >= from_ms).then(|| trace.lens_at(SimTime::from_ms(ms - 60)).unwrap()));
+        }
+        for pair in shown.windows(2) {
+            assert!((pair[0] - pair[1] - 0.2 * 0.02).abs() < 1e-9, "a step of {} rad", pair[1] - pair[0]);
+        }
     }
 
     #[test]

@@ -11,6 +11,9 @@ const BURIED_M: f64 = 0.04;
 /// Height over the surface at which that is looked for, m.
 const PROBE_M: f64 = 0.05;
 
+/// Height over a face at which it is looked whether another member begins there, m (members that touch leave no gap of this width).
+const OVER_M: f64 = 0.005;
+
 /// Works light out at points of one site.
 pub struct Bake<'a> {
     site: &'a Site,
@@ -36,6 +39,12 @@ impl<'a> Bake<'a> {
         let near = self.site.geometry().nearest_member(position_m + normal * PROBE_M, PROBE_M);
         let buried = near.is_some_and(|n| n.distance_m < BURIED_M);
         (!buried).then(|| self.at(position_m, normal))
+    }
+
+    /// Just over a face it is inside another member: nobody sees it here.
+    pub fn is_inside(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> bool {
+        let near = self.site.geometry().nearest_member(position_m + normal * OVER_M, OVER_M);
+        near.is_some_and(|n| n.distance_m < 0.0)
     }
 }
 

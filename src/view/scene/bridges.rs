@@ -22,6 +22,8 @@ const NARROW_M: f64 = 0.8;
 /// Shares of sky and sun may come out wrong by this where triangles are saved (a hundredth of what is there in the open is not seen; rays of a
 /// lean preset scatter more).
 const LIGHT_OFF: f32 = 0.03;
+/// And by this on what is slim.
+const LIGHT_OFF_SLIM: f32 = 0.12;
 
 /// What an element is made of, by its AASHTO number, and its coat.
 pub(super) fn matter(element: u32) -> (Material, [u8; 3]) {
@@ -42,29 +44,46 @@ struct Axes {
     half_deck_m: f64,
 }
 
+/// Spacing at which it is looked whether a face is covered, and from its edges, m (estimate: what shows between is not seen).
+const PROBED_M: (f64, f64) = (0.5, 0.02);
+/// But everywhere it is looked in the middle too.
+const STEPS_MIN: f64 = 2.0;
+/// A face that rises so is level: the lake, from where one looks up, never shows it.
+const LEVEL: f64 = 0.999;
+
 /// Hangers and railings: what a small mirror of a far bridge shows nothing of.
 const SLIM: [u32; 3] = [148, 330, 331];
 
-/// All members, those apart that the lake need not mirror.
+/// Of a face, by its element and normal: how far light between its corners may come out off; `None` leaves it out.
+type Thinned<'a> = &'a dyn Fn(u32, Vec3<Enu>) -> Option<f32>;
+/// Nothing is as near as this: every sample stays.
+const WHOLE: f32 = f32::NEG_INFINITY;
+
+/// All members; where triangles are saved the lake has simpler ones.
 pub fn parts(scenario: &Scenario, bake: &Bake, quality: &Quality) -> Vec<Part> {
     if !quality.sparse {
-        return vec![Part::here("bridges", mesh(scenario, bake, quality, &|_| true), true)];
+        let [mesh] = meshes(scenario, bake, quality, [&|_, _| Some(WHOLE)]);
+        return vec![Part::here("bridges", mesh, true)];
     }
-    let stout = mesh(scenario, bake, quality, &|element| !SLIM.contains(&element));
-    let slim = mesh(scenario, bake, quality, &|element| SLIM.contains(&element));
-    vec![Part::here("bridges", stout, true), Part { seen: Seen::STRAIGHT, ..Part::here("hangers and railings", slim, true) }]
+    let is_slim = |element: u32| SLIM.contains(&element);
+    let straight = |element: u32, _| Some(if is_slim(element) { LIGHT_OFF_SLIM } else { LIGHT_OFF });
+    // In the lake light is taken at the corners of faces alone.
+    let in_lake = |element: u32, normal: Vec3<Enu>| (!is_slim(element) && normal.up() < LEVEL).then_some(f32::INFINITY);
+    let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
+    let (straight, in_lake) = (Part::here("bridges", straight, true), Part::here("bridges in the lake", in_lake, false));
+    vec![Part { seen: Seen::STRAIGHT, ..straight }, Part { seen: Seen::IN_LAKE, ..in_lake }]
 }
 
-/// Members of some elements as one mesh.
-fn mesh(scenario: &Scenario, bake: &Bake, quality: &Quality, of: &dyn Fn(u32) -> bool) -> Mesh {
-    let mut mesh = Mesh::default();
+/// A mesh for each way to thin out; light is worked out once for all of them.
+fn meshes<const N: usize>(scenario: &Scenario, bake: &Bake, quality: &Quality, thinned: [Thinned; N]) -> [Mesh; N] {
+    let mut meshes = [(); N].map(|()| Mesh::default());
     for bridge in &scenario.bridges {
         let axes = axes(bridge);
-        for member in bridge.members().into_iter().filter(|member| of(member.element)) {
-            add(&mut mesh, &member, &axes, bake, quality);
+        for member in bridge.members() {
+            add(&mut meshes, &member, &axes, bake, (quality.light_cell_m, &thinned));
         }
     }
-    mesh
+    meshes
 }
 
 fn axes(bridge: &Bridge) -> Axes {
@@ -77,11 +96,15 @@ fn axes(bridge: &Bridge) -> Axes {
     }
 }
 
-fn add(mesh: &mut Mesh, member: &Member, axes: &Axes, bake: &Bake, quality: &Quality) {
+fn add(meshes: &mut [Mesh], member: &Member, axes: &Axes, bake: &Bake, (light_cell_m, thinned): (f64, &[Thinned])) {
     let (material, tint) = matter(member.element);
     for face in &member.solid.faces {
         let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
         let normal = normal(&corners);
+        let off = |thinned: &Thinned| thinned(member.element, normal);
+        if thinned.iter().all(|thinned| off(thinned).is_none()) || is_covered(&corners, normal, bake) {
+            continue;
+        }
         let road = matches!(member.element, 12 | 13 | 15 | 16 | 28..=31 | 38 | 39) && normal.up() > 0.9;
         let look = Look {
             element: member.element,
@@ -90,11 +113,49 @@ fn add(mesh: &mut Mesh, member: &Member, axes: &Axes, bake: &Bake, quality: &Qua
             tint,
             smooth: material == Material::Cable && face.len() == 4,
         };
+        let wanted = meshes.iter_mut().zip(thinned).filter_map(|(mesh, thinned)| Some((mesh, off(thinned)?)));
         match <[Vec3<Enu>; 4]>::try_from(corners.as_slice()) {
-            Ok(quad) => quad_face(mesh, member, &quad, &look, axes, bake, quality),
-            Err(_) => fan_face(mesh, &corners, &look, axes, bake),
+            Ok(quad) => quad_face(wanted, member, &Quad(quad), &look, axes, bake, light_cell_m),
+            Err(_) => fan_face(wanted, &corners, &look, axes, bake),
         }
     }
+}
+
+/// A face with four corners.
+struct Quad([Vec3<Enu>; 4]);
+
+impl Quad {
+    /// At shares of its first and its second side.
+    fn at(&self, s: f64, t: f64) -> Vec3<Enu> {
+        let [a, b, c, d] = self.0;
+        a.lerp(b, s).lerp(d.lerp(c, s), t)
+    }
+
+    /// The longer of its first and third side, of its second and fourth, m.
+    fn lengths_m(&self) -> (f64, f64) {
+        let [a, b, c, d] = self.0;
+        ((b - a).norm().max((c - d).norm()), (d - a).norm().max((c - b).norm()))
+    }
+}
+
+fn middle(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
+    corners.iter().fold(Vec3::zero(), |sum, c| sum + *c) / corners.len() as f64
+}
+
+/// Other members cover all of a face.
+fn is_covered(corners: &[Vec3<Enu>], normal: Vec3<Enu>, bake: &Bake) -> bool {
+    let Ok(quad) = <[Vec3<Enu>; 4]>::try_from(corners).map(Quad) else {
+        let middle = middle(corners);
+        let near = |corner: &Vec3<Enu>| corner.lerp(middle, (PROBED_M.1 / (*corner - middle).norm()).min(1.0));
+        return bake.is_inside(middle, normal) && corners.iter().all(|corner| bake.is_inside(near(corner), normal));
+    };
+    let shares = |length: f64| {
+        let steps = (length / PROBED_M.0).ceil().max(STEPS_MIN);
+        let edge = (PROBED_M.1 / length).min(0.5);
+        (0..=steps as u32).map(move |k| (f64::from(k) / steps).clamp(edge, 1.0 - edge))
+    };
+    let (along, across) = quad.lengths_m();
+    shares(along).all(|s| shares(across).all(|t| bake.is_inside(quad.at(s, t), normal)))
 }
 
 struct Look {
@@ -133,22 +194,33 @@ fn corner(p: Vec3<Enu>, look: &Look, axes: &Axes, light: [f32; 2]) -> Vertex {
     }
 }
 
-fn fan_face(mesh: &mut Mesh, corners: &[Vec3<Enu>], look: &Look, axes: &Axes, bake: &Bake) {
-    let middle = corners.iter().fold(Vec3::zero(), |sum, c| sum + *c) / corners.len() as f64;
-    let light = bake.on_member(middle, look.normal).unwrap_or([0.0, 0.0]);
-    let first = mesh.vertices.len() as u32;
-    mesh.vertices.extend(corners.iter().map(|c| corner(*c, look, axes, light)));
-    for k in 2..corners.len() as u32 {
-        mesh.indices.extend([first, first + k - 1, first + k]);
+/// Meshes that show a face, and how far its light may come out off in each.
+trait Wanted<'a>: Iterator<Item = (&'a mut Mesh, f32)> {}
+impl<'a, T: Iterator<Item = (&'a mut Mesh, f32)>> Wanted<'a> for T {}
+
+fn fan_face<'a>(wanted: impl Wanted<'a>, corners: &[Vec3<Enu>], look: &Look, axes: &Axes, bake: &Bake) {
+    let light = bake.on_member(middle(corners), look.normal).unwrap_or([0.0, 0.0]);
+    for (mesh, _) in wanted {
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices.extend(corners.iter().map(|c| corner(*c, look, axes, light)));
+        for k in 2..corners.len() as u32 {
+            mesh.indices.extend([first, first + k - 1, first + k]);
+        }
     }
 }
 
-fn quad_face(mesh: &mut Mesh, member: &Member, quad: &[Vec3<Enu>; 4], look: &Look, axes: &Axes, bake: &Bake, quality: &Quality) {
-    let [a, b, c, d] = *quad;
-    let lengths = ((b - a).norm().max((c - d).norm()), (d - a).norm().max((c - b).norm()));
-    let steps = |length: f64| ((length / quality.light_cell_m).ceil() as usize).max(1);
+fn quad_face<'a>(
+    wanted: impl Wanted<'a>,
+    member: &Member,
+    quad: &Quad,
+    look: &Look,
+    axes: &Axes,
+    bake: &Bake,
+    light_cell_m: f64,
+) {
+    let lengths = quad.lengths_m();
+    let steps = |length: f64| ((length / light_cell_m).ceil() as usize).max(1);
     let (nu, nv) = if look.smooth { (1, 1) } else { (steps(lengths.0), steps(lengths.1)) };
-    let at = |s: f64, t: f64| a.lerp(b, s).lerp(d.lerp(c, s), t);
     // Samples stay a little inside; across a narrow face one is enough.
     let inside = |k: usize, n: usize, length: f64| {
         let margin = (INSET_M / length).min(0.25);
@@ -167,51 +239,47 @@ fn quad_face(mesh: &mut Mesh, member: &Member, quad: &[Vec3<Enu>; 4], look: &Loo
             };
             let sample = match same {
                 Some(known) => samples[known],
-                None => bake.on_member(at(inside(column, nu, lengths.0), inside(row, nv, lengths.1)), look.normal),
+                None => bake.on_member(quad.at(inside(column, nu, lengths.0), inside(row, nv, lengths.1)), look.normal),
             };
             samples.push(sample);
         }
     }
     let light = filled(&samples, columns);
     let light_at = |row: usize, column: usize| light[row * columns + column];
-    let (kept_rows, kept_columns) = if quality.sparse {
-        (
-            kept(rows, &|row| (0..columns).map(|column| light_at(row, column)).collect()),
-            kept(columns, &|column| (0..rows).map(|row| light_at(row, column)).collect()),
-        )
-    } else {
-        ((0..rows).collect(), (0..columns).collect())
-    };
-    let first = mesh.vertices.len() as u32;
-    for &row in &kept_rows {
-        for &column in &kept_columns {
-            let p = at(column as f64 / nu as f64, row as f64 / nv as f64);
-            let mut vertex = corner(p, look, axes, light_at(row, column));
-            if look.smooth {
-                vertex.normal = single(rounded(member, p, look.normal));
+    for (mesh, off) in wanted {
+        let kept_rows = kept(rows, off, &|row| (0..columns).map(|column| light_at(row, column)).collect());
+        let kept_columns = kept(columns, off, &|column| (0..rows).map(|row| light_at(row, column)).collect());
+        let first = mesh.vertices.len() as u32;
+        for &row in &kept_rows {
+            for &column in &kept_columns {
+                let p = quad.at(column as f64 / nu as f64, row as f64 / nv as f64);
+                let mut vertex = corner(p, look, axes, light_at(row, column));
+                if look.smooth {
+                    vertex.normal = single(rounded(member, p, look.normal));
+                }
+                mesh.vertices.push(vertex);
             }
-            mesh.vertices.push(vertex);
         }
-    }
-    let stride = kept_columns.len() as u32;
-    for row in 0..kept_rows.len() as u32 - 1 {
-        for column in 0..stride - 1 {
-            let i = first + row * stride + column;
-            let over = i + stride;
-            mesh.indices.extend([i, i + 1, over + 1, i, over + 1, over]);
+        let stride = kept_columns.len() as u32;
+        for row in 0..kept_rows.len() as u32 - 1 {
+            for column in 0..stride - 1 {
+                let i = first + row * stride + column;
+                let over = i + stride;
+                mesh.indices.extend([i, i + 1, over + 1, i, over + 1, over]);
+            }
         }
     }
 }
 
-/// Of so many lines of samples the first, the last, and those between without which the light would come out otherwise.
-fn kept(lines: usize, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<usize> {
+/// Of so many lines of samples the first, the last, and those between without which the light would come out off by more.
+fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<usize> {
     let all: Vec<Vec<[f32; 2]>> = (0..lines).map(line).collect();
     let smooth = |from: usize, to: usize| {
         (from + 1..to).all(|k| {
             let t = (k - from) as f32 / (to - from) as f32;
-            let off = |a: f32, b: f32, c: f32| (a + (b - a) * t - c).abs() <= LIGHT_OFF;
+            let near = |a: f32, b: f32, c: f32| (a + (b - a) * t - c).abs() <= off;
             let ends = all[from].iter().zip(&all[to]).zip(&all[k]);
-            ends.into_iter().all(|((a, b), c)| off(a[0], b[0], c[0]) && off(a[1], b[1], c[1]))
+            ends.into_iter().all(|((a, b), c)| near(a[0], b[0], c[0]) && near(a[1], b[1], c[1]))
         })
     };
     let mut kept = vec![0];
@@ -239,8 +307,36 @@ mod tests {
     use super::*;
 
     #[test]
+    fn regress_only_what_is_covered_is_left_out() {
+        let text = include_str!("../../../scenarios/two-bridges.toml");
+        let scenario = crate::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap();
+        let site = crate::site::Site::build(&scenario, 7);
+        let bake = Bake::new(&site, Vec3::new(0.0, 0.0, 1.0), 1);
+        let (mut bearings, mut stringers, mut slabs) = (0, 0, 0);
+        for bridge in &scenario.bridges {
+            for member in bridge.members() {
+                for face in &member.solid.faces {
+                    let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
+                    let normal = normal(&corners);
+                    let covered = is_covered(&corners, normal, &bake);
+                    // Bearings stand free on all sides; stringers hang under the slab, their webs between flanges.
+                    let side = normal.up().abs() < 0.1;
+                    assert!(!(covered && side && (311..=316).contains(&member.element)), "{}", member.name);
+                    bearings += u32::from(side && (311..=316).contains(&member.element));
+                    let level = corners.iter().map(|c| (*c - corners[0]).norm()).fold(0.0, f64::max);
+                    let long = side && level > 2.0 && member.element == 113;
+                    assert!(!(covered && long), "{}", member.name);
+                    stringers += u32::from(long);
+                    slabs += u32::from(covered && matches!(member.element, 107 | 113 | 116) && normal.up() > 0.9);
+                }
+            }
+        }
+        assert!(bearings >= 40 && stringers >= 100 && slabs > 0, "{bearings} {stringers} {slabs}");
+    }
+
+    #[test]
     fn exact_lines_of_samples_are_left_out_where_light_runs_straight() {
-        let of = |values: &[f32]| kept(values.len(), &|k| vec![[values[k], 0.0], [0.5, 1.0 - values[k]]]);
+        let of = |values: &[f32]| kept(values.len(), LIGHT_OFF, &|k| vec![[values[k], 0.0], [0.5, 1.0 - values[k]]]);
         assert_eq!(of(&[0.1, 0.2, 0.3, 0.4, 0.5]), [0, 4]);
         assert_eq!(of(&[0.1, 0.1, 0.1, 0.9, 0.9, 0.9]), [0, 2, 3, 5]);
         assert_eq!(of(&[0.3, 0.31, 0.3]), [0, 2], "what is not seen is left out");

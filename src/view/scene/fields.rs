@@ -15,7 +15,7 @@ const OFF_M: (f64, f64) = (0.15, 3.0);
 /// At the shore a little height moves the waterline far: the share of the tolerance there, and the heights over and under the water, m.
 const SHORE: (f64, f64) = (0.4, 1.0);
 /// A bed deeper than this is not seen, m (the shader `water` loses 99 % of its light on the way there and back).
-const UNSEEN_M: f64 = 5.0;
+pub const UNSEEN_M: f64 = 5.0;
 /// Light is worked out this near to a bridge and changes from cell to cell: squares there have no more cells than that.
 const LIT: (f64, usize) = (30.0, 2);
 
@@ -33,6 +33,13 @@ pub fn sparse(scenario: &Scenario, site: &Site, rough: f64) -> Vec<[u32; 3]> {
     }
     let field = Field { scenario, site, points: &points, side, eyes_m: eyes(scenario), rough };
     sparse::triangles(side, LARGEST, &|square| field.flat(square))
+}
+
+/// Those of the ground's triangles that do not lie deeper than `under_m` under the lake.
+pub fn shallow(scenario: &Scenario, site: &Site, triangles: &[[u32; 3]], under_m: f64) -> Vec<[u32; 3]> {
+    let (points, _) = site.geometry().terrain.ground.triangles();
+    let bottom_m = scenario.terrain.water_level_m - under_m;
+    triangles.iter().filter(|corners| corners.iter().any(|k| points[*k as usize].up() > bottom_m)).copied().collect()
 }
 
 /// Where people stand and aircraft fly.

@@ -78,15 +78,20 @@ fn smooth(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
     sums.into_iter().map(Vec3::unit).collect()
 }
 
-/// Mountains around the field, rising from its rim; where the lake leaves the field it goes on between them.
-pub fn mountains(scenario: &Scenario, site: &Site) -> Mesh {
+/// Mountains around the field, rising from its rim; where the lake leaves the field it goes on between them. `coarse`: every second corner of
+/// every second ring beyond the rim.
+pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
     let half = 0.5 * scenario.terrain.size_m;
     let water = scenario.terrain.water_level_m;
-    let around = 4 * SIDE;
-    let mut points = Vec::with_capacity(RINGS.len() * around);
-    for (ring, share) in RINGS.iter().enumerate() {
+    let every = if coarse { 2 } else { 1 };
+    let around = 4 * SIDE / every;
+    let last = RINGS.len() - 1;
+    let rings: Vec<(usize, f64)> =
+        RINGS.into_iter().enumerate().filter(|(ring, _)| !coarse || ring % 2 == 1 || [0, last].contains(ring)).collect();
+    let mut points = Vec::with_capacity(rings.len() * around);
+    for (ring, share) in &rings {
         for k in 0..around {
-            let (x, y) = rim(k);
+            let (x, y) = rim(k * every);
             let edge = share.min(0.9995) * half;
             let rim_up = site.geometry().terrain.ground.ground(x * edge, y * edge).0;
             let (east, north) = (x * half * share, y * half * share);
@@ -99,7 +104,7 @@ pub fn mountains(scenario: &Scenario, site: &Site) -> Mesh {
         }
     }
     let mut triangles = Vec::new();
-    for ring in 0..RINGS.len() - 1 {
+    for ring in 0..rings.len() - 1 {
         for k in 0..around {
             let i = |ring: usize, k: usize| (ring * around + k % around) as u32;
             // The rim runs counter-clockwise: outward lies to its right.

@@ -83,7 +83,7 @@ pub struct Part {
     pub casts: bool,
     /// From where it shows.
     pub seen: Seen,
-    /// It stands around everything: culled in large pieces, since most of it is in every picture.
+    /// It stands around everything: cut into sectors.
     pub backdrop: bool,
 }
 
@@ -198,16 +198,23 @@ impl Scene {
         let bake = Bake::new(site, sun, quality.light_rays);
         let shown = if quality.sparse { fields::sparse(scenario, site, 1.0) } else { fields::all(site) };
         let rounds = if quality.sparse { props::Rounds::Plain } else { props::Rounds::Fine };
+        let ground = |triangles: &[[u32; 3]], under_m: f64| {
+            ground::mesh(scenario, site, &bake, &fields::shallow(scenario, site, triangles, under_m))
+        };
+        let bottom_m = if quality.sparse { fields::UNSEEN_M } else { f64::INFINITY };
         let mut parts = bridges::parts(scenario, &bake, quality);
-        let ground = parts.len();
+        let ground_at = parts.len();
         parts.extend([
-            Part::here("ground", ground::mesh(scenario, site, &bake, &shown), true),
-            Part { backdrop: true, ..Part::here("mountains", ground::mountains(scenario, site), false) },
+            Part::here("ground", ground(&shown, bottom_m), true),
+            Part { backdrop: true, ..Part::here("mountains", ground::mountains(scenario, site, false), false) },
             Part::here("pad", ground::pad(site), false),
         ]);
         if quality.sparse {
-            parts[ground].seen = Seen::STRAIGHT;
-            let rough = ground::mesh(scenario, site, &bake, &fields::sparse(scenario, site, IN_LAKE));
+            let coarse = Part::here("mountains in the lake", ground::mountains(scenario, site, true), false);
+            parts[ground_at].seen = Seen::STRAIGHT;
+            parts[ground_at + 1].seen = Seen::STRAIGHT;
+            parts.push(Part { backdrop: true, seen: Seen::IN_LAKE, ..coarse });
+            let rough = ground(&fields::sparse(scenario, site, IN_LAKE), 0.0);
             parts.push(Part { seen: Seen::IN_LAKE, ..Part::here("ground in the lake", rough, false) });
         }
         parts.extend(plants::parts(scenario, site, quality));

@@ -2,6 +2,8 @@
 
 // The preset blurs what moves.
 override BLUR: bool = true;
+// A camera's sensor and lens: noise, darker corners. A person's eyes have neither.
+override SENSOR: bool = true;
 
 struct Develop {
     // From clip space of this picture to clip space where the eye was when the shutter opened.
@@ -40,32 +42,26 @@ fn random(p: vec2<u32>, k: u32) -> vec4<f32> {
     return unpack4x8unorm(h);
 }
 
-// Mid grey, and how much steeper than light itself pictures are around it (estimate: cameras' standard profiles, 1.2 to 1.5). What lacks light
-// by two stops is black to the eye, as it is for the score.
-const PIVOT: f32 = 0.26;
-const CONTRAST: f32 = 1.3;
-
-// (x / PIVOT)^(CONTRAST - 1) by roots, which software renderers have for next to nothing; to 0.002 below the limit of 1.25.
+// How much steeper than light itself pictures are around mid grey of 0.26: a contrast of 1.3 (estimate: cameras' standard profiles, 1.2 to 1.5).
+// What lacks light by two stops is black to the eye, as it is for the score. This is (x / 0.26)^0.3 up to its limit of 1.25, within 0.2 of a step
+// of 255 in the picture.
 fn steeper(x: f32) -> f32 {
-    let half = sqrt(x);
-    let quarter = sqrt(half);
-    return 0.28608607 * half + 1.37146361 * quarter - 0.15000919 * sqrt(quarter);
+    let s = sqrt(x);
+    return (0.19498184 + 2.25033308 * s) / (1.0 + 0.66570929 * s);
 }
 
-// A curve like film's: a soft toe and shoulder (fit of Narkowicz 2015 to the Academy's reference curve).
-fn tone(x: vec3<f32>) -> vec3<f32> {
-    let brightness = max(dot(x, vec3<f32>(0.2126, 0.7152, 0.0722)), 1e-5);
+// A curve like film's, with a soft toe and shoulder (fit of Narkowicz 2015 to the Academy's reference curve), encoded in sRGB: by a fraction of
+// the root of the light, within 0.8 of a step of 255. Software renderers have one root and one division for next to nothing, powers not.
+fn encoded(y: vec3<f32>) -> vec3<f32> {
+    let s = sqrt(y);
+    return ((5.75941549 * s - 0.05775244) * s - 0.00282203) / ((5.80176807 * s - 0.53043618) * s + 1.0);
+}
+
+fn developed(x: vec3<f32>) -> vec3<f32> {
+    let brightness = dot(x, vec3<f32>(0.2126, 0.7152, 0.0722));
     let y = x * 0.82 * min(steeper(brightness), 1.25);
-    return clamp((y * (2.51 * y + 0.03)) / (y * (2.43 * y + 0.59) + 0.14), vec3<f32>(0.0), vec3<f32>(1.0));
-}
-
-fn encoded(x: vec3<f32>) -> vec3<f32> {
-    let low = x * 12.92;
-    // 1.055 x^(1 / 2.4) - 0.055 by roots, to a hundredth of a step of 255.
-    let half = sqrt(x);
-    let quarter = sqrt(half);
-    let high = 0.65397867 * half + 0.68873102 * quarter - 0.31849071 * sqrt(quarter) - 0.02018732 * x - 0.00406304;
-    return select(high, low, x <= vec3<f32>(0.0031308));
+    // From 8.1 on all is white; far beyond, the fraction falls again.
+    return clamp(encoded(min(y, vec3<f32>(12.0))), vec3<f32>(0.0), vec3<f32>(1.0));
 }
 
 @fragment
@@ -87,14 +83,16 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
             colour = sum / f32(taps);
         }
     }
-    let out = in.uv - 0.5;
-    colour *= 1.0 - d.grain.w * dot(out, out);
-    // Photon noise grows with the root of the light, over a floor.
-    let grains = random(pixel, u32(d.grain.y));
-    let a = grains.x + grains.y + grains.z - 1.5;
-    let c = grains.w - 0.5;
-    let brightness = max(dot(colour, vec3<f32>(0.2126, 0.7152, 0.0722)), 0.0);
-    let noise = d.grain.x * (sqrt(brightness * 5.0) + 0.25);
-    colour = max(colour + 0.2 * noise * (a + vec3<f32>(0.5, -0.2, -0.5) * c), vec3<f32>(0.0));
-    return vec4<f32>(encoded(tone(colour)), 1.0);
+    if SENSOR {
+        let out = in.uv - 0.5;
+        colour *= 1.0 - d.grain.w * dot(out, out);
+        // Photon noise grows with the root of the light, over a floor.
+        let grains = random(pixel, u32(d.grain.y));
+        let a = grains.x + grains.y + grains.z - 1.5;
+        let c = grains.w - 0.5;
+        let brightness = max(dot(colour, vec3<f32>(0.2126, 0.7152, 0.0722)), 0.0);
+        let noise = d.grain.x * (sqrt(brightness * 5.0) + 0.25);
+        colour += 0.2 * noise * (a + vec3<f32>(0.5, -0.2, -0.5) * c);
+    }
+    return vec4<f32>(developed(max(colour, vec3<f32>(0.0))), 1.0);
 }

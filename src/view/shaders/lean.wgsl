@@ -7,23 +7,22 @@
 const GROUND_M: f32 = 32.0;
 const CONCRETE_M: f32 = 38.4;
 
+// Fours are full: a software renderer works out the planes of all four numbers of each, used or not, for every triangle.
 struct Lean {
     @builtin(position) clip: vec4<f32>,
-    @location(0) p: vec3<f32>,
-    @location(1) normal: vec3<f32>,
-    @location(2) uv: vec2<f32>,
-    @location(3) @interpolate(flat) material: u32,
-    @location(4) tint: vec4<f32>,
-    @location(5) aux: f32,
-    // Indirect light, and the sun's where it shines; both as haze leaves them, exposed.
-    @location(6) indirect: vec3<f32>,
-    @location(7) sun: vec3<f32>,
+    // Where; `aux`.
+    @location(0) place: vec4<f32>,
+    // Normal; depth in the sun's map.
+    @location(1) facing: vec4<f32>,
+    // Coordinates in the face; place in the sun's map.
+    @location(2) spot: vec4<f32>,
+    // Indirect light; how much of the sun's there is where it shines. Both as haze leaves them, exposed.
+    @location(3) light: vec4<f32>,
     // What is added: haze and reflections, exposed; share that haze leaves.
-    @location(8) veil: vec4<f32>,
-    // Place in the sun's map.
-    @location(9) shadow: vec3<f32>,
-    // Wide patches of the ground.
-    @location(10) broad: f32,
+    @location(4) veil: vec4<f32>,
+    // Tint; wide patches of the ground instead of its opacity.
+    @location(5) tint: vec4<f32>,
+    @location(6) @interpolate(flat) material: u32,
 }
 
 // How smooth a material is that reflects; steel's coat by its mean.
@@ -63,23 +62,21 @@ fn vs_lean(corner: Corner) -> Lean {
     // A step off the surface, as in `sun_visible`.
     let lean = 0.6 + 1.6 * (1.0 - clamp(facing, 0.0, 1.0));
     let at = g.shadow_proj[0] * vec4<f32>(v.p + v.normal * (g.texel.x * lean), 1.0);
-    var out: Lean;
-    out.clip = v.clip;
-    out.p = v.p;
-    out.normal = v.normal;
-    out.uv = v.uv;
-    out.material = v.material;
-    out.tint = v.tint;
-    out.aux = v.aux;
-    out.indirect = kept * indirect;
-    out.sun = kept * g.sun.w * facing * g.sun_rgb.xyz;
-    out.veil = vec4<f32>(veil, clear);
-    out.shadow = at.xyz / at.w;
-    out.broad = 0.5;
+    let q = at.xyz / at.w;
+    var tint = v.tint;
     if LOOK == 4u {
         // A level at which a texel is two metres and the pattern as wide as thirty.
-        out.broad = textureSampleLevel(noise_map, noise_sampler, v.p.xy * (0.03 / 16.0), 1.0).r;
+        tint.a = textureSampleLevel(noise_map, noise_sampler, v.p.xy * (0.03 / 16.0), 1.0).r;
     }
+    var out: Lean;
+    out.clip = v.clip;
+    out.place = vec4<f32>(v.p, v.aux);
+    out.facing = vec4<f32>(v.normal, q.z);
+    out.spot = vec4<f32>(v.uv, 0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y);
+    out.light = vec4<f32>(kept * indirect, kept * g.sun.w * facing);
+    out.veil = vec4<f32>(veil, clear);
+    out.tint = tint;
+    out.material = v.material;
     return out;
 }
 
@@ -136,18 +133,18 @@ fn lean_ground(in: Fragment, broad: f32, m: ptr<function, Matter>) {
 @fragment
 fn fs_lean(lean: Lean) -> @location(0) vec4<f32> {
     if MIRRORED {
-        if lean.p.z < g.scene.y {
+        if lean.place.z < g.scene.y {
             discard;
         }
     }
-    let fp = max(fwidth(lean.uv), vec2<f32>(1e-5));
+    let fp = max(fwidth(lean.spot.xy), vec2<f32>(1e-5));
     var in: Fragment;
-    in.p = lean.p;
-    in.normal = lean.normal;
-    in.uv = lean.uv;
+    in.p = lean.place.xyz;
+    in.normal = lean.facing.xyz;
+    in.uv = lean.spot.xy;
     in.material = lean.material;
     in.tint = lean.tint;
-    in.aux = lean.aux;
+    in.aux = lean.place.w;
     var m: Matter;
     if LOOK == 0u {
         lean_concrete(in, fp, &m);
@@ -156,14 +153,15 @@ fn fs_lean(lean: Lean) -> @location(0) vec4<f32> {
     } else if LOOK == 2u {
         steel(in, in.normal, fp, &m);
     } else if LOOK == 4u {
-        lean_ground(in, lean.broad, &m);
+        lean_ground(in, lean.tint.a, &m);
     } else if LOOK == 3u {
         simple(in, in.normal, max(length(dpdx(in.p)), length(dpdy(in.p))), &m);
     }
-    let q = lean.shadow;
-    let inside = max(abs(q.x), abs(q.y)) < 0.985 && q.z > 0.0 && q.z < 1.0;
-    let seen = compared(0, vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y), q.z);
-    var light = lean.indirect + lean.sun * select(1.0, seen, inside);
+    let at = lean.spot.zw;
+    let depth = lean.facing.w;
+    let inside = max(abs(at.x - 0.5), abs(at.y - 0.5)) < 0.4925 && depth > 0.0 && depth < 1.0;
+    let seen = select(1.0, compared(0, at, depth), inside);
+    var light = lean.light.rgb + (lean.light.a * seen) * g.sun_rgb.xyz;
     if LAMP {
         light += lamp_lux(in.p, normalize(in.normal)) * lean.veil.w * g.look.x;
     }

@@ -2,11 +2,13 @@
 
 mod h264;
 mod mp4;
+mod rate;
 pub mod rtp;
 pub mod webvtt;
 
 pub use h264::{Encoded, Encoder};
 pub use mp4::{Mp4, Piece};
+pub use rate::Rate;
 
 /// Why there is no video.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -1,4 +1,5 @@
 use super::*;
+use crate::base::time::SimTime;
 use crate::view::picture::Picture;
 
 /// A square that wanders over grey.
@@ -94,4 +95,21 @@ fn exact_an_mp4_file_holds_every_picture_and_its_time() {
 fn exact_chapters_are_one_line_without_markup() {
     let chapter = webvtt::Chapter { from_s: 3725.5, to_s: 3727.25, title: "Picture 3: <crack>\nfound".into() };
     assert_eq!(webvtt::write(&[chapter]), "WEBVTT\n\n1\n01:02:05.500 --> 01:02:07.250\nPicture 3: &lt;crack&gt; found\n");
+}
+
+#[test]
+fn exact_a_rate_is_told_from_the_second_picture_on_and_forgets_after_two_seconds() {
+    let mut rate = Rate::default();
+    let mut after = |ms: i64| {
+        rate.count(SimTime::from_ms(ms));
+        rate.hz()
+    };
+    // A first picture long after the stream was opened slows nothing.
+    assert_eq!(after(60_000), None);
+    assert_eq!(after(60_040), Some(25.0));
+    assert_eq!(after(60_500), Some(4.0));
+    assert_eq!(after(62_500), Some(0.5), "what is older than two seconds is gone");
+    let steady = (1..=80).map(|k| after(62_500 + 50 * k)).fold(None, |_, hz| hz);
+    assert_eq!(steady, Some(20.0));
+    assert_eq!(after(600_000).map(f64::round), Some(0.0), "a window that stood still has streamed nothing");
 }

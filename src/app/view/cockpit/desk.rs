@@ -68,7 +68,8 @@ impl Desk {
         (self.held, self.note) = match self.profiles.find(&device) {
             Ok(Some(profile)) => {
                 self.mode = profile.mode;
-                let note = format!("Its profile is {}.", self.profiles.path(&device).display());
+                let place = self.profiles.path(&device);
+                let note = place.map_or(String::new(), |path| format!("Its profile is {}.", path.display()));
                 (Held::Hand(Box::new(Hand::with(source, profile))), note)
             }
             Ok(None) => (Held::Raw(source, Raw::default()), format!("'{}' is not calibrated yet.", device.name)),

@@ -150,12 +150,12 @@ impl Cockpit {
         let text = self.text(now.is_some(), started);
         let map = self.map && self.plan.map && self.flow.map();
         let (Some(screen), Some(flight)) = (&mut self.screen, &mut self.crew.flight) else { return Ok(()) };
-        let shown = flight.draw(screen, &self.arrangement.places(), now.as_ref(), &self.gaze, map);
+        let shown = flight.draw(screen, &self.flow.arrangement.places(), now.as_ref(), &self.gaze, map)?;
         let size = screen.window.inner_size();
         let sheet = self.flow.sheet(f64::from(size.width.max(1)) / f64::from(size.height.max(1)));
-        let pictures = &mut self.pictures;
+        let (pictures, arrangement) = (&mut self.pictures, self.flow.arrangement);
         screen.show(|ui| {
-            compose(ui, &shown, &text);
+            compose(ui, &shown, &text, arrangement);
             over(ui, &sheet, pictures);
         })?;
         if shown.is_empty() {
@@ -170,7 +170,7 @@ impl Cockpit {
         self.keep_picture(&shown, &text)
     }
 
-    /// Hands the camera's view to whoever watches elsewhere: read back once, for all who want it now.
+    /// Hands the camera's view to whoever watches elsewhere: taken once, for all who want it now.
     fn hand_out(&mut self) -> Result<(), AppError> {
         let (Some(screen), Some(flight)) = (&self.screen, &self.crew.flight) else { return Ok(()) };
         let Some(panes) = flight.panes() else { return Ok(()) };
@@ -184,8 +184,8 @@ impl Cockpit {
         if let Some(keeper) = keeper {
             keeper.take(picture.clone());
         }
-        if let Some(stream) = stream {
-            flight.listener.live().streams(stream.push(picture));
+        if let Some(video) = stream.and_then(|stream| stream.push(picture)) {
+            flight.listener.live().streams(video);
         }
         Ok(())
     }
@@ -242,7 +242,8 @@ impl Cockpit {
         if self.watch.elapsed().saturating_sub(first) < plan.after {
             return Ok(());
         }
-        let picture = screen.picture(|ui| compose(ui, shown, text))?;
+        let arrangement = self.flow.arrangement;
+        let picture = screen.picture(|ui| compose(ui, shown, text, arrangement))?;
         files::write(&plan.path.display().to_string(), &png(&picture)?)?;
         self.stop.ask();
         Ok(())

@@ -5,11 +5,16 @@ use std::collections::BTreeMap;
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key, NamedKey, PhysicalKey};
 
-/// What a key does on a page; held keys repeat.
+/// What a key does on a page. Held keys repeat where they move or type; what they do once is not done again on a page that comes meanwhile.
 pub fn press(event: &KeyEvent) -> Option<Press> {
     if event.state != ElementState::Pressed {
         return None;
     }
+    let press = meant(event)?;
+    (!event.repeat || !matches!(press, Press::Enter | Press::Escape)).then_some(press)
+}
+
+fn meant(event: &KeyEvent) -> Option<Press> {
     Some(match &event.logical_key {
         Key::Named(NamedKey::ArrowUp) => Press::Up,
         Key::Named(NamedKey::ArrowDown | NamedKey::Tab) => Press::Down,
@@ -66,7 +71,8 @@ fn place(key: &PhysicalKey) -> String {
     format!("{key:?}")
 }
 
-fn name(key: &Key) -> Option<String> {
+/// A key by the name that files of keys use.
+pub fn name(key: &Key) -> Option<String> {
     Some(match key {
         Key::Character(sign) => sign.to_lowercase(),
         Key::Named(NamedKey::ArrowUp) => "up".to_owned(),

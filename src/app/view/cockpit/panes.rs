@@ -1,6 +1,7 @@
 //! The two views as textures of the window.
 
 use super::screen::Screen;
+use crate::app::aside::Aside;
 use crate::app::errors::AppError;
 use crate::base::time::SimTime;
 use crate::scenario::Scenario;
@@ -9,14 +10,16 @@ use crate::vehicle::Vehicle;
 use crate::view::arrange::{Place, Which, drawn_px};
 use crate::view::feed::Feed;
 use crate::view::gaze::Gaze;
-use crate::view::gpu::{Renderer, picture_texture, read};
+use crate::view::gpu::{Renderer, fill, picture_texture, read};
 use crate::view::hud::{self, Item};
 use crate::view::live::Now;
 use crate::view::picture::Picture;
 use crate::view::quality::Quality;
 use crate::view::scene::Scene;
+use crate::view::shot::Shot;
 use crate::view::stage::{self, Stage};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Without a graphics card a view has so many pixels, whatever its size on the screen (issue: 640 x 360 each on two cores).
 const SOFTWARE_PX: f64 = 640.0 * 360.0;
@@ -28,14 +31,14 @@ pub struct Job {
     /// With what.
     pub vehicle: Vehicle,
     site: Site,
-    scene: Scene,
+    scene: Arc<Scene>,
 }
 
 impl Job {
     /// Builds site and scene: seconds of work.
     pub fn build(scenario: Scenario, vehicle: Vehicle, seed: u64, quality: &Quality, at: SimTime) -> Self {
         let site = Site::build(&scenario, seed);
-        let scene = Scene::build(&scenario, &site, &vehicle, quality, at);
+        let scene = Arc::new(Scene::build(&scenario, &site, &vehicle, quality, at));
         Self { scenario, vehicle, site, scene }
     }
 
@@ -56,7 +59,11 @@ struct Pane {
 pub struct Panes {
     job: Job,
     renderer: Renderer,
+    /// Draws what the camera sees, where the window's own device is software too.
+    aside: Option<Aside>,
     panes: BTreeMap<u8, Pane>,
+    /// What was drawn aside last.
+    seen: Option<Picture>,
 }
 
 /// One view as it is to be shown.
@@ -72,8 +79,13 @@ pub struct Shown {
 impl Panes {
     /// Uploads a job's scene.
     pub fn new(screen: &Screen, quality: Quality, job: Job) -> Self {
+        let open = || {
+            Aside::open(quality, Arc::clone(&job.scene))
+                .inspect_err(|error| tracing::info!("one device draws both views: {error}"))
+        };
+        let aside = if screen.gpu.software { open().ok() } else { None };
         let renderer = Renderer::new(&screen.gpu, quality, &job.scene);
-        Self { renderer, job, panes: BTreeMap::new() }
+        Self { renderer, aside, job, panes: BTreeMap::new(), seen: None }
     }
 
     /// From where the inspector stands to the aircraft, m.
@@ -87,26 +99,85 @@ impl Panes {
     }
 
     /// Draws both views.
-    pub fn draw(&mut self, screen: &mut Screen, places: &[Place], now: &Now, feed: &Feed, gaze: &Gaze, map: bool) -> Vec<Shown> {
+    ///
+    /// # Errors
+    /// When a device fails.
+    pub fn draw(
+        &mut self,
+        screen: &mut Screen,
+        places: &[Place],
+        now: &Now,
+        feed: &Feed,
+        gaze: &Gaze,
+        map: bool,
+    ) -> Result<Vec<Shown>, AppError> {
         if self.job.site.traffic().gates() != &now.gates {
             self.job.site = self.job.site.with_gates(now.gates.clone());
         }
-        places.iter().map(|place| self.draw_one(screen, place, now, feed, gaze, map)).collect()
+        // What is drawn aside begins first: the other view is worked out and drawn meanwhile.
+        let mut order: Vec<&Place> = places.iter().collect();
+        order.sort_by_key(|place| place.which != Which::Camera);
+        let (mut shown, mut begun) = (Vec::new(), false);
+        for place in order {
+            let place = self.framed(screen, *place);
+            let (shot, items) = self.look(screen, &place, now, feed, gaze, map);
+            let pane = pane(&mut self.panes, screen, place.which, shot.size_px);
+            shown.push(Shown { place, picture: pane.id, items });
+            match &self.aside {
+                Some(aside) if place.which == Which::Camera => {
+                    aside.begin(shot)?;
+                    begun = true;
+                }
+                _ => self.renderer.draw(&screen.gpu, &shot, &pane.texture),
+            }
+        }
+        if begun {
+            self.take_aside(screen)?;
+        }
+        // One over the other as they were placed.
+        shown.sort_by_key(|view| places.iter().position(|place| place.which == view.place.which));
+        Ok(shown)
+    }
+
+    fn take_aside(&mut self, screen: &Screen) -> Result<(), AppError> {
+        let Some(aside) = &self.aside else { return Ok(()) };
+        let (picture, _) = aside.picture()?;
+        if let Some(pane) = self.panes.get(&(Which::Camera as u8)) {
+            fill(&screen.gpu, &pane.whole, &picture);
+        }
+        self.seen = Some(picture);
+        Ok(())
     }
 
     /// The camera's view as it was drawn last, without its display.
     pub fn camera(&self, screen: &Screen) -> Result<Option<Picture>, AppError> {
+        if self.aside.is_some() {
+            return Ok(self.seen.clone());
+        }
         Ok(self.panes.get(&(Which::Camera as u8)).map(|pane| read(&screen.gpu, &pane.whole)).transpose()?)
     }
 
-    fn draw_one(&mut self, screen: &mut Screen, place: &Place, now: &Now, feed: &Feed, gaze: &Gaze, map: bool) -> Shown {
+    /// A view's picture in its place: the camera's has its sensor's shape.
+    fn framed(&self, screen: &Screen, place: Place) -> Place {
+        let window = screen.window.inner_size();
+        match place.which {
+            Which::Inspector => place,
+            Which::Camera => {
+                let shape = f64::from(window.width.max(1)) / f64::from(window.height.max(1));
+                place.fitted(self.job.vehicle.camera.aspect(), shape)
+            }
+        }
+    }
+
+    /// What a view shows, and what lies over it.
+    fn look(&self, screen: &Screen, place: &Place, now: &Now, feed: &Feed, gaze: &Gaze, map: bool) -> (Shot, Vec<Item>) {
         let window = screen.window.inner_size();
         let on_screen = (place.width * f64::from(window.width), place.height * f64::from(window.height));
         let size_px = drawn_px(on_screen, screen.gpu.software.then_some(SOFTWARE_PX));
         let aspect = f64::from(size_px.0) / f64::from(size_px.1);
         let (job, moment) = (&self.job, &now.moment);
         let stage = job.stage();
-        let (shot, items) = match place.which {
+        match place.which {
             Which::Inspector => {
                 let shot = stage.looking(gaze, moment, size_px);
                 let items = hud::marker(&shot.eye, aspect, moment.drone.position_m);
@@ -114,12 +185,11 @@ impl Panes {
             }
             Which::Camera => {
                 let display = stage::display(&stage, moment, &now.told, (feed, false), map);
-                (stage.camera(moment, size_px), hud::layout(&display, aspect))
+                // Type is as large as it is read: a display of a larger scale has more pixels for it.
+                let scale = screen.window.scale_factor();
+                (stage.camera(moment, size_px), hud::layout_px(&display, (on_screen.0 / scale, on_screen.1 / scale)))
             }
-        };
-        let pane = pane(&mut self.panes, screen, place.which, size_px);
-        self.renderer.draw(&screen.gpu, &shot, &pane.texture);
-        Shown { place: *place, picture: pane.id, items }
+        }
     }
 }
 

@@ -62,7 +62,7 @@ impl Pilot {
     pub fn start(args: &Args, keys: Keys) -> Result<Self, AppError> {
         let mut hub = Hub::new();
         let socket = hub.bind(args.listen, 0, "--listen")?;
-        let profiles = Profiles::at(args.profiles.clone())?;
+        let profiles = Profiles::at(args.profiles.clone());
         let device = args.device.clone();
         let (asks, asked) = channel();
         let (teller, told) = channel();

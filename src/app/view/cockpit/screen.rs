@@ -23,15 +23,17 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// Opens a window of a size in px.
+    /// Opens a window of a size in px, larger where the display is to be read at a larger scale.
     ///
     /// # Errors
     /// When there is no display, or nothing to draw with.
     pub fn open(events: &ActiveEventLoop, title: &str, (width, height): (u32, u32)) -> Result<Self, AppError> {
         // A window that is larger than its display hides what stands at its edges.
-        let display = events.primary_monitor().or_else(|| events.available_monitors().next()).map(|display| display.size());
-        let room = display.filter(|size| size.width > 0 && size.height > 0).unwrap_or(PhysicalSize::new(width, height));
-        let size = PhysicalSize::new(width.min(room.width), height.min(room.height));
+        let display = events.primary_monitor().or_else(|| events.available_monitors().next());
+        let scale = display.as_ref().map_or(1.0, |display| display.scale_factor().max(1.0));
+        let wanted = PhysicalSize::new((scale * f64::from(width)).round() as u32, (scale * f64::from(height)).round() as u32);
+        let room = display.map(|display| display.size()).filter(|size| size.width > 0 && size.height > 0).unwrap_or(wanted);
+        let size = PhysicalSize::new(wanted.width.min(room.width), wanted.height.min(room.height));
         let attributes = Window::default_attributes().with_title(title).with_inner_size(size);
         let failed = |why: String| AppError::failed(format!("no window can be opened: {why}"));
         let window = Arc::new(events.create_window(attributes).map_err(|error| failed(error.to_string()))?);

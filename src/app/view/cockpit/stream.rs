@@ -3,10 +3,11 @@
 
 use crate::app::clock::Stopwatch;
 use crate::app::errors::AppError;
+use crate::base::time::SimTime;
 use crate::view::live::Video;
 use crate::view::picture::Picture;
-use crate::view::video::Encoder;
 use crate::view::video::rtp::Packets;
+use crate::view::video::{Encoder, Rate};
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
@@ -16,8 +17,6 @@ use std::time::Duration;
 const BITS_PX: f64 = 0.1;
 /// A receiver that begins in the middle waits this many pictures at most.
 const KEY_EVERY: u32 = 25;
-/// The rate is measured over this much wall time.
-const MEASURED_OVER: Duration = Duration::from_secs(2);
 /// Least time between two pictures: 30 a second, as drones' cameras send (domain.md 3); a window may be drawn more often.
 const LEAST: Duration = Duration::from_nanos(33_000_000);
 
@@ -26,10 +25,9 @@ pub struct Stream {
     /// Taken when the stream ends.
     pictures: Option<SyncSender<Picture>>,
     sender: Option<JoinHandle<Sent>>,
-    rate_hz: f64,
-    since: Stopwatch,
+    watch: Stopwatch,
+    rate: Rate,
     last: Option<Stopwatch>,
-    count: u32,
 }
 
 /// What went out.
@@ -50,7 +48,7 @@ impl Stream {
         // One waits while one is encoded; a third comes too late to be worth it.
         let (pictures, wanted) = sync_channel(1);
         let sender = std::thread::spawn(move || send(&wanted, &socket, to));
-        Ok(Self { pictures: Some(pictures), sender: Some(sender), rate_hz: 0.0, since: Stopwatch::start(), last: None, count: 0 })
+        Ok(Self { pictures: Some(pictures), sender: Some(sender), watch: Stopwatch::start(), rate: Rate::default(), last: None })
     }
 
     /// Whether it is time for another picture.
@@ -58,17 +56,14 @@ impl Stream {
         self.last.is_none_or(|last| last.elapsed() >= LEAST)
     }
 
-    /// Hands a picture on, if the encoder has time for it, and says what the stream is like.
-    pub fn push(&mut self, picture: Picture) -> Video {
+    /// Hands a picture on, if the encoder has time for it, and says what the stream is like, once there is more than one picture of it.
+    pub fn push(&mut self, picture: Picture) -> Option<Video> {
         let (width_px, height_px) = (picture.width, picture.height);
         self.last = Some(Stopwatch::start());
-        self.count += u32::from(self.pictures.as_ref().is_some_and(|pictures| pictures.try_send(picture).is_ok()));
-        let elapsed = self.since.elapsed();
-        if elapsed >= MEASURED_OVER {
-            self.rate_hz = f64::from(self.count) / elapsed.as_secs_f64();
-            (self.count, self.since) = (0, Stopwatch::start());
+        if self.pictures.as_ref().is_some_and(|pictures| pictures.try_send(picture).is_ok()) {
+            self.rate.count(SimTime::from_s(self.watch.elapsed().as_secs_f64()));
         }
-        Video { width_px, height_px, rate_hz: self.rate_hz, bits_s: bits_s((width_px, height_px)) }
+        Some(Video { width_px, height_px, rate_hz: self.rate.hz()?, bits_s: bits_s((width_px, height_px)) })
     }
 }
 

@@ -14,7 +14,7 @@ use crate::app::clock::Stopwatch;
 use crate::app::errors::AppError;
 use crate::app::stop::Stop;
 use crate::rc::keyboard::{Keys, Wish};
-use crate::view::arrange::Arrangement;
+use crate::view::arrange::Which;
 use crate::view::flow::pipe::FromWindow;
 use crate::view::flow::{Flow, Page};
 use crate::view::gaze::Gaze;
@@ -33,8 +33,6 @@ const MOST_HZ: (f64, f64) = (120.0, 25.0);
 const PAGES_HZ: f64 = 20.0;
 /// Rest after a picture without a graphics card, as a share of what it took: the machine has other work.
 const REST: f64 = 0.25;
-/// The mouse turns the inspector's head so far, rad a pixel (estimate: comfortable on a laptop).
-const TURN_RAD_PX: f64 = 0.003;
 /// A notch of the wheel zooms so many times.
 const ZOOM_NOTCH: f64 = 1.15;
 
@@ -61,7 +59,6 @@ pub struct Cockpit {
     pub(super) stop: Stop,
     pub(super) screen: Option<Screen>,
     pub(super) pictures: Pictures,
-    pub(super) arrangement: Arrangement,
     pub(super) gaze: Gaze,
     pub(super) map: bool,
     pub(super) held: Held,
@@ -88,7 +85,6 @@ impl Cockpit {
             stop,
             screen: None,
             pictures: Pictures::default(),
-            arrangement: Arrangement::default(),
             gaze: Gaze::default(),
             held: Held::default(),
             mouse: None,
@@ -158,16 +154,18 @@ impl Cockpit {
             Some(Change::Up(key)) => self.hand_on(Ask::Up(key)),
             _ => {}
         }
-        if let Some(press) = keys::press(event) {
+        // Keys that are tried there do nothing else.
+        let tried = self.flow.tries_keys() && keys::name(&event.logical_key).is_some_and(|key| self.keys.is_stick(&key));
+        if let Some(press) = keys::press(event).filter(|_| !tried) {
             self.flow.press(press);
         }
     }
 
     fn wish(&mut self, key: &str) {
         match self.keys.wish(key) {
-            Some(Wish::Swap) => self.arrangement = self.arrangement.next(),
+            Some(Wish::Swap) => self.flow.arrangement = self.flow.arrangement.next(),
             Some(Wish::Map) => self.map = !self.map,
-            Some(Wish::Follow) => self.gaze.follows = true,
+            Some(Wish::Follow) => self.gaze = Gaze::default(),
             Some(Wish::Pause) => self.flow.pause(),
             Some(Wish::Restart) => self.flow.restart(),
             Some(Wish::Sound) => self.flow.toggle_sound(),
@@ -195,9 +193,18 @@ impl Cockpit {
             && let (Some(panes), Some(now)) = (flight.panes(), flight.now())
         {
             // The world is dragged along: what is under the pointer stays there.
-            self.gaze.turn(TURN_RAD_PX * (from_x - x), TURN_RAD_PX * (y - from_y), panes.to_aircraft(&now));
+            let to = panes.to_aircraft(&now);
+            let rad_px = self.gaze.rad_px(self.eyes_px(), to);
+            self.gaze.turn(rad_px * (from_x - x), rad_px * (y - from_y), to);
         }
         self.mouse = Some((x, y));
+    }
+
+    /// Height of the inspector's view on the screen, px.
+    fn eyes_px(&self) -> f64 {
+        let window = self.screen.as_ref().map_or(1.0, |screen| f64::from(screen.window.inner_size().height.max(1)));
+        let eyes = self.flow.arrangement.places().into_iter().find(|place| place.which == Which::Inspector);
+        window * eyes.map_or(1.0, |place| place.height)
     }
 
     fn redraw(&mut self, events: &ActiveEventLoop) {

@@ -4,6 +4,7 @@ use super::flight::Scene;
 use super::listener::Listener;
 use super::panes::Shown;
 use crate::rc::keyboard::Keys;
+use crate::view::arrange::Arrangement;
 use crate::view::gpu::paint;
 
 /// Words of the window itself.
@@ -29,7 +30,7 @@ pub fn waiting(scene: &Scene, heard: bool, listener: &Listener) -> String {
 
 /// Which key does what.
 pub fn help(keys: &Keys, flies: bool) -> String {
-    let key = |name: &str| keys.of(name).unwrap_or("?").to_uppercase();
+    let key = |name: &str| keys.label(name);
     let mut words = format!(
         "{} views    {} map    drag or {} {} look around    wheel zoom    {} follow the drone",
         key("swap"),
@@ -40,13 +41,17 @@ pub fn help(keys: &Keys, flies: bool) -> String {
     );
     if flies {
         words.push_str(&format!(
-            "\n{} motors on    {} take off    {} {} up and down    {} {} turn    arrows fly    {} lamp    {} picture    {} land",
+            "\n{} motors on    {} take off    {} {} up and down    {} {} turn    {} {} {} {} fly    {} lamp    {} picture    {} land",
             key("arm"),
             key("take_off"),
             key("up"),
             key("down"),
             key("turn_left"),
             key("turn_right"),
+            key("forward"),
+            key("back"),
+            key("left"),
+            key("right"),
             key("lamp"),
             key("snapshot"),
             key("land")
@@ -56,7 +61,7 @@ pub fn help(keys: &Keys, flies: bool) -> String {
 }
 
 /// A flight's content: pictures with their displays, and the window's own words.
-pub fn compose(ui: &mut egui::Ui, shown: &[Shown], text: &Text) {
+pub fn compose(ui: &mut egui::Ui, shown: &[Shown], text: &Text, arrangement: Arrangement) {
     let area = ui.ctx().content_rect();
     let painter = ui.ctx().layer_painter(egui::LayerId::background());
     for view in shown {
@@ -80,8 +85,11 @@ pub fn compose(ui: &mut egui::Ui, shown: &[Shown], text: &Text) {
     }
     if !lines.is_empty() {
         let font = egui::FontId::proportional(0.75 * size);
-        let place = area.left_bottom() + egui::vec2(0.6 * size, -0.6 * size);
-        let galley = painter.layout_no_wrap(lines.join("\n"), font, egui::Color32::from_gray(235));
+        let (left, bottom, width) = arrangement.words();
+        let corner = area.min + egui::vec2(left as f32 * area.width(), bottom as f32 * area.height());
+        let place = corner + egui::vec2(0.6 * size, -0.6 * size);
+        let room = width as f32 * area.width() - 1.2 * size;
+        let galley = painter.layout(lines.join("\n"), font, egui::Color32::from_gray(235), room);
         let rect = egui::Rect::from_min_size(place - egui::vec2(0.0, galley.size().y), galley.size());
         painter.rect_filled(rect.expand(0.3 * size), 0.2 * size, egui::Color32::from_black_alpha(160));
         painter.galley(rect.min, galley, egui::Color32::WHITE);

@@ -1,8 +1,9 @@
 //! Labels of a shot in place of its light.
 
-use super::{Frustum, Renderer, colour_texture, solids};
+use super::{Frustum, Renderer, solids};
 use crate::view::gpu::device::{Gpu, GpuError};
 use crate::view::gpu::pass::{Copies, begin};
+use crate::view::gpu::picture::{colour_texture, read_bytes};
 use crate::view::gpu::pipelines::{DEPTH, LIGHT, LabelPipelines};
 use crate::view::gpu::targets::texture;
 use crate::view::gpu::uniforms::{Globals, Maps};
@@ -17,8 +18,9 @@ impl Renderer {
     /// Which element of a bridge and which defect each pixel of a shot shows.
     ///
     /// # Errors
-    /// When the device fails.
+    /// When the shot is too large for the device, or the device fails or has failed.
     pub fn labels(&mut self, gpu: &Gpu, shot: &Shot) -> Result<Masks, GpuError> {
+        gpu.check_size(shot.size_px)?;
         let globals = Globals::new(shot, self.water_m, &Maps { sun: &[], lamp: None }, false);
         gpu.queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
         let pipelines = self.labels.take().unwrap_or_else(|| LabelPipelines::new(gpu, &self.pipelines.globals_layout));
@@ -48,7 +50,7 @@ impl Renderer {
         let still = self
             .fixed
             .iter()
-            .filter(|fixed| fixed.seen.shows(false, 0.0) && shown.may_show(&fixed.ball))
+            .filter(|fixed| fixed.seen.shows(false, 0.0) && shown.may_show_cell(&fixed.bounds))
             .map(|fixed| (&*fixed.solid, &fixed.copies));
         let lake = self.water.iter().flat_map(|(water, _)| Some((water, here.as_ref()?)));
         for (solid, copies) in solids(&self.models, &moving).chain(still).chain(lake) {
@@ -60,7 +62,7 @@ impl Renderer {
 
 fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Masks, GpuError> {
     let (width, height) = (texture.width(), texture.height());
-    let bytes = super::read_bytes(gpu, texture, PIXEL)?;
+    let bytes = read_bytes(gpu, texture, PIXEL)?;
     let number = |k: usize| u16::from_le_bytes([bytes[k], bytes[k + 1]]);
     let of =
         |channel: usize| (0..bytes.len() / PIXEL as usize).map(|k| Masks::whole(number(PIXEL as usize * k + channel))).collect();

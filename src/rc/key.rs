@@ -1,0 +1,64 @@
+//! Names of keys: as files of keys write them, and for people.
+
+/// Keys that are no sign, by their names in files.
+pub const NAMED: [&str; 11] =
+    ["up", "down", "left", "right", "space", "enter", "pageup", "pagedown", "tab", "escape", "backspace"];
+
+/// True for the name of a key: one sign in lower case, or one of [`NAMED`].
+#[must_use]
+pub fn is_key(name: &str) -> bool {
+    let mut signs = name.chars();
+    match (signs.next(), signs.next()) {
+        (Some(sign), None) => !sign.is_whitespace() && !sign.is_control() && sign.to_lowercase().eq([sign]),
+        _ => NAMED.contains(&name),
+    }
+}
+
+/// What a file may say where it names a key.
+#[must_use]
+pub fn allowed() -> String {
+    format!("one sign, or {}", NAMED.join(", "))
+}
+
+/// A key as people call it.
+#[must_use]
+pub fn label(name: &str) -> String {
+    match name {
+        "escape" => "Esc".to_owned(),
+        "pageup" => "Page up".to_owned(),
+        "pagedown" => "Page down".to_owned(),
+        name => capitalised(name),
+    }
+}
+
+fn capitalised(name: &str) -> String {
+    let mut signs = name.chars();
+    let mut upper = signs.next().into_iter().flat_map(char::to_uppercase);
+    match (upper.next(), upper.next()) {
+        (Some(first), None) => format!("{first}{}", signs.as_str()),
+        // A sign whose upper case is two (ß) has none on the keyboard.
+        _ => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_keys_are_single_signs_and_the_named_ones() {
+        for name in ["a", "ü", "ß", "7", "+", "[", ",", "я"].into_iter().chain(NAMED) {
+            assert!(is_key(name), "{name}");
+        }
+        for name in ["", " ", "\n", "\u{7}", "A", "f5", "shift", "Up", "ab", "page up", "esc"] {
+            assert!(!is_key(name), "{name:?}");
+        }
+        assert!(allowed().contains("one sign") && allowed().ends_with("backspace"));
+    }
+
+    #[test]
+    fn exact_people_call_keys_otherwise_than_files_do() {
+        let called = ["escape", "pageup", "pagedown", "up", "space", "backspace", "w", "ü", "ß", "[", "7", ""].map(label);
+        assert_eq!(called, ["Esc", "Page up", "Page down", "Up", "Space", "Backspace", "W", "Ü", "ß", "[", "7", ""]);
+    }
+}

@@ -1,0 +1,66 @@
+//! What is made anew at some cost: the last few of a kind are kept.
+
+use std::collections::VecDeque;
+
+/// So many are kept: for both views that of before a swap or a new window's size, too.
+const KEPT: usize = 4;
+
+/// What was used last, by key.
+#[derive(Debug)]
+pub struct Recent<K, V> {
+    /// The one that was used longest ago first.
+    all: VecDeque<(K, V)>,
+}
+
+impl<K: PartialEq, V> Recent<K, V> {
+    /// Nothing is kept yet.
+    pub fn new() -> Self {
+        Self { all: VecDeque::with_capacity(KEPT + 1) }
+    }
+
+    /// Takes out what is kept under a key.
+    pub fn take(&mut self, key: &K) -> Option<V> {
+        let at = self.all.iter().position(|(known, _)| known == key)?;
+        self.all.remove(at).map(|(_, value)| value)
+    }
+
+    /// Keeps what was used just now; beyond the last few, what was used longest ago goes.
+    pub fn put(&mut self, key: K, value: V) {
+        self.all.retain(|(known, _)| *known != key);
+        self.all.push_back((key, value));
+        if self.all.len() > KEPT {
+            self.all.pop_front();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_what_was_used_longest_ago_goes_first() {
+        let mut recent = Recent::new();
+        for size in 0..KEPT {
+            recent.put(size, 'a');
+        }
+        // The oldest is used again, so the second goes when one more comes.
+        let again = recent.take(&0).unwrap();
+        recent.put(0, again);
+        recent.put(KEPT, 'b');
+        assert_eq!((recent.take(&1), recent.take(&0), recent.take(&KEPT)), (None, Some('a'), Some('b')));
+        assert_eq!(recent.take(&0), None, "taken out");
+    }
+
+    #[test]
+    fn exact_a_window_of_many_sizes_keeps_but_a_few() {
+        let mut recent = Recent::new();
+        for width in 0..1_000 {
+            let made = recent.take(&width).unwrap_or(width);
+            recent.put(width, made);
+        }
+        assert_eq!(recent.all.len(), KEPT);
+        recent.put(999, 0);
+        assert_eq!((recent.all.len(), recent.take(&999)), (KEPT, Some(0)), "one of a key");
+    }
+}

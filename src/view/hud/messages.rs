@@ -1,0 +1,71 @@
+//! Lower left: warnings, the gravest at the bottom.
+
+use super::icons::Shape;
+use super::layout::{EDGE, GAP, M_S_PER_MPH, MIDDLE};
+use super::letters::{width_of, wrapped};
+use super::pane::Pane;
+use super::state::{Hud, cue};
+use super::{Colour, Item, Side, map};
+
+/// Width of a sign, mean of capitals.
+const SIGN: f64 = 0.0205;
+/// From a message's left edge to its words: its symbol stands there.
+const INDENT: f64 = 0.07;
+/// And from the end of its words to its right edge.
+const MARGIN: f64 = 0.015;
+/// Height of a message of one line, and of each further line.
+const HIGH: f64 = 0.06;
+const STEP: f64 = 0.045;
+/// Who reads more lines than this does not fly.
+const LINES: usize = 2;
+
+/// A cue that is on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Warning {
+    /// Its shape.
+    pub shape: Shape,
+    /// Its colour.
+    pub colour: Colour,
+    /// What it says.
+    pub words: &'static str,
+    /// And more exactly.
+    pub more: Option<String>,
+}
+
+/// Cues that are on, the gravest first.
+pub fn warnings(hud: &Hud) -> Vec<Warning> {
+    let limit = format!("limit {:.0} mph", hud.limit_m_s / M_S_PER_MPH);
+    let all = [
+        (cue::CRASH, Shape::Octagon, Colour::Red, "CRASH", hud.hit.clone()),
+        (cue::TOO_CLOSE, Shape::Diamond, Colour::Orange, "TOO CLOSE", None),
+        (cue::SPEEDING, Shape::Triangle, Colour::Yellow, "TOO FAST", Some(limit)),
+        (cue::OFF_PATH, Shape::Disc, Colour::Blue, "OFF THE PATH", None),
+    ];
+    let on = all.into_iter().filter(|(bit, ..)| hud.cues & bit != 0);
+    on.map(|(_, shape, colour, words, more)| Warning { shape, colour, words, more }).collect()
+}
+
+fn width(words: &str) -> f64 {
+    (SIGN * words.chars().count() as f64).max(width_of(words, MIDDLE))
+}
+
+pub fn messages(hud: &Hud, pane: Pane) -> Vec<Item> {
+    let right = map::left(hud, pane).map_or(pane.width - EDGE, |left| left - GAP);
+    let room = right - EDGE - INDENT - MARGIN;
+    let mut bottom = pane.height - EDGE;
+    let mut items = Vec::new();
+    for Warning { shape, colour, words, more } in warnings(hud) {
+        let words = more.map_or_else(|| words.to_owned(), |more| format!("{words}: {more}"));
+        let lines = wrapped(&words, LINES, |line| width(line) <= room);
+        let top = bottom - HIGH - STEP * (lines.len() - 1) as f64;
+        let wide = INDENT + lines.iter().map(|line| width(line)).fold(0.0, f64::max) + MARGIN;
+        items.push(pane.panel((EDGE, top), (EDGE + wide, bottom)));
+        items.extend(pane.symbol(shape, (EDGE + 0.5 * INDENT, 0.5 * (top + bottom)), 0.04, colour));
+        for (k, line) in lines.into_iter().enumerate() {
+            let y = top + 0.5 * HIGH + STEP * k as f64;
+            items.push(pane.text((EDGE + INDENT, y), Side::Left, MIDDLE, colour, line));
+        }
+        bottom = top - GAP;
+    }
+    items
+}

@@ -1,0 +1,69 @@
+//! A picture in the display's own measure: places from its upper left corner, sizes in one unit for both directions.
+
+use super::icons::{self, Shape};
+use super::{Colour, Item, Point, Side, at};
+
+/// In pictures of this shape (width over height) and wider ones all blocks fit beside each other at their full size; in narrower ones
+/// everything shrinks with the width.
+const FULL_ASPECT: f64 = 4.0 / 3.0;
+
+/// A picture's sides in units of the display. A place is how far to the right and how far down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pane {
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+impl Pane {
+    /// For a shape: the unit is the height, less where the picture is narrow.
+    pub fn of(aspect: f64) -> Self {
+        let unit = (aspect / FULL_ASPECT).min(1.0);
+        Self { width: aspect / unit, height: 1.0 / unit }
+    }
+
+    /// The unit of [`Self::of`] for a picture of a size, in the measure of that size.
+    pub fn unit((width, height): (f64, f64)) -> f64 {
+        height.min(width / FULL_ASPECT)
+    }
+
+    /// A size as a share of the picture's height.
+    pub fn share(self, size: f64) -> f64 {
+        size / self.height
+    }
+
+    /// A place as shares of the picture.
+    pub fn at(self, (x, y): (f64, f64)) -> Point {
+        at(x / self.width, y / self.height)
+    }
+
+    /// The ground of a block, from its upper left to its lower right corner.
+    pub fn panel(self, from: (f64, f64), to: (f64, f64)) -> Item {
+        Item::Panel { from: self.at(from), to: self.at(to), colour: Colour::Shade }
+    }
+
+    /// A line of text.
+    pub fn text(self, place: (f64, f64), side: Side, size: f64, colour: Colour, words: impl Into<String>) -> Item {
+        Item::Text { place: self.at(place), side, height: self.share(size), colour, words: words.into() }
+    }
+
+    /// A filled convex outline.
+    pub fn fill(self, points: &[(f64, f64)], colour: Colour) -> Item {
+        Item::Fill { points: self.all(points), colour }
+    }
+
+    /// A line through points.
+    pub fn line(self, points: &[(f64, f64)], width: f64, colour: Colour) -> Item {
+        Item::Line { points: self.all(points), width: self.share(width), colour }
+    }
+
+    /// A symbol with a dark rim.
+    pub fn symbol(self, shape: Shape, middle: (f64, f64), size: f64, colour: Colour) -> Vec<Item> {
+        icons::symbol(shape, self.at(middle), self.share(size), self.width / self.height, colour)
+    }
+
+    fn all(self, points: &[(f64, f64)]) -> Vec<Point> {
+        points.iter().map(|place| self.at(*place)).collect()
+    }
+}

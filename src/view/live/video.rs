@@ -1,0 +1,32 @@
+//! The stream of the camera's view, as it is told.
+
+use crate::mav::dialect::{MavMessage, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
+
+/// A stream of the camera's view that runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Video {
+    /// Width, px.
+    pub width_px: u32,
+    /// Height, px.
+    pub height_px: u32,
+    /// Pictures a second.
+    pub rate_hz: f64,
+    /// Bits a second.
+    pub bits_s: u32,
+}
+
+impl Video {
+    /// As the vehicle is told of it.
+    pub(super) fn status(&self) -> MavMessage {
+        let side = |px: u32| u16::try_from(px).unwrap_or(u16::MAX);
+        MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
+            framerate: self.rate_hz as f32,
+            bitrate: self.bits_s,
+            flags: VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING,
+            resolution_h: side(self.width_px),
+            resolution_v: side(self.height_px),
+            stream_id: 1,
+            ..VIDEO_STREAM_STATUS_DATA::default()
+        })
+    }
+}
