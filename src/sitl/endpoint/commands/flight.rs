@@ -2,12 +2,13 @@
 
 use super::super::storage;
 use super::{Command, result};
-use crate::mav::dialect::{MavCmd, MavResult};
+use crate::mav::dialect::{MISSION_CURRENT_DATA, MavCmd, MavResult};
 use crate::sitl::autopilot::orbit::{OrbitWish, OrbitYaw};
 use crate::sitl::autopilot::{Mode, Outcome, Request};
 use crate::sitl::endpoint::flavour::ModeRow;
 use crate::sitl::endpoint::{Context, Injection};
 use crate::sitl::faults::{Faults, Kind, Unit};
+use mavlink::MessageData;
 
 pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     use MavCmd as M;
@@ -187,14 +188,19 @@ fn index(seq: f64, x: &Context) -> usize {
     (seq as usize).saturating_sub(usize::from(x.view.plans.lead))
 }
 
-/// Parameter 1 the item, -1 for the present one; with 1 in parameter 2 the mission is as if it had not been flown.
+/// Parameter 1 the item, -1 for the present one; with 1 in parameter 2 the mission is as if it had not been flown. Everybody hears of it, as
+/// after MISSION_SET_CURRENT.
 fn set_current(c: &Command, x: &mut Context) -> bool {
     let item = match c.given(0) {
         Some(-1.0) => x.autopilot.status().mission_current,
         Some(seq) if seq >= 0.0 => index(seq, x),
         _ => return false,
     };
-    x.autopilot.set_mission_current(item, c.is_one(1))
+    let set = x.autopilot.set_mission_current(item, c.is_one(1));
+    if set {
+        x.payload.news.say(MISSION_CURRENT_DATA::ID);
+    }
+    set
 }
 
 /// DO_REPOSITION. Where one mode flies errands it must be flown, or parameter 2 must ask for it (MAV_DO_REPOSITION_FLAGS_CHANGE_MODE).
