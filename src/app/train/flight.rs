@@ -128,8 +128,8 @@ impl Flight {
                 window.tell(&ToWindow::Paused { on: self.stands });
             }
             FromWindow::Restart if practice => return Some(Outcome::Restart),
-            FromWindow::End if practice => return Some(Outcome::Over),
-            FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {
+            FromWindow::End => return Some(Outcome::Over),
+            FromWindow::Pause | FromWindow::Resume | FromWindow::Restart => {
                 window.tell(&ToWindow::Refused { words: "An assessment is flown through.".into() });
             }
             FromWindow::Chosen(_) | FromWindow::Again | FromWindow::Quit => {

@@ -37,6 +37,8 @@ pub enum Deed {
     Expo,
     /// On to the flight.
     Fly,
+    /// Back to the flight that went on.
+    Stay,
     /// Where one came from.
     Back,
     /// The next page.

@@ -100,6 +100,12 @@ impl Flow {
         self.page == Page::Controls && self.controls.device.is_none()
     }
 
+    /// The flight is seen under a question about it.
+    #[must_use]
+    pub fn asks(&self) -> bool {
+        matches!(self.page, Page::Paused | Page::Leaving)
+    }
+
     /// Time stands still.
     #[must_use]
     pub fn stands(&self) -> bool {
@@ -195,12 +201,13 @@ impl Flow {
         }
     }
 
-    /// The key or the button for a pause was pressed.
+    /// The key or the button for a pause was pressed: an assessment is asked whether it is to end.
     pub fn pause(&mut self) {
         match (self.page, &self.flying) {
             (Page::Paused, _) => self.tell(FromWindow::Resume),
             (Page::Flight, Some(flying)) if flying.choice.purpose == Purpose::Practice => self.tell(FromWindow::Pause),
-            (Page::Flight, Some(_)) => self.words = Some("An assessment is flown through: it is not paused.".into()),
+            (Page::Flight, Some(_)) => self.go(Page::Leaving),
+            (Page::Leaving, _) => self.go(Page::Flight),
             _ => {}
         }
     }

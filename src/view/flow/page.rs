@@ -46,6 +46,8 @@ pub enum Page {
     Flight,
     /// It stands still.
     Paused,
+    /// An assessment flies on while its pilot is asked whether it is to end.
+    Leaving,
     /// Scores.
     Over,
 }

@@ -127,6 +127,7 @@ impl Flow {
             Deed::Skip => self.taught_enough(),
             Deed::Confirm => self.out.push_back(Order::Confirm),
             Deed::Cancel => self.out.push_back(Order::Cancel),
+            Deed::Stay => self.go(Page::Flight),
             Deed::Resume => self.tell(FromWindow::Resume),
             Deed::Restart => {
                 self.leave(READY);
@@ -197,6 +198,7 @@ impl Flow {
             Page::Tutorial(page, flight) => self.go(Page::Tutorial(page - 1, flight)),
             Page::Calibrating => self.out.push_back(Order::Cancel),
             Page::Paused => self.tell(FromWindow::Resume),
+            Page::Leaving => self.go(Page::Flight),
             Page::Opening | Page::Start | Page::Waiting | Page::Flight | Page::Over => {}
         }
     }

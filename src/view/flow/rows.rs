@@ -18,6 +18,9 @@ impl Flow {
                 Row::button(Deed::Restart, "End this attempt, begin anew"),
                 Row::button(Deed::End, "End the session"),
             ],
+            Page::Leaving => {
+                vec![Row::button(Deed::Stay, "Fly on (Esc)"), Row::button(Deed::End, "End it: score what was flown")]
+            }
             Page::Over => over::rows(self.ended.as_ref()),
         }
     }

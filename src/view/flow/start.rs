@@ -13,7 +13,8 @@ impl Flow {
         let mut pen = Pen::new(aspect);
         match self.page {
             Page::Flight => return paused::button(self, pen),
-            Page::Paused => return paused::page(pen, &rows, self.focus),
+            Page::Paused => return paused::page(pen, &paused::STANDS, &rows, self.focus),
+            Page::Leaving => return paused::page(pen, &paused::GOES_ON, &rows, self.focus),
             _ => pen.ground(Colour::Night),
         }
         match self.page {
@@ -22,7 +23,7 @@ impl Flow {
             Page::Tutorial(page, _) => tutorial::page(&mut pen, page, &rows, self.focus, &self.names),
             Page::Over => over::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
             Page::Waiting => waiting(&mut pen, self.awaited),
-            Page::Opening | Page::Flight | Page::Paused => waiting(&mut pen, "Spandrel"),
+            Page::Opening | Page::Flight | Page::Paused | Page::Leaving => waiting(&mut pen, "Spandrel"),
         }
         if let Some(words) = &self.words {
             told(&mut pen, words);

@@ -209,11 +209,21 @@ fn exact_pause_and_restart_are_for_practice_alone() {
 
     let mut flow = in_flight(Purpose::Assessment);
     assert!(!flow.map());
-    flow.pause();
-    assert!(flow.words().is_some_and(|words| words.contains("not paused")));
     flow.restart();
     assert!(flow.words().is_some_and(|words| words.contains("anew")));
-    assert_eq!(orders(&mut flow), []);
+    flow.pause();
+    assert!(flow.page() == Page::Leaving && !flow.stands(), "it flies on");
+    flow.press(Press::Escape);
+    assert_eq!(flow.page(), Page::Flight);
+    flow.pause();
+    flow.press(Press::Enter);
+    assert_eq!((flow.page(), orders(&mut flow)), (Page::Flight, vec![]), "the first row is the harmless one");
+    let mut given_up = flow.clone();
+    given_up.pause();
+    press(&mut given_up, &[Press::Down, Press::Enter]);
+    assert_eq!(orders(&mut given_up), [Order::Land, Order::Tell(FromWindow::End)]);
+    assert_eq!(given_up.page(), Page::Waiting);
+    flow.pause();
     flow.hear(ToWindow::Ended(ended()));
     flow.pause();
     flow.restart();
@@ -276,6 +286,9 @@ fn every_page() -> Vec<(String, Flow)> {
     all.push(("flight".into(), paused.clone()));
     paused.hear(ToWindow::Paused { on: true });
     all.push(("paused".into(), paused.clone()));
+    let mut leaving = in_flight(Purpose::Assessment);
+    leaving.pause();
+    all.push(("leaving".into(), leaving));
     paused.hear(ToWindow::Ended(ended()));
     all.push(("over".into(), paused));
     all

@@ -41,7 +41,7 @@ impl Cockpit {
             self.obey(order)?;
         }
         match self.flow.page() {
-            Page::Flight | Page::Paused => self.fly(),
+            Page::Flight | Page::Paused | Page::Leaving => self.fly(),
             _ => {
                 self.speaker.hush();
                 self.page()

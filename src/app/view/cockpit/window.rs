@@ -145,7 +145,7 @@ impl Cockpit {
     fn key_on_page(&mut self, event: &KeyEvent, change: Option<Change>) {
         let trying = self.flow.page() == Page::Controls;
         match change {
-            Some(Change::Down(key)) if self.flow.stands() && self.keys.wish(&key) == Some(Wish::Pause) => {
+            Some(Change::Down(key)) if self.flow.asks() && self.keys.wish(&key) == Some(Wish::Pause) => {
                 self.flow.pause();
                 return;
             }
