@@ -38,6 +38,8 @@ pub struct Place {
 
 /// Width of the small view as a share of the window's.
 const SMALL: f64 = 0.3;
+/// From the upper edge to the small view below the display's speed, a share of the window's height.
+const UNDER_SPEED: f64 = 0.17;
 
 impl Place {
     /// The largest place of this shape (width over height) in the middle of this one, in a window of that shape: what a camera's sensor does
@@ -89,7 +91,7 @@ impl Arrangement {
     pub fn button(self) -> (f64, f64) {
         match self {
             Self::Beside => (0.25, 0.04),
-            Self::Camera => (0.5, 0.9675),
+            Self::Camera => (0.5 * SMALL, UNDER_SPEED + 0.0325),
             Self::Inspector => (0.5, 0.04),
         }
     }
@@ -99,12 +101,13 @@ impl Arrangement {
     pub fn places(self) -> [Place; 2] {
         let half = |which, left| Place { which, left, top: 0.0, width: 0.5, height: 1.0 };
         let whole = |which| Place { which, left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
-        // The display has words in all corners and at the upper edge: the small view stands in the middle of the lower one.
-        let small = |which| Place { which, left: 0.5 - 0.5 * SMALL, top: 1.0 - SMALL, width: SMALL, height: SMALL };
+        let small = |which, (left, top)| Place { which, left, top, width: SMALL, height: SMALL };
         match self {
             Self::Beside => [half(Which::Inspector, 0.0), half(Which::Camera, 0.5)],
-            Self::Camera => [whole(Which::Camera), small(Which::Inspector)],
-            Self::Inspector => [whole(Which::Inspector), small(Which::Camera)],
+            // The display has words in all corners and at the upper edge, and its warnings reach far along the lower one: the small view
+            // stands between speed and warnings.
+            Self::Camera => [whole(Which::Camera), small(Which::Inspector, (0.0, UNDER_SPEED))],
+            Self::Inspector => [whole(Which::Inspector), small(Which::Camera, (0.5 - 0.5 * SMALL, 1.0 - SMALL))],
         }
     }
 }

@@ -170,3 +170,23 @@ fn prop_nothing_lies_over_anything_else_in_pictures_of_any_size() {
         }
     }
 }
+
+#[test]
+fn prop_the_small_view_hides_nothing_of_the_large_cameras_display() {
+    use crate::view::arrange::{Arrangement, Which};
+    let all = Hud { cues: ALL_CUES, hit: Some("suspension bridge, tower leg".into()), zoom: 2.0, ..hud() };
+    let [camera, eyes] = Arrangement::Camera.places();
+    assert_eq!((camera.which, eyes.which), (Which::Camera, Which::Inspector));
+    for window in [4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
+        for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
+            let place = camera.fitted(lens, window);
+            for block in blocks(layout(&all, lens), 1.0) {
+                let [left, top, right, bottom] = block.ground;
+                let (x, y) = (|x: f64| place.left + place.width * x, |y: f64| place.top + place.height * y);
+                let beside = x(right) <= eyes.left || x(left) >= eyes.left + eyes.width;
+                let apart = beside || y(bottom) <= eyes.top || y(top) >= eyes.top + eyes.height;
+                assert!(apart, "{block:?} under the small view, lens {lens}, window {window}");
+            }
+        }
+    }
+}
