@@ -3,6 +3,9 @@
 /// Structures, noise, shadows and shading that the others share.
 const COMMON: &str = include_str!("shaders/common.wgsl");
 
+/// The name of `develop` where pixels have several samples.
+pub const DEVELOP_SAMPLED: &str = "develop, sampled";
+
 /// A shader: name and source.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {
@@ -25,7 +28,10 @@ pub fn all() -> Vec<Source> {
     let lean = [COMMON, include_str!("shaders/surface.wgsl"), include_str!("shaders/lean.wgsl")].join("\n");
     sources.push(Source { name: "lean", text: lean });
     sources.push(Source { name: "shadow", text: include_str!("shaders/shadow.wgsl").to_owned() });
-    sources.push(Source { name: "develop", text: include_str!("shaders/develop.wgsl").to_owned() });
+    let develop = include_str!("shaders/develop.wgsl");
+    sources.push(Source { name: "develop", text: develop.to_owned() });
+    let sampled = develop.replace("texture_depth_2d;", "texture_depth_multisampled_2d;");
+    sources.push(Source { name: DEVELOP_SAMPLED, text: sampled });
     sources
 }
 
@@ -50,6 +56,11 @@ mod tests {
                 .unwrap_or_else(|error| panic!("{}: {}", source.name, error.emit_to_string(&source.text)));
             assert!(!module.entry_points.is_empty(), "{}: no entry point", source.name);
         }
+    }
+
+    #[test]
+    fn exact_pixels_of_several_samples_have_a_variant_of_their_own() {
+        assert_ne!(source(DEVELOP_SAMPLED), source("develop"));
     }
 
     #[test]

@@ -1,5 +1,5 @@
 //! The sky as it looks: how bright and of which colour in every direction, scaled so that its horizontal illuminance is the one that the
-//! measures use. The shader `sky.wgsl` holds the same function; clouds are drawn there around the same mean.
+//! measures use. The shader `sky.wgsl` holds the same function; the clouds that it draws are to be looked at and light nothing.
 
 use crate::base::frames::{Enu, Vec3};
 use crate::base::math;

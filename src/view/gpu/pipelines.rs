@@ -192,8 +192,8 @@ fn seen(sample_type: wgpu::TextureSampleType, array: bool, multisampled: bool) -
     wgpu::BindingType::Texture { sample_type, view_dimension, multisampled }
 }
 
-fn module(gpu: &Gpu, name: &str, change: impl Fn(String) -> String) -> wgpu::ShaderModule {
-    let source = wgpu::ShaderSource::Wgsl(change(shaders::source(name)).into());
+fn module(gpu: &Gpu, name: &str) -> wgpu::ShaderModule {
+    let source = wgpu::ShaderSource::Wgsl(shaders::source(name).into());
     gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(name), source })
 }
 
@@ -292,13 +292,8 @@ impl Pipelines {
     /// Compiles everything.
     pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
         let layouts = Layouts::new(gpu, quality);
-        let same = |text| text;
-        let multisampled = |text: String| {
-            if quality.samples > 1 { text.replace("texture_depth_2d;", "texture_depth_multisampled_2d;") } else { text }
-        };
-        let [surface, sky, defect, water, shadow] =
-            ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name, same));
-        let develop = module(gpu, "develop", multisampled);
+        let [surface, sky, defect, water, shadow] = ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name));
+        let develop = module(gpu, if quality.samples > 1 { shaders::DEVELOP_SAMPLED } else { "develop" });
         let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
         let globals = [Some(&layouts.globals)];
         let (solid_buffers, patch_buffers, water_buffers) =
@@ -322,7 +317,7 @@ impl Pipelines {
             constants: &costs,
         };
         let shown = Some((false, NEARER));
-        let lean = module(gpu, "lean", same);
+        let lean = module(gpu, "lean");
         let shaded = if quality.lean { Kind { module: &lean, entries: LEAN, ..solid } } else { solid };
         let mirrored = Kind { front: wgpu::FrontFace::Cw, samples: 1, ..shaded };
         let back = Kind { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };

@@ -15,7 +15,7 @@ pub struct LabelPipelines {
 impl LabelPipelines {
     /// Compiles them for what is bound by the layout of the other pipelines' globals.
     pub fn new(gpu: &Gpu, globals_layout: &wgpu::BindGroupLayout) -> Self {
-        let [surface, defect] = ["surface", "defect"].map(|name| module(gpu, name, |text| text));
+        let [surface, defect] = ["surface", "defect"].map(|name| module(gpu, name));
         let globals = [Some(globals_layout)];
         let (solids, of_patches) = ([Some(corners()), Some(copies())], [Some(patches())]);
         let constants = [("MASK", 1.0)];
