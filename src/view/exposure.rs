@@ -4,6 +4,7 @@ use super::camera::Eye;
 use super::sky::Sky;
 use crate::base::frames::{Enu, Vec3};
 use crate::base::math;
+use crate::base::time::SimTime;
 use crate::site::{At, CameraPose, Site, Surface, look};
 use crate::vehicle::{Camera, Lamp};
 
@@ -60,6 +61,28 @@ impl Exposure {
     #[must_use]
     pub fn eyes(metered_lux: f64) -> Self {
         Self { white_lux: metered_lux.max(EYE_LUX), time_s: 0.0, iso: ISO_MIN }
+    }
+}
+
+/// How long an exposure or a person's eyes take to follow the light by all but a third, s (estimate: cameras settle in about a second).
+const FOLLOWS_S: f64 = 0.35;
+/// After a longer break it begins anew, s.
+const BREAK_S: f64 = 2.0;
+
+/// A meter from picture to picture: what passes the lens does not make the whole picture flicker.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Adaptation(Option<(SimTime, f64)>);
+
+impl Adaptation {
+    /// What the picture at a time is exposed for, lx, when so much is metered. The first one, and one after a jump in time, for just that.
+    pub fn follow(&mut self, metered_lux: f64, at: SimTime) -> f64 {
+        let before = self.0.filter(|(then, lux)| *then <= at && (at - *then).s() <= BREAK_S && *lux > 0.0 && metered_lux > 0.0);
+        let lux = before.map_or(metered_lux, |(then, lux)| {
+            let kept = math::exp(-(at - then).s() / FOLLOWS_S);
+            metered_lux * math::pow(lux / metered_lux, kept)
+        });
+        self.0 = Some((at, lux));
+        lux
     }
 }
 
@@ -167,6 +190,26 @@ mod tests {
                 assert!((1.0 - ROUNDING..nudge).contains(&nudged), "{nudged} among {seen:?}");
             }
         }
+    }
+
+    #[test]
+    fn exact_a_picture_follows_the_light_evenly_whatever_its_rate() {
+        let end = |steps: i64| {
+            let mut meter = Adaptation::default();
+            assert_eq!(meter.follow(100.0, SimTime::ZERO), 100.0);
+            (1..=steps).fold(0.0, |_, k| meter.follow(1e4, SimTime::from_ms(k * 700 / steps)))
+        };
+        // Two times the time constant: of two powers of ten those e⁻² are left.
+        let expected = 1e4 * math::pow(1e-2, math::exp(-2.0));
+        assert!(near(end(1), expected) && (end(70) / expected - 1.0).abs() < 1e-9, "{} and {}", end(1), end(70));
+    }
+
+    #[test]
+    fn exact_a_picture_after_a_jump_is_exposed_for_itself() {
+        let mut meter = Adaptation::default();
+        meter.follow(100.0, SimTime::from_ms(5_000));
+        assert_eq!(meter.follow(9.0, SimTime::from_ms(4_000)), 9.0);
+        assert_eq!(meter.follow(700.0, SimTime::from_ms(6_001)), 700.0);
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! From a moment of a flight to the shots of both views.
 
 use super::camera::Eye;
-use super::exposure::{Exposure, Lighting, meter};
+use super::exposure::{Adaptation, Exposure, Lighting, meter};
 use super::feed::{Feed, shutter};
 use super::gaze::Gaze;
-use super::hud::{Hud, Track};
+use super::hud::{Hud, Item, Track, marker};
 use super::scene::{DronePose, Scene};
 use super::shot::{Beam, Finish, Shot, wind};
 use super::sky::Sky;
@@ -15,6 +15,9 @@ use crate::scenario::Scenario;
 use crate::site::{CameraPose, Site};
 use crate::telemetry::Flight;
 use crate::vehicle::{Camera, Vehicle};
+
+/// So near to what it stands before the aircraft is still seen, m: a wing's length.
+const BESIDE_M: f64 = 0.5;
 
 /// What does not change during a session.
 #[derive(Debug, Clone, Copy)]
@@ -73,8 +76,16 @@ impl Stage<'_> {
     /// What the aircraft's camera sees; the aircraft itself is not in it.
     #[must_use]
     pub fn camera(&self, moment: &Moment, size_px: (u32, u32)) -> Shot {
+        self.filmed(moment, size_px, &mut Adaptation::default())
+    }
+
+    /// The same as the next picture of a film.
+    #[must_use]
+    pub fn filmed(&self, moment: &Moment, size_px: (u32, u32), meter: &mut Adaptation) -> Shot {
         let eye = Eye::of(&moment.camera, &moment.lens);
-        let shot = self.through(eye, Some(&moment.camera), &moment.lens, None, (moment.at, size_px));
+        let shot = self.shot(eye, Some(&moment.camera), None, (moment.at, size_px), |metered| {
+            Finish::camera(Exposure::camera(meter.follow(metered, moment.at), &moment.lens), None)
+        });
         let before = opened(&eye, moment, shot.finish.exposure.time_s);
         Shot { finish: Finish::camera(shot.finish.exposure, Some(before)), ..shot }
     }
@@ -82,22 +93,36 @@ impl Stage<'_> {
     /// What the inspector at the pad sees, looking at the aircraft.
     #[must_use]
     pub fn inspector(&self, moment: &Moment, size_px: (u32, u32)) -> Shot {
-        self.looking(&Gaze::default(), moment, size_px)
+        self.looking(&Gaze::default(), moment, size_px, &mut Adaptation::default())
     }
 
-    /// What the inspector sees who looks where they want.
+    /// What the inspector sees who looks where they want, with eyes that follow the light.
     #[must_use]
-    pub fn looking(&self, gaze: &Gaze, moment: &Moment, size_px: (u32, u32)) -> Shot {
+    pub fn looking(&self, gaze: &Gaze, moment: &Moment, size_px: (u32, u32), eyes: &mut Adaptation) -> Shot {
         let stands = self.scenario.ground_team.inspector_m;
         let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
-        self.person(gaze.eye(stands, moment.drone.position_m, aspect), moment, size_px)
+        self.seen(gaze.eye(stands, moment.drone.position_m, aspect), moment, size_px, eyes)
+    }
+
+    /// The bracket round the aircraft over a person's view.
+    #[must_use]
+    pub fn marked(&self, shot: &Shot, moment: &Moment) -> Vec<Item> {
+        let (from, to) = (shot.eye.position_m, moment.drone.position_m - shot.eye.position_m);
+        let clear_m = (to.norm() - BESIDE_M).max(0.0);
+        let hidden = clear_m > 0.0 && self.site.ray(from, to.unit(), clear_m, moment.at).is_some();
+        let aspect = f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1));
+        marker(&shot.eye, aspect, moment.drone.position_m, hidden)
     }
 
     /// What a person sees from anywhere.
     #[must_use]
     pub fn person(&self, eye: Eye, moment: &Moment, size_px: (u32, u32)) -> Shot {
+        self.seen(eye, moment, size_px, &mut Adaptation::default())
+    }
+
+    fn seen(&self, eye: Eye, moment: &Moment, size_px: (u32, u32), eyes: &mut Adaptation) -> Shot {
         self.shot(eye, Some(&moment.camera), Some(&moment.drone), (moment.at, size_px), |metered| {
-            Finish::eyes(Exposure::eyes(metered))
+            Finish::eyes(Exposure::eyes(eyes.follow(metered, moment.at)))
         })
     }
 

@@ -148,7 +148,7 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
     let mut views = Vec::new();
     if args.view != "camera" {
         let shot = stage.inspector(&moment, size);
-        let mark = hud::marker(&shot.eye, aspect(size), moment.drone.position_m);
+        let mark = stage.marked(&shot, &moment);
         views.push((shot, if args.no_hud { Vec::new() } else { mark }));
     }
     if args.view != "inspector" {

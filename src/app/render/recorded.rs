@@ -9,6 +9,7 @@ use crate::monitor::assessment::scored_flight;
 use crate::monitor::folder::EVENTS;
 use crate::monitor::measures::attention;
 use crate::scenario::Scenario;
+use crate::site::CameraPose;
 use crate::site::gates::Gates;
 use crate::telemetry::sample::{Header, truth_time};
 use crate::telemetry::{Flight, Timeline, tlog};
@@ -16,7 +17,7 @@ use crate::vehicle::Vehicle;
 use crate::view::feed::Feed;
 use crate::view::live::Trace;
 use crate::view::scene::DronePose;
-use crate::view::stage::{Moment, Turn};
+use crate::view::stage::Moment;
 use std::path::{Path, PathBuf};
 
 /// A session folder that holds a flight.
@@ -132,26 +133,25 @@ impl Heard<'_> {
     }
 }
 
-/// Where everything was; `None` where the telemetry says nothing.
+/// Where everything was, `None` where the telemetry says nothing. Attitude and gimbal go evenly between what was told, as in the live view; the
+/// measures take what was told last.
 fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<Moment> {
     let state = flight.between(at)?;
+    let trace = trace(flight, at);
+    let ned_from_frd = trace.at(at).filter(|_| !state.missing).map_or(state.ned_from_frd, |pose| pose.ned_from_frd);
+    let lamp_on = flight.light.at(at).unwrap_or(false);
     Some(Moment {
         at,
-        drone: DronePose {
-            position_m: state.position_m,
-            ned_from_frd: state.ned_from_frd,
-            spinning: flight.armed.at(at).unwrap_or(false),
-        },
+        drone: DronePose { position_m: state.position_m, ned_from_frd, spinning: flight.armed.at(at).unwrap_or(false) },
         velocity_m_s: state.velocity_m_s,
-        camera: attention::pose(flight, at, vehicle)?,
+        camera: CameraPose::on(&vehicle.camera, (state.position_m, ned_from_frd), trace.gimbal_at(at), lamp_on),
         lens: attention::camera(flight, at, &vehicle.camera),
-        turn: turn(flight, at),
+        turn: trace.turn_at(at),
     })
 }
 
-/// How fast the camera turned, by what was told around a time, as in the live view.
-fn turn(flight: &Flight, at: SimTime) -> Turn {
-    // What was told last by then, and next.
+/// What was told last by a time, and next.
+fn trace(flight: &Flight, at: SimTime) -> Trace {
     let near = |after: usize, count: usize| after.saturating_sub(1)..count.min(after + 1);
     let (truths, pitches) = (&flight.truths, flight.gimbal.all());
     let mut trace = Trace::default();
@@ -159,7 +159,7 @@ fn turn(flight: &Flight, at: SimTime) -> Turn {
     truths[around].iter().for_each(|truth| trace.push(*truth));
     let around = near(pitches.partition_point(|told| told.0 <= at), pitches.len());
     pitches[around].iter().for_each(|told| trace.push_gimbal(told.0, told.2));
-    trace.turn_at(at)
+    trace
 }
 
 #[cfg(test)]
@@ -167,6 +167,7 @@ mod tests {
     use super::*;
     use crate::base::frames::{Rotation, Vec3};
     use crate::telemetry::Truth;
+    use crate::view::stage::Turn;
 
     #[test]
     fn exact_a_recorded_camera_turned_as_its_samples_say() {
@@ -177,7 +178,7 @@ mod tests {
             ned_from_frd: Rotation::from_euler(0.0, 0.0, yaw_deg.to_radians()),
         };
         let mut flight = Flight::default();
-        assert_eq!(turn(&flight, SimTime::ZERO), Turn::default());
+        assert_eq!(trace(&flight, SimTime::ZERO).turn_at(SimTime::ZERO), Turn::default());
         flight.truths = [(0, 0.0), (20, 2.0), (40, 2.0), (60, 1.0)].map(|(ms, yaw_deg)| truth(ms, yaw_deg)).to_vec();
         for (ms, pitch_rad) in [(0, 0.0), (50, 0.05), (100, 0.0)] {
             flight.gimbal.push(SimTime::from_ms(ms), ms, pitch_rad);
@@ -185,10 +186,14 @@ mod tests {
         for (ms, heading_deg_s, pitch_rad_s) in
             [(10, 100.0, 1.0), (20, 0.0, 1.0), (55, -50.0, -1.0), (60, 0.0, -1.0), (100, 0.0, 0.0)]
         {
-            let found = turn(&flight, SimTime::from_ms(ms));
+            let found = trace(&flight, SimTime::from_ms(ms)).turn_at(SimTime::from_ms(ms));
             let near =
                 (found.heading_rad_s.to_degrees() - heading_deg_s).abs() < 1e-6 && (found.pitch_rad_s - pitch_rad_s).abs() < 1e-9;
             assert!(near, "{ms} ms: {found:?}");
         }
+        let vehicle = crate::vehicle::read("phantom2.toml", include_str!("../../../vehicle-params/phantom2.toml")).unwrap();
+        let between = moment(&flight, SimTime::from_ms(15), &vehicle).unwrap();
+        assert!((between.drone.ned_from_frd.yaw_rad().to_degrees() - 1.5).abs() < 1e-6, "halfway and half again");
+        assert!((between.camera.forward.up() - crate::base::math::sin(0.015)).abs() < 1e-9, "{:?}", between.camera.forward);
     }
 }

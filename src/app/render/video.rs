@@ -10,6 +10,7 @@ use super::recorded::Recorded;
 use crate::base::time::SimTime;
 use crate::report::pictures::Picture;
 use crate::view::arrange::fitted_px;
+use crate::view::exposure::Adaptation;
 use crate::view::hud;
 use crate::view::stage;
 use crate::view::video::{Encoder, Mp4, Piece, VideoError, webvtt};
@@ -48,6 +49,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     let mut file = Film::create(path)?;
     file.write(&head)?;
     let (mut brush, mut heard, mut progress) = (drawing.brush(), recorded.heard(), Progress::start("drawing the film"));
+    let mut meter = Adaptation::default();
     let count = ((to - from).s() * args.fps).floor() as u32 + 1;
     for k in 0..count {
         let at = from + SimTime::from_s(f64::from(k) / args.fps);
@@ -59,7 +61,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
         } else {
             hud::layout(&stage::hud(&stage, &moment, &recorded.flight, (heard.until(at), true), true), aspect(size_px))
         };
-        let picture = brush.draw(&stage.camera(&moment, size_px), &items)?;
+        let picture = brush.draw(&stage.filmed(&moment, size_px, &mut meter), &items)?;
         file.write(&film.push(&encoder.encode(&picture)?)?)?;
     }
     for piece in film.finish()? {

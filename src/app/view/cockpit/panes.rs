@@ -8,6 +8,7 @@ use crate::scenario::Scenario;
 use crate::site::Site;
 use crate::vehicle::Vehicle;
 use crate::view::arrange::{Place, Which, drawn_px};
+use crate::view::exposure::Adaptation;
 use crate::view::feed::Feed;
 use crate::view::gaze::Gaze;
 use crate::view::gpu::{Renderer, fill, picture_texture, read};
@@ -64,6 +65,8 @@ pub struct Panes {
     panes: BTreeMap<u8, Pane>,
     /// What was drawn aside last.
     seen: Option<Picture>,
+    /// How the views follow the light: the inspector's, the camera's.
+    meters: [Adaptation; 2],
 }
 
 /// One view as it is to be shown.
@@ -85,7 +88,7 @@ impl Panes {
         };
         let aside = if screen.gpu.software { open().ok() } else { None };
         let renderer = Renderer::new(&screen.gpu, quality, &job.scene);
-        Self { renderer, aside, job, panes: BTreeMap::new(), seen: None }
+        Self { renderer, aside, job, panes: BTreeMap::new(), seen: None, meters: Default::default() }
     }
 
     /// From where the inspector stands to the aircraft, m.
@@ -170,24 +173,23 @@ impl Panes {
     }
 
     /// What a view shows, and what lies over it.
-    fn look(&self, screen: &Screen, place: &Place, now: &Now, feed: &Feed, gaze: &Gaze, map: bool) -> (Shot, Vec<Item>) {
+    fn look(&mut self, screen: &Screen, place: &Place, now: &Now, feed: &Feed, gaze: &Gaze, map: bool) -> (Shot, Vec<Item>) {
         let window = screen.window.inner_size();
         let on_screen = (place.width * f64::from(window.width), place.height * f64::from(window.height));
         let size_px = drawn_px(on_screen, screen.gpu.software.then_some(SOFTWARE_PX));
-        let aspect = f64::from(size_px.0) / f64::from(size_px.1);
-        let (job, moment) = (&self.job, &now.moment);
-        let stage = job.stage();
+        let moment = &now.moment;
+        let (stage, [eyes, film]) = (self.job.stage(), &mut self.meters);
         match place.which {
             Which::Inspector => {
-                let shot = stage.looking(gaze, moment, size_px);
-                let items = hud::marker(&shot.eye, aspect, moment.drone.position_m);
+                let shot = stage.looking(gaze, moment, size_px, eyes);
+                let items = stage.marked(&shot, moment);
                 (shot, items)
             }
             Which::Camera => {
                 let display = stage::display(&stage, moment, &now.told, (feed, false), map);
                 // Type is as large as it is read: a display of a larger scale has more pixels for it.
                 let scale = screen.window.scale_factor();
-                (stage.camera(moment, size_px), hud::layout_px(&display, (on_screen.0 / scale, on_screen.1 / scale)))
+                (stage.filmed(moment, size_px, film), hud::layout_px(&display, (on_screen.0 / scale, on_screen.1 / scale)))
             }
         }
     }
