@@ -95,6 +95,11 @@ impl Studio {
         (&self.gpu, &mut self.renderer)
     }
 
+    /// Takes the site's own defects out of the pictures.
+    pub fn without_defects(&mut self) {
+        self.renderer.set_patches(&self.gpu, &[]);
+    }
+
     /// What the aircraft's camera sees from one point towards another; `hfov_deg` instead of its own lens.
     pub fn seen(&self, from: Vec3<Enu>, look: Vec3<Enu>, hfov_deg: f64, lamp: bool, size_px: (u32, u32)) -> Shot {
         let lens = Camera { hfov_rad: hfov_deg.to_radians(), ..self.vehicle.camera };

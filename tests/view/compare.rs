@@ -67,12 +67,21 @@ pub fn difference(a: &Picture, b: &Picture) -> Option<Difference> {
 /// Holds a picture against the committed one of its name. Returns what is wrong, with the places of what was drawn. With
 /// `SPANDREL_PICTURES=write` in the environment it is committed instead: look at it first.
 pub fn held(name: &str, drawn: &Picture) -> Result<Difference, String> {
-    let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/view/pictures").join(format!("{name}.jpg"));
+    held_at(&committed(name), name, drawn)
+}
+
+/// Where the committed picture of a name is.
+pub fn committed(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/view/pictures").join(format!("{name}.jpg"))
+}
+
+/// The same for a picture that is kept elsewhere.
+pub fn held_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Difference, String> {
     if std::env::var("SPANDREL_PICTURES").is_ok_and(|value| value == "write") {
-        std::fs::write(&committed, jpeg(drawn)).unwrap();
+        std::fs::write(committed, jpeg(drawn)).unwrap();
         save(&format!("{name}.png"), drawn);
     }
-    let expected = load(&committed).map_err(|error| format!("{name}: {}: {error}", committed.display()))?;
+    let expected = load(committed).map_err(|error| format!("{name}: {}: {error}", committed.display()))?;
     let found = difference(drawn, &expected).ok_or_else(|| {
         let (width, height) = (expected.width, expected.height);
         format!("{name}: drawn at {} x {}, committed at {width} x {height}", drawn.width, drawn.height)
@@ -117,6 +126,12 @@ fn jpeg(picture: &Picture) -> Vec<u8> {
         .encode(&rgb(picture), picture.width, picture.height, image::ExtendedColorType::Rgb8)
         .unwrap();
     bytes
+}
+
+/// A picture from its file, in another size.
+pub fn resized(path: &Path, (width, height): (u32, u32)) -> Picture {
+    let small = image::open(path).unwrap().resize_exact(width, height, image::imageops::FilterType::Triangle).to_rgba8();
+    Picture { width, height, rgba: small.into_raw() }
 }
 
 fn load(path: &Path) -> Result<Picture, image::ImageError> {

@@ -12,6 +12,9 @@ use spandrel::view::scene::defects::patch;
 /// Crops of the camera's picture at its own resolution, px.
 const CROP: (u32, u32) = (160, 200);
 const WIDTH_M: f64 = 0.0025;
+/// Numbers of their own of a crack without lime, and of one with it (defect.wgsl).
+const BARE: f32 = 0.05;
+const LIMED: f32 = 0.12;
 
 /// A long upright crack in a wall, the eye before it, and the same wall without it.
 struct Wall {
@@ -22,6 +25,11 @@ struct Wall {
 
 impl Wall {
     fn new() -> Self {
+        Self::of(catalogue::CRACK, BARE)
+    }
+
+    /// `own` decides whether lime has come out of a crack.
+    fn of(kind: u32, own: f32) -> Self {
         let studio = Studio::new(sunny(), 7, "low", SimTime::ZERO);
         let (from, towards) = (at(-55.0, -15.0, 24.0), at(0.0, 1.0, 0.0));
         let hit = studio.site.ray(from, towards, 200.0, SimTime::ZERO).unwrap();
@@ -29,7 +37,7 @@ impl Wall {
             id: 1,
             element: 215,
             member: "wall".into(),
-            kind: catalogue::CRACK,
+            kind,
             condition_state: 3,
             position_m: from + towards * hit.distance_m,
             normal: hit.normal,
@@ -39,8 +47,7 @@ impl Wall {
             line: true,
         };
         let mut bare = patch(&crack, [0.6, 0.1]);
-        // The crack's own number decides whether lime has come out of it: here none has.
-        bare.normal[3] = 0.05;
+        bare.normal[3] = own;
         let patches = vec![bare];
         Self { studio, crack, patches }
     }
@@ -70,10 +77,15 @@ fn row(picture: &Picture, y: u32) -> Vec<f64> {
 }
 
 /// How much darker than the bare wall the crack is where it is darkest in a row, as a share; the mean over the rows.
-fn contrast([with, without]: &[Picture; 2]) -> f64 {
+fn contrast(pair: &[Picture; 2]) -> f64 {
+    strongest(pair, |with, without| without - with)
+}
+
+/// How much a row differs from the bare wall where it does most, as a share of its brightness there; the mean over the rows.
+fn strongest([with, without]: &[Picture; 2], by: impl Fn(f64, f64) -> f64) -> f64 {
     let of = |y: u32| {
         let pairs = row(with, y).into_iter().zip(row(without, y));
-        pairs.map(|(with, without)| (without - with) / without.max(1.0)).fold(0.0, f64::max)
+        pairs.map(|(with, without)| by(with, without) / without.max(1.0)).fold(0.0, f64::max)
     };
     (0..with.height).map(of).sum::<f64>() / f64::from(with.height)
 }
@@ -137,4 +149,27 @@ fn prop_contrast_falls_without_steps() {
         share *= STEP;
     }
     assert!(before.is_some_and(|last| last < 0.1), "at a tenth of a pixel: {before:?}");
+}
+
+/// What seeps out of a line fades as evenly: lime on concrete, rust on steel.
+#[test]
+fn prop_what_seeps_out_of_a_line_falls_without_steps() {
+    const STEP: f64 = 0.94;
+    // Rounding to 8 bits, other rows of the wall, and ends of what seeps that come into the picture.
+    const RISE_MAX: f64 = 0.03;
+    const FALL_MAX: f64 = 0.08;
+    for (kind, own) in [(catalogue::CRACK, LIMED), (catalogue::FATIGUE, BARE)] {
+        let mut wall = Wall::of(kind, own);
+        let mut before: Option<f64> = None;
+        let mut share = 4.0;
+        while share > 0.1 {
+            let seen = strongest(&wall.pair(WIDTH_M / share), |with, without| (with - without).abs());
+            if let Some(before) = before {
+                let change = seen - before;
+                assert!((-FALL_MAX..=RISE_MAX).contains(&change), "{kind}: {share:.3} px: {before:.3}, then {seen:.3}");
+            }
+            before = Some(seen);
+            share *= STEP;
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! The pictures that a stranger should be able to name, held against committed ones.
 
-use super::compare::{beside, held};
+use super::compare::{Difference, beside, committed, held, held_at, resized};
 use super::studio::{Studio, at, dusk, sunny};
 use spandrel::base::frames::{Enu, Vec3};
 use spandrel::base::math;
@@ -8,10 +8,12 @@ use spandrel::base::time::SimTime;
 use spandrel::scenario::PlacedDefect;
 use spandrel::site::catalogue;
 use spandrel::view::arrange::fitted_px;
+use spandrel::view::camera::Eye;
 use spandrel::view::hud::state::cue;
 use spandrel::view::hud::{self, Gnss, Hud, Track};
 use spandrel::view::picture::Picture;
 use spandrel::view::scene::defects::patch;
+use std::path::Path;
 
 /// Size of a scene, px.
 const SCENE: (u32, u32) = (640, 360);
@@ -19,8 +21,8 @@ const SCENE: (u32, u32) = (640, 360);
 const VIEW: (u32, u32) = (640, 360);
 /// Size of each picture of a defect, px.
 const CLOSE: (u32, u32) = (320, 240);
-/// Its field of view: a fifth of a metre and more stays in the picture at 1 m.
-const CLOSE_DEG: f64 = 30.0;
+/// Its fields of view at 1 and 3 m, where what is half a metre wide stays in the picture; at 8 m it is a piece of the camera's, pixel by pixel.
+const CLOSE_DEG: [f64; 2] = [30.0, 15.0];
 
 /// Collects what is wrong, so that one run tells of every picture.
 #[derive(Default)]
@@ -30,7 +32,11 @@ struct Wall {
 
 impl Wall {
     fn hang(&mut self, name: &str, picture: &Picture) {
-        match held(name, picture) {
+        self.take(name, held(name, picture));
+    }
+
+    fn take(&mut self, name: &str, compared: Result<Difference, String>) {
+        match compared {
             Ok(found) => println!("{name}: mean {:.2}, worst tile {:.2}", found.mean, found.tile),
             Err(error) => self.wrong.push(error),
         }
@@ -54,6 +60,44 @@ fn regress_bridges_in_summer() {
         let picture = studio.draw(&shot);
         wall.hang(name, &picture);
     }
+    wall.all_hold();
+}
+
+/// The pad: truck, crew, and the aircraft over it with its propellers turning.
+#[test]
+fn regress_the_crew_and_the_drone_at_the_pad() {
+    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut wall = Wall::default();
+    for (name, from, drone, look, vfov_deg) in [
+        ("crew-and-truck", at(-105.0, 71.0, 7.4), at(-110.2, 75.3, 6.6), at(-116.0, 79.0, 6.0), 40.0),
+        ("drone-near", at(-111.0, 76.4, 7.0), at(-112.0, 78.0, 6.3), at(-112.0, 78.0, 6.28), 24.0),
+    ] {
+        let moment = studio.moment(drone, at(0.0, 150.0, 14.0), false, at(0.0, 0.0, 0.0));
+        let aspect = f64::from(SCENE.0) / f64::from(SCENE.1);
+        let eye = Eye::at(from, look, f64::to_radians(vfov_deg), aspect);
+        let shot = studio.stage().person(eye, &moment, SCENE);
+        let picture = studio.draw(&shot);
+        wall.hang(name, &picture);
+    }
+    wall.all_hold();
+}
+
+/// What may be taken for a defect and is none: a crack that was closed, a web, spray paint. Form lines, tie holes, streaks and droppings are beside.
+#[test]
+fn regress_false_friends() {
+    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    studio.without_defects();
+    let mut wall = Wall::default();
+    let pictures = [
+        (at(48.0, 2.6, 28.4), at(50.0, 2.6, 28.4), 64.0),
+        (at(-49.0, 2.6, 9.73), at(-50.0, 2.6, 9.73), 44.0),
+        (at(-62.5, 152.0, 2.8), at(-68.0, 153.0, 1.9), 50.0),
+    ]
+    .map(|(from, look, hfov_deg)| {
+        let shot = studio.seen(from, look, hfov_deg, false, CLOSE);
+        studio.draw(&shot)
+    });
+    wall.hang("false-friends", &beside(&pictures));
     wall.all_hold();
 }
 
@@ -129,12 +173,26 @@ fn regress_defects_at_1_3_and_8_m() {
         let (gpu, renderer) = studio.renderer();
         renderer.set_patches(gpu, &patches);
         let aside = Vec3::new(0.0, 0.0, 1.0).cross(defect.normal).unit();
-        let pictures = [1.0, 3.0, 8.0].map(|distance_m| {
+        let focal_px = studio.vehicle.camera.focal_px();
+        let crop_deg = 2.0 * math::atan(0.5 * f64::from(CLOSE.0) / focal_px).to_degrees();
+        let pictures = [(1.0, CLOSE_DEG[0]), (3.0, CLOSE_DEG[1]), (8.0, crop_deg)].map(|(distance_m, hfov_deg)| {
             let out = (defect.normal + aside * 0.25 - Vec3::new(0.0, 0.0, 0.12)).unit();
-            let shot = studio.seen(defect.position_m + out * distance_m, defect.position_m, CLOSE_DEG, false, CLOSE);
+            let shot = studio.seen(defect.position_m + out * distance_m, defect.position_m, hfov_deg, false, CLOSE);
             studio.draw(&shot)
         });
         wall.hang(&format!("defect-{name}"), &beside(&pictures));
+    }
+    wall.all_hold();
+}
+
+/// Who learns from the tutorial what a defect looks like meets just that in flight.
+#[test]
+fn regress_the_tutorial_shows_defects_as_they_are_drawn() {
+    let mut wall = Wall::default();
+    for name in ["crack", "spall", "efflorescence", "corrosion"] {
+        let taught = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/view/flow/pictures/{name}.jpg"));
+        let drawn = resized(&committed(&format!("defect-{name}")), (720, 180));
+        wall.take(name, held_at(&taught, &format!("tutorial-{name}"), &drawn));
     }
     wall.all_hold();
 }
@@ -209,9 +267,8 @@ fn regress_both_views_with_every_state_of_the_display() {
         change(&mut display);
         let mut moment = studio.moment(from, look, display.lamp, Vec3::new(0.5, 0.0, 0.0));
         moment.lens.hfov_rad = 2.0 * math::atan(math::tan(0.5 * moment.lens.hfov_rad) / display.zoom);
-        let aspect = f64::from(VIEW.0) / f64::from(VIEW.1);
         let inspector = studio.stage().inspector(&moment, VIEW);
-        let marked = hud::marker(&inspector.eye, aspect, moment.drone.position_m);
+        let marked = studio.stage().marked(&inspector, &moment);
         let seen = fitted_px(VIEW, moment.lens.aspect());
         let camera = studio.stage().camera(&moment, seen);
         let shown = hud::layout(&display, f64::from(seen.0) / f64::from(seen.1));

@@ -5,6 +5,7 @@ use super::bridges;
 use crate::base::frames::{Enu, Vec3};
 use crate::scenario::PlacedDefect;
 use crate::site::Site;
+use crate::site::catalogue;
 
 /// Rays for the light on a patch: as many as the measures use.
 const RAYS: usize = 64;
@@ -38,6 +39,16 @@ pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<Patch> {
     site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()
 }
 
+/// The code that a defect is drawn by. A resolved file may place kinds that no seed does: what is scored must be seen, so they look like a crack
+/// or like bare aggregate.
+fn look(defect: &PlacedDefect) -> u32 {
+    match (catalogue::KINDS.contains(&defect.kind), defect.line) {
+        (true, _) => defect.kind,
+        (false, true) => catalogue::CRACK,
+        (false, false) => catalogue::ABRASION,
+    }
+}
+
 /// One defect under a light.
 #[must_use]
 pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> Patch {
@@ -55,7 +66,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> Patch {
     // Any number that differs between defects and stays the same for one.
     let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
     Patch {
-        centre: four(defect.position_m, f64::from(defect.kind)),
+        centre: four(defect.position_m, f64::from(look(defect))),
         normal: four(defect.normal, own),
         along: four(defect.along, defect.length_m),
         size: [defect.width_m as f32, f32::from(defect.condition_state), -defect.along.up() as f32, -across.up() as f32],
@@ -68,9 +79,9 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> Patch {
 mod tests {
     use super::*;
 
-    #[test]
-    fn exact_a_line_has_room_to_seep_and_an_area_room_for_its_edge() {
-        let defect = PlacedDefect {
+    /// A crack that runs straight down.
+    fn streak() -> PlacedDefect {
+        PlacedDefect {
             id: 3,
             element: 144,
             member: "arch/rib-left/07".into(),
@@ -82,11 +93,23 @@ mod tests {
             length_m: 1.0,
             width_m: 0.002,
             line: true,
-        };
+        }
+    }
+
+    #[test]
+    fn exact_a_line_has_room_to_seep_and_an_area_room_for_its_edge() {
+        let defect = streak();
         let line = patch(&defect, [0.2, 0.1]);
         assert_eq!(line.light[2..], [0.53, 0.031]);
         assert_eq!((line.centre[3], line.size[2]), (1130.0, 1.0), "it runs straight down");
         let area = patch(&PlacedDefect { line: false, width_m: 0.5, ..defect }, [0.2, 0.1]);
         assert_eq!(area.light[2..], [0.53, 0.265]);
+    }
+
+    #[test]
+    fn exact_what_no_seed_places_is_drawn_all_the_same() {
+        let decay = PlacedDefect { kind: 1140, line: false, ..streak() };
+        assert_eq!(patch(&decay, [0.2, 0.1]).centre[3], 1190.0);
+        assert_eq!(patch(&PlacedDefect { line: true, ..decay }, [0.2, 0.1]).centre[3], 1130.0);
     }
 }

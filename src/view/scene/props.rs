@@ -125,11 +125,15 @@ pub fn truck(rounds: Rounds) -> Mesh {
         mesh.block([4.9, y - 0.17, 0.72], [4.985, y + 0.17, 0.92], [0.0; 3], LAMP);
         mesh.block([-5.0, y - 0.15, 0.72], [-4.96, y + 0.15, 0.86], [0.0; 3], TAIL);
     }
-    // Box body with a ribbed frame.
-    mesh.block([-5.0, -1.22, 0.95], [2.55, 1.22, 3.46], [0.0; 3], BOX);
+    // Box body with a ribbed frame, and the gap and bars of its doors. No two faces lie in one plane: they would flicker.
+    mesh.block([-4.98, -1.22, 0.95], [2.56, 1.22, 3.46], [0.0; 3], BOX);
     mesh.block([-5.0, -1.25, 0.88], [2.58, 1.25, 1.02], [0.0; 3], DARK);
-    for x in [-4.95, -2.45, 0.05, 2.5] {
+    for x in [-4.92, -2.45, 0.05, 2.5] {
         mesh.block([x - 0.05, -1.245, 0.95], [x + 0.05, 1.245, 3.5], [0.0; 3], DARK);
+    }
+    mesh.block([-4.99, -0.012, 1.02], [-4.97, 0.012, 3.44], [0.0; 3], DARK);
+    for y in [0.35, -0.35] {
+        mesh.block([-5.0, y - 0.02, 1.10], [-4.97, y + 0.02, 3.38], [0.0; 3], RIM);
     }
     for x in [3.85, -2.35, -3.5] {
         for y in [1.2, -1.2] {

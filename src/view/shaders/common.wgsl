@@ -98,6 +98,14 @@ fn cover(d: f32, width: f32, footprint: f32) -> f32 {
     return clamp((0.5 * (width + f) - d) / f, 0.0, min(1.0, width / f));
 }
 
+// Mean of exp(-|x| / reach) over a pixel `footprint` wide at x: what seeps out of a line narrower than a pixel neither flickers nor steps.
+fn seeping(x: f32, reach: f32, footprint: f32) -> f32 {
+    let half = 0.5 * max(footprint, 1e-6);
+    let ends = vec2<f32>(x - half, x + half);
+    let sums = sign(ends) * reach * (1.0 - exp(-abs(ends) / reach));
+    return (sums.y - sums.x) / (2.0 * half);
+}
+
 // The same for lines repeated every `spacing`; far away their mean.
 fn lines(x: f32, spacing: f32, width: f32, footprint: f32) -> f32 {
     let d = abs(fract(x / spacing) - 0.5) * spacing;
@@ -188,6 +196,8 @@ struct Matter {
     normal: vec3<f32>,
     // Shares of the sky's and of the sun's illuminance that arrive indirectly.
     light: vec2<f32>,
+    // Share of the direct sunlight that a fold of the surface itself lets through.
+    sunlit: f32,
 }
 
 fn ggx(n: vec3<f32>, v: vec3<f32>, l: vec3<f32>, f0: vec3<f32>, roughness: f32) -> vec3<f32> {
@@ -228,7 +238,7 @@ fn lamp_lux(p: vec3<f32>, n: vec3<f32>) -> f32 {
     return g.lamp_dir.w * beam * seen * max(-dot(ray, n), 0.0) / max(distance * distance, 0.01);
 }
 
-// Ripples of light that waves throw up at what hangs over the water.
+// Ripples of light that waves throw up at what hangs over the water; at what hangs over land, too: what lies below is not known here.
 fn caustics(p: vec3<f32>) -> f32 {
     let t = g.eye.w;
     let q = p.xy * 0.55;
@@ -256,7 +266,7 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
     let facing = max(dot(n, g.sun.xyz), 0.0);
     var direct = 0.0;
     if facing > 0.0 {
-        direct = g.sun.w * facing * sun_visible(p, n);
+        direct = g.sun.w * facing * m.sunlit * sun_visible(p, n);
     }
     var bounce = m.light.y * g.sun.w;
     if DETAIL {

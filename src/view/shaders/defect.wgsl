@@ -73,7 +73,7 @@ fn stray(x: f32, seed: f32, footprint: f32) -> f32 {
     return y;
 }
 
-// Share of the pixel that the crack covers; the widest part has 1.5 times the width that counts.
+// Share of the pixel that the crack covers; its width goes from a quarter of the one that counts, at its ends, to 1.3 times that.
 fn crack(in: Fragment, footprint: f32, off: f32) -> f32 {
     let half = 0.5 * in.along.w;
     let x = in.q.x;
@@ -162,7 +162,7 @@ fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, loo
     colour *= 1.0 - 0.3 * shown * (1.0 - smoothstep(0.0, 0.08, abs(stone.x - 0.40)));
     let shelter = smoothstep(0.6, 1.0, e) * smoothstep(0.0, 0.06, deepest);
     (*look).matter.light *= 1.0 - 0.55 * shelter;
-    colour *= mix(1.0, lip_shadow(in, q, half, deepest, g.sun.xyz), 0.55);
+    (*look).matter.sunlit = lip_shadow(in, q, half, deepest, g.sun.xyz);
     // The broken edge itself is a dark line.
     let edge = fwidth(e);
     colour *= 1.0 - 0.55 * (1.0 - smoothstep(0.0, 0.06 + edge, abs(e - 0.96)));
@@ -181,7 +181,7 @@ fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     broken(in, in.q, half, 0.035, f, look);
     let seed = in.normal.w;
-    // Bars of 12 to 16 mm radius along the patch, as many as fit.
+    // Bars of 22 to 30 mm along the patch, as many as fit.
     let count = max(1.0, floor(in.size.x / 0.11));
     let gap = in.size.x / count;
     let lane = (fract(in.q.y / gap + 0.5 * count) - 0.5) * gap;
@@ -277,17 +277,19 @@ fn corroded(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = max(core, max(0.85 * rim * stain, 0.55 * stain * smoothstep(0.35, 0.6, fbm(in.q * 6.0 + 4.0, f * 6.0))));
 }
 
-// Two rows of bolts on a splice plate; some are gone, some have rust around them.
+// Rows of bolts on a splice plate; some are gone, and rust bleeds from their holes.
 fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let inside = max(abs(in.q.x) / half.x, abs(in.q.y) / half.y);
     let pitch = max(0.032, min(0.07, in.size.x * 0.45));
-    let cell = floor(in.q / pitch);
-    let at = in.q - (cell + 0.5) * pitch;
+    // Whole bolts only, their rows about the middle: a narrow plate has one.
+    let count = max(vec2<f32>(1.0), floor(2.0 * half / pitch));
+    let cell = clamp(floor(in.q / pitch + 0.5 * count), vec2<f32>(0.0), count - 1.0);
+    let at = in.q - (cell + 0.5 - 0.5 * count) * pitch;
     let d = length(at);
     let radius = 0.3 * pitch;
     let luck = hash2(vec2<i32>(cell) + vec2<i32>(i32(in.normal.w * 1000.0), 3));
-    let first = all(cell == vec2<f32>(0.0, 0.0));
+    let first = all(cell == floor(0.5 * count));
     let missing = select(0.0, 1.0, luck > 0.88 || first);
     let head = cover(d, 2.0 * radius, f);
     var colour = in.tint * 0.92;
@@ -305,14 +307,36 @@ fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = 1.0 - smoothstep(0.98, 1.0, inside);
 }
 
-// A line in steel that bleeds rust.
+// A line in steel that bleeds rust, along the toe of a weld.
 fn fatigue(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     let line = crack(in, f, off);
     let half = 0.5 * in.along.w;
-    let near = exp(-abs(off) / 0.006) * (1.0 - smoothstep(half * 0.95, half * 1.05 + f, abs(in.q.x)));
-    let bleed = near * (0.35 + 0.65 * fbm(vec2<f32>(in.q.x * 60.0, in.q.y * 9.0), f * 60.0));
+    let near = seeping(off, 0.006, f) * (1.0 - smoothstep(half * 0.95, half * 1.05 + f, abs(in.q.x)));
+    let bleed = 0.95 * near * (0.45 + 0.55 * fbm(vec2<f32>(in.q.x * 60.0, in.q.y * 9.0), f * 60.0));
+    let sick = max(line, bleed);
     (*look).matter.albedo = mix(vec3<f32>(0.30, 0.12, 0.045), vec3<f32>(0.012), line);
-    (*look).alpha = max(line, 0.8 * bleed);
+    (*look).alpha = sick;
+    // The weld is sound: no mask marks it.
+    if !MASK {
+        let bead = weld(in, f, half, look);
+        (*look).matter.albedo = mix(in.tint * bead.y, (*look).matter.albedo, sick);
+        (*look).alpha = max(sick, bead.x);
+    }
+}
+
+const WELD_M: f32 = 0.009;
+
+// A bead beside the crack, laid in ripples and painted over: how much of the pixel it covers, how bright its coat is.
+fn weld(in: Fragment, f: f32, half: f32, look: ptr<function, Look>) -> vec2<f32> {
+    let across = in.q.y + 0.5 * WELD_M + 0.002;
+    let round = max(abs(in.q.x) - half - 0.012, 0.0);
+    let d = length(vec2<f32>(across, round));
+    let t = clamp(across / (0.5 * WELD_M), -1.0, 1.0);
+    let near = 1.0 - smoothstep(0.002, 0.006, f);
+    // Scales of the bead bow along it.
+    let scale = (fract((in.q.x - 0.35 * t * t * WELD_M) / 0.0045) - 0.5) * near;
+    (*look).matter.normal = frame_normal(in, vec2<f32>(0.30 * scale, -0.40 * t * near));
+    return vec2<f32>(cover(d, WELD_M, f), 1.0 - 0.2 * abs(scale) - 0.1 * abs(t));
 }
 
 fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
@@ -320,7 +344,7 @@ fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     // Lime has come out of some.
     let half = 0.5 * in.along.w;
     let limed = select(0.0, 1.0, fract(in.normal.w * 7.0) > 0.55);
-    let rim = limed * exp(-abs(off) / 0.007) * smoothstep(0.45, 0.7, noise(vec2<f32>(in.q.x * 9.0, in.normal.w * 31.0)))
+    let rim = limed * seeping(off, 0.007, f) * smoothstep(0.45, 0.7, noise(vec2<f32>(in.q.x * 9.0, in.normal.w * 31.0)))
         * (1.0 - smoothstep(0.85 * half, half, abs(in.q.x)));
     // The gap lies in the lime, not under it.
     let veil = (1.0 - line) * 0.35 * rim;
@@ -332,7 +356,8 @@ fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
 @fragment
 fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let f = max(length(vec2<f32>(dpdx(in.q.x), dpdy(in.q.x))), length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y))));
-    let off = in.q.y - stray(in.q.x, in.normal.w, f);
+    // Along a weld a crack hardly strays.
+    let off = in.q.y - select(1.0, 0.15, KIND == 1010u) * stray(in.q.x, in.normal.w, f);
     // Size of a pixel across the line.
     let across = length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y)));
     var look: Look;
@@ -340,6 +365,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     look.matter.roughness = 0.9;
     look.matter.metal = 0.0;
     look.matter.light = in.light;
+    look.matter.sunlit = 1.0;
     look.matter.albedo = vec3<f32>(0.4);
     look.alpha = 0.0;
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);

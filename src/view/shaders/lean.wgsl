@@ -100,6 +100,7 @@ fn lean_concrete(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * tile.b);
     colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * tile.a);
     let over = in.p.z - g.scene.y;
+    colour = befriended(colour, in, in.normal, f);
     let reach = 0.8 + 0.5 * tile.r;
     let slime = wall * (1.0 - smoothstep(0.15, reach, over));
     colour = mix(colour, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);

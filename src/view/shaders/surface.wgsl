@@ -55,6 +55,99 @@ fn vs(v: Corner) -> Fragment {
     return placed(v);
 }
 
+// Cells of concrete that may hold something to be taken for a defect.
+const FRIEND_M: vec2<f32> = vec2<f32>(5.3, 3.7);
+// Where paint is sprayed from: the ground, a boat, a ladder, so far over the water, m (estimate).
+const REACHED_M: f32 = 12.0;
+
+// False friends that hands and spiders leave (domain.md 2d): at most one in a cell, most cells have none. What weather and formwork leave
+// is drawn with the concrete.
+fn befriended(colour: vec3<f32>, in: Fragment, n: vec3<f32>, f: f32) -> vec3<f32> {
+    let at = floor(in.uv / FRIEND_M);
+    // Parallel faces have the same coordinates, but not the same friends.
+    let plane = i32(floor(0.7 * dot(in.p, n) + 0.377));
+    let cell = vec2<i32>(at) + plane * vec2<i32>(31, 17);
+    let luck = hash2(cell + vec2<i32>(401, 97));
+    if luck < 0.70 {
+        return colour;
+    }
+    let own = hash2(cell + vec2<i32>(13, 211));
+    let q = in.uv - (at + 0.5) * FRIEND_M;
+    if luck < 0.80 {
+        if abs(n.z) < 0.5 && in.p.z - q.y - g.scene.y < REACHED_M {
+            return sprayed(colour, q, own, f);
+        }
+        return colour;
+    }
+    if luck < 0.89 {
+        return sealed(colour, q, own, f);
+    }
+    return webbed(colour, q - vec2<f32>(1.8, 1.2) * (vec2<f32>(own, fract(own * 7.0)) - 0.5), own, f);
+}
+
+// A crack that was closed: a band of resin with the round feet of the ports through which it was pressed in.
+fn sealed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
+    let turn = 0.9 * (own - 0.5);
+    let axis = vec2<f32>(sin(turn), cos(turn));
+    let along = dot(q, axis);
+    let bent = 0.16 * (noise(vec2<f32>(along * 1.3, own * 50.0)) - 0.5) + 0.04 * (noise(vec2<f32>(along * 6.0, own * 90.0)) - 0.5);
+    let across = q.x * axis.y - q.y * axis.x - bent;
+    let beyond = max(abs(along) - 0.8 - 0.6 * fract(own * 5.0), 0.0);
+    let band = cover(length(vec2<f32>(across, beyond)), 0.030 + 0.014 * noise(vec2<f32>(along * 11.0, own * 20.0)), f);
+    let port = length(vec2<f32>(across, (fract(along / 0.28) - 0.5) * 0.28));
+    let foot = cover(port, 0.055, f) * step(beyond, 0.0);
+    let resin = vec3<f32>(0.45, 0.435, 0.385) * (0.90 + 0.2 * noise(q * 23.0));
+    let sealed_over = mix(colour, resin, 0.9 * max(band, foot));
+    return mix(sealed_over, vec3<f32>(0.17, 0.165, 0.155), cover(port, 0.016, f) * step(beyond, 0.0));
+}
+
+// A spider's web with the dust that it has caught.
+fn webbed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
+    let d = length(q);
+    let reach = 0.15 + 0.10 * own;
+    if d > reach {
+        return colour;
+    }
+    let turns = atan2(q.y, q.x) / (2.0 * PI) * 14.0;
+    let spoke = abs(fract(turns) - 0.5) * 2.0 * PI * d / 14.0;
+    // Between spokes the threads sag.
+    let sag = 0.10 * d * (1.0 - 4.0 * (fract(turns) - 0.5) * (fract(turns) - 0.5));
+    let threads = max(cover(0.22 * d - min(spoke, 0.22 * d), 0.0014, f), lines(d + sag, 0.014, 0.0010, f));
+    let gone = smoothstep(0.68, 0.85, noise(q * 9.0 + own * 40.0)) + smoothstep(0.8 * reach, reach, d);
+    let dust = 0.25 * (1.0 - smoothstep(0.0, reach, d));
+    return mix(colour, vec3<f32>(0.60, 0.59, 0.56), clamp(0.75 * threads + dust, 0.0, 1.0) * (1.0 - min(gone, 1.0)));
+}
+
+// A name in spray paint: five letters of a hand's making, and a stroke under them.
+fn sprayed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
+    const LETTER_M: f32 = 0.46;
+    let slanted = q.x - 0.22 * q.y;
+    let k = floor(slanted / LETTER_M + 2.5);
+    let v = vec2<f32>(slanted - (k - 2.0) * LETTER_M, q.y - 0.08 * sin(2.1 * q.x + 9.0 * own));
+    let letter = i32(floor(own * 4.0) + k) & 3;
+    let half = 0.30;
+    var d = 0.0;
+    if letter == 0 {
+        d = abs(length(v * vec2<f32>(1.0, 0.55)) - 0.15);
+    } else if letter == 1 {
+        d = min(abs(v.x + 0.15), abs(v.x - 0.15 + 0.5 * abs(v.y)));
+    } else if letter == 2 {
+        d = min(abs(length(vec2<f32>(v.x, v.y - 0.15)) - 0.14), abs(v.x + 0.13));
+    } else {
+        d = min(abs(v.x), abs(v.y - 0.24 + 0.3 * abs(v.x)));
+    }
+    let inside = step(abs(k - 2.0), 2.0);
+    let body = max(d, abs(v.y) - half) + 2.0 * (1.0 - inside);
+    let under = max(abs(q.y + 0.44 - 0.06 * sin(2.4 * q.x)), abs(q.x) - 1.2);
+    let nozzle = 0.065 + 0.02 * noise(q * 5.0 + own * 30.0);
+    let soft = max(f, 0.014);
+    let stroke = cover(min(body, under), nozzle, soft);
+    // Too much paint runs down.
+    let run = cover(abs(fract(q.x / 0.37 + own) - 0.5) * 0.37, 0.012, f) * step(q.y, -0.44) * step(-0.95 + 0.5 * noise(vec2<f32>(floor(q.x / 0.37 + own) * 3.3, own)), q.y);
+    let paint = select(select(vec3<f32>(0.030, 0.030, 0.034), vec3<f32>(0.035, 0.09, 0.34), own > 0.35), vec3<f32>(0.42, 0.035, 0.04), own > 0.7);
+    return mix(colour, paint, 0.92 * max(stroke, run * step(abs(q.x), 1.1)));
+}
+
 // Cast concrete: boards of the formwork, construction joints, tie holes, blotches, streaks of rain, green near the water.
 fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
     let uv = in.uv;
@@ -99,8 +192,9 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
         let splash = 0.055 * fine(uv * 38.0, 0.0, grain);
         colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * (1.0 - smoothstep(splash - 0.5 * f, splash + 0.5 * f + 0.004, d)));
     }
-    // Splash zone: algae and a wet foot.
     let over = in.p.z - g.scene.y;
+    colour = befriended(colour, in, n, f);
+    // Splash zone: algae and a wet foot.
     let reach = 0.8 + 0.5 * fine(uv * 0.8 + 4.0, f * 0.8, blotch);
     let slime = wall * (1.0 - smoothstep(0.15, reach, over));
     colour = mix(colour, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);
@@ -249,6 +343,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     m.metal = 0.0;
     m.roughness = 0.9;
     m.light = in.light;
+    m.sunlit = 1.0;
     if LOOK == 0u {
         concrete(in, n, fp, &m);
     } else if LOOK == 1u {
