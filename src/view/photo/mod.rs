@@ -68,8 +68,9 @@ impl About {
 /// Direction of a pose's optical axis: degrees clockwise from true north (0 to 360), degrees over the horizon.
 #[must_use]
 pub fn direction_deg(pose: &CameraPose) -> (f64, f64) {
-    let forward: Vec3<Enu> = pose.forward;
-    let yaw = math::atan2(forward.east(), forward.north()).to_degrees().rem_euclid(360.0);
+    let (forward, right): (Vec3<Enu>, Vec3<Enu>) = (pose.forward, pose.right);
+    // From the image's right, which the gimbal holds level: straight up and down the axis itself has no heading.
+    let yaw = (math::atan2(right.east(), right.north()).to_degrees() - 90.0).rem_euclid(360.0);
     (yaw, math::asin(forward.up().clamp(-1.0, 1.0)).to_degrees())
 }
 

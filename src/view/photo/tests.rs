@@ -54,6 +54,21 @@ fn exact_exif_tells_place_lens_and_direction() {
 }
 
 #[test]
+fn exact_a_heading_is_told_straight_up_and_down_too() {
+    use crate::base::frames::Rotation;
+    let camera = crate::site::defects::REFERENCE_CAMERA;
+    for yaw_deg in [0.5_f64, 45.0, 135.0, 180.0, 271.5, 359.0] {
+        for pitch_deg in [-90.0_f64, -30.0, 0.0, 89.0, 90.0] {
+            let attitude = Rotation::from_euler(0.1, -0.05, yaw_deg.to_radians());
+            let pose = CameraPose::on(&camera, (Vec3::new(0.0, 0.0, 0.0), attitude), pitch_deg.to_radians(), false);
+            let (yaw, pitch) = direction_deg(&pose);
+            // The arc sine is flat at its ends: rounding errors of 1e-16 there are 1e-6 degrees.
+            assert!((yaw - yaw_deg).abs() < 1e-9 && (pitch - pitch_deg).abs() < 1e-5, "{yaw_deg} {pitch_deg}: {yaw} {pitch}");
+        }
+    }
+}
+
+#[test]
 fn exact_the_ground_sampling_distance_is_that_of_the_drawn_picture() {
     // Ninety degrees, 4 m away: 8 m over 4000 px, and over 1000.
     let close = |width, mm: f64| (about().gsd_mm(width).unwrap() - mm).abs() < 1e-9;
