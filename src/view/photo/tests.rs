@@ -49,6 +49,11 @@ fn exact_exif_tells_place_lens_and_direction() {
     assert_eq!((numbers(Tag::GPSAltitude), numbers(Tag::GPSImgDirection)), (vec![432.1], vec![271.5]));
     // Ninety degrees: the focal length is half the sensor's width, 18 mm on film.
     assert_eq!((numbers(Tag::FocalLength), value(Tag::FocalLengthIn35mmFilm)), (vec![3.085], "18".into()));
+    // Pixels over a centimetre (unit 3) of a sensor 6.17 mm wide, to a thousandth.
+    assert_eq!(read.get_field(Tag::FocalPlaneResolutionUnit, In::PRIMARY).unwrap().value.get_uint(0), Some(3));
+    for tag in [Tag::FocalPlaneXResolution, Tag::FocalPlaneYResolution] {
+        assert!((numbers(tag)[0] - 64.0 / 0.617).abs() <= 0.5e-3, "{:?}", numbers(tag));
+    }
     assert_eq!(value(Tag::DateTimeOriginal), "2026-06-20 08:15:30");
     assert_eq!(numbers(Tag::ExposureTime), [0.004]);
 }
