@@ -34,7 +34,7 @@ fn noise(width: u32, height: u32) -> Picture {
 
 #[test]
 fn exact_exif_tells_place_lens_and_direction() {
-    let file = jpeg(&noise(64, 48), &about(), 1 << 20).unwrap();
+    let file = jpeg(&noise(64, 48), &about()).unwrap();
     let read = exif::Reader::new().read_from_container(&mut std::io::Cursor::new(&file)).unwrap();
     let value = |tag| read.get_field(tag, In::PRIMARY).map(|field| field.display_value().to_string()).unwrap_or_default();
     let numbers = |tag| match &read.get_field(tag, In::PRIMARY).unwrap().value {
@@ -87,9 +87,24 @@ fn exact_the_ground_sampling_distance_is_that_of_the_drawn_picture() {
 #[test]
 fn exact_a_file_is_as_good_as_fits() {
     let picture = noise(400, 300);
-    let free = jpeg(&picture, &about(), usize::MAX).unwrap();
+    let free = plain(&picture, usize::MAX).unwrap();
     let most = free.len() / 2;
-    let fitted = jpeg(&picture, &about(), most).unwrap();
+    let fitted = plain(&picture, most).unwrap();
     // Halving stops a step of quality below the limit; for noise a step is a few hundredths of the size.
     assert!(fitted.len() <= most && fitted.len() > most * 9 / 10, "{} of {most}", fitted.len());
+}
+
+#[test]
+fn exact_a_copy_is_as_wide_as_fits_and_a_photograph_is_not_made_coarser() {
+    let picture = noise(1600, 1200);
+    let size = |file: &[u8]| {
+        let image = image::load_from_memory(file).unwrap();
+        (image.width(), image.height())
+    };
+    let free = copy(&picture, usize::MAX).unwrap();
+    assert_eq!(size(&free), (1280, 960));
+    let quarter = copy(&picture, free.len() / 10).unwrap();
+    assert!(quarter.len() <= free.len() / 10 && size(&quarter) == (640, 480), "{} of {}", quarter.len(), free.len());
+    assert_eq!(size(&copy(&picture, 1_000).unwrap()), (320, 240), "never narrower, though it is too large");
+    assert_eq!(size(&jpeg(&picture, &about()).unwrap()), (1600, 1200));
 }
