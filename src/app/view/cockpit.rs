@@ -19,6 +19,7 @@ mod window;
 mod words;
 
 use super::Args;
+use crate::app::clock;
 use crate::app::controller;
 use crate::app::errors::AppError;
 use crate::app::files;
@@ -71,7 +72,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     // On Linux every thread has a niceness of its own, that of the thread which began it: sticks are sent by one that began before, pictures
     // are encoded by one that begins after.
     priority::stand_back();
-    crew.stream = args.stream.map(Stream::open).transpose()?;
+    crew.stream = args.stream.map(|to| Stream::open(to, clock::unix_us())).transpose()?;
     let speaker = Speaker::new(keys.sounds, !args.no_sound);
     Cockpit::new(plan, keys, flow, crew, speaker, stop).run()
 }
