@@ -5,7 +5,7 @@ use spandrel::mav::codec::{Decoder, Encoder};
 use spandrel::mav::dialect::MavMessage;
 use std::io::{BufRead, BufReader};
 use std::net::UdpSocket;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// A simulator that says nothing for so long is gone.
@@ -17,13 +17,40 @@ pub fn now() -> Instant {
 }
 
 /// A simulator that ends with this.
-pub struct Running(Child);
+pub struct Running {
+    child: Child,
+    told: BufReader<ChildStdout>,
+}
+
+/// How late a simulator was, in wall time.
+pub struct Lateness {
+    /// The most that its ticks were late, ms.
+    pub latest_ms: f64,
+    /// How often they were so late that its clock let time go.
+    pub slips: u64,
+}
+
+impl Running {
+    /// Ends it, and reads how late it was.
+    pub fn end(mut self) -> Lateness {
+        drop(self.child.stdin.take());
+        let told = self.line();
+        let number = |key: &str| told[key].as_f64().expect("a number");
+        Lateness { latest_ms: number("latest_ms"), slips: number("slips") as u64 }
+    }
+
+    fn line(&mut self) -> serde_json::Value {
+        let mut line = String::new();
+        self.told.read_line(&mut line).expect("one line");
+        serde_json::from_str(&line).expect("JSON")
+    }
+}
 
 impl Drop for Running {
     fn drop(&mut self) {
         // Its standard input closes, which ends it; a child that is gone already is no error.
-        drop(self.0.stdin.take());
-        let _ = self.0.wait();
+        drop(self.child.stdin.take());
+        let _ = self.child.wait();
     }
 }
 
@@ -76,16 +103,16 @@ impl Client {
 
 /// A simulator in real time, and the port that ground stations dial.
 pub fn start() -> (Running, u16) {
-    let arguments =
-        ["sim", "--scenario", "drill-hover", "--seed", "7", "--ports", "ephemeral", "--announce", "--leash", "--log", "warn"];
+    let job = ["sim", "--scenario", "drill-hover", "--seed", "7", "--ports", "ephemeral", "--log", "warn"];
     let mut child = Command::new(env!("CARGO_BIN_EXE_spandrel"))
-        .args(arguments)
+        .args(job)
+        .args(["--announce", "--leash", "--lateness"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
         .expect("the program runs");
-    let mut line = String::new();
-    BufReader::new(child.stdout.take().expect("piped")).read_line(&mut line).expect("one line");
-    let announced: serde_json::Value = serde_json::from_str(&line).expect("JSON");
-    (Running(child), announced["gcs_port"].as_u64().expect("a port") as u16)
+    let told = BufReader::new(child.stdout.take().expect("piped"));
+    let mut running = Running { child, told };
+    let port = running.line()["gcs_port"].as_u64().expect("a port");
+    (running, port as u16)
 }

@@ -54,28 +54,41 @@ impl std::fmt::Display for Speed {
     }
 }
 
+/// How late a machine was with its ticks, in wall time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Lateness {
+    /// The most by which simulation time lay behind when it was let run; a sleep's length at least, for ticks are not waited for singly.
+    pub latest: Duration,
+    /// How often so much was missing that the clock slipped.
+    pub slips: u32,
+    /// What was lost by that.
+    pub slipped: Duration,
+}
+
 /// Maps wall time to the simulation time that is due.
 #[derive(Debug, Clone)]
 pub struct Pace {
     speed: Speed,
     wall: Duration,
     sim: SimTime,
-    slipped: Duration,
+    late: Lateness,
 }
 
 impl Pace {
     /// Simulation time zero is now.
     pub fn new(speed: Speed, wall: Duration) -> Self {
-        Self { speed, wall, sim: SimTime::ZERO, slipped: Duration::ZERO }
+        Self { speed, wall, sim: SimTime::ZERO, late: Lateness::default() }
     }
 
     /// The simulation time to run to, at most [`STEP`] past `reached`.
     pub fn target(&mut self, wall: Duration, reached: SimTime) -> SimTime {
         let Speed::Times(times) = self.speed else { return reached + STEP };
         let due = self.due(wall, times);
-        let behind_s = (due.saturating_sub(reached)).s() / times;
-        if behind_s > SLACK.as_secs_f64() {
-            self.slipped += Duration::from_secs_f64(behind_s);
+        let behind = Duration::from_secs_f64(due.saturating_sub(reached).s() / times);
+        self.late.latest = self.late.latest.max(behind);
+        if behind > SLACK {
+            self.late.slips += 1;
+            self.late.slipped += behind;
             self.wall = wall;
             self.sim = reached;
             return reached + STEP;
@@ -95,9 +108,9 @@ impl Pace {
         (self.wall + Duration::from_secs_f64(due_s)).saturating_sub(wall)
     }
 
-    /// Wall time that was lost because the machine could not keep up.
-    pub fn slipped(&self) -> Duration {
-        self.slipped
+    /// How late the machine has been.
+    pub fn late(&self) -> Lateness {
+        self.late
     }
 
     fn due(&self, wall: Duration, times: f64) -> SimTime {
@@ -143,7 +156,8 @@ mod tests {
     fn exact_a_stalled_host_slips_and_does_not_race() {
         let mut pace = Pace::new(Speed::Times(1.0), Duration::ZERO);
         assert_eq!(pace.target(Duration::from_secs(5), SimTime::ZERO), STEP);
-        assert_eq!(pace.slipped(), Duration::from_secs(5));
+        let five = Duration::from_secs(5);
+        assert_eq!(pace.late(), Lateness { latest: five, slips: 1, slipped: five });
         assert_eq!(pace.target(Duration::from_millis(5010), STEP), SimTime::from_ms(10));
     }
 
@@ -153,7 +167,16 @@ mod tests {
         assert_eq!(pace.target(Duration::from_millis(5), SimTime::ZERO), SimTime::from_ms(10));
         pace.hold(Duration::from_secs(60), SimTime::from_ms(10));
         assert_eq!(pace.target(Duration::from_millis(60_005), SimTime::from_ms(10)), SimTime::from_ms(20));
-        assert_eq!(pace.slipped(), Duration::ZERO);
+        assert_eq!(pace.late(), Lateness { latest: Duration::from_millis(5), ..Lateness::default() });
+    }
+
+    #[test]
+    fn exact_the_latest_is_told_in_wall_time_and_a_little_late_is_no_slip() {
+        let mut pace = Pace::new(Speed::Times(4.0), Duration::ZERO);
+        for ms in [2, 102] {
+            pace.target(Duration::from_millis(ms), SimTime::from_ms(8));
+        }
+        assert_eq!(pace.late(), Lateness { latest: Duration::from_millis(100), ..Lateness::default() });
     }
 
     #[test]

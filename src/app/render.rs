@@ -48,8 +48,8 @@ pub struct Args {
     /// Which view of a session
     #[arg(long, value_name = "VIEW", value_parser = ["camera", "inspector", "both"], default_value = "both")]
     view: String,
-    /// Size of each view, px; the camera's keeps its sensor's shape within it [default: 1280x720; of photographs the camera's, without a
-    /// graphics card smaller]
+    /// Size of each view, px; the camera's, and photographs, keep its sensor's shape within it [default: 1280x720; of photographs the
+    /// camera's, without a graphics card smaller]
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
     /// How much the picture may cost: low, medium, high or ultra
@@ -62,7 +62,7 @@ pub struct Args {
     /// Without the head-up display
     #[arg(long)]
     no_hud: bool,
-    /// All photographs of a session into its folder snapshots (JPEG, at most 400 kB each), and its report anew
+    /// All photographs of a session into its folder snapshots (JPEG), small copies for the report into its folder small, and the report anew
     #[arg(long, conflicts_with_all = ["at", "out", "view", "video"])]
     snapshots: bool,
     /// A film of a session's camera view (MP4, H.264), and beside it its chapters (.vtt)

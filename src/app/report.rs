@@ -6,11 +6,11 @@ use super::files;
 use super::progress::Progress;
 use super::session_folder::{Stored, replace};
 use crate::monitor::AssessError;
-use crate::monitor::folder::{REPORT, SNAPSHOTS, sha256_hex};
+use crate::monitor::folder::{REPORT, SMALL, SNAPSHOTS, sha256_hex};
 use crate::report::{About, Jpeg, Review, page, scorm};
 use std::path::{Path, PathBuf};
 
-/// A photograph larger than this is left beside the page, bytes.
+/// A photograph larger than this is a sketch in the page, bytes.
 const PICTURE_MOST: u64 = 400_000;
 /// All photographs in a page together, bytes: with the rest it stays below 10 MB.
 const PICTURES_MOST: u64 = 4_000_000;
@@ -93,7 +93,15 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
 /// As [`run`].
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<crate::report::pictures::Picture>, AppError> {
-    Ok(review(session)?.pictures)
+    // Who asks is about to draw the photographs.
+    Ok(reviewed(session, Vec::new())?.pictures)
+}
+
+/// Largest file, bytes, of each of so many photographs, if the page is to hold all of them.
+#[cfg(feature = "view")]
+pub fn picture_most(count: usize) -> usize {
+    let share = PICTURES_MOST / (count.max(1) as u64);
+    share.min(PICTURE_MOST) as usize
 }
 
 /// A file's address for a browser.
@@ -111,8 +119,12 @@ pub fn address(path: &Path) -> String {
 }
 
 fn review(session: &Path) -> Result<Review, AppError> {
+    reviewed(session, photographs(&session.join(SNAPSHOTS)))
+}
+
+fn reviewed(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
     let stored = Stored::read(session)?;
-    let about = about(session, &stored);
+    let about = About { pictures, ..about(session, &stored) };
     Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about).map_err(|error| match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::wrong(error.to_string()),
         _ => AppError::failed(error.to_string()),
@@ -131,30 +143,45 @@ fn about(session: &Path, stored: &Stored) -> About {
         scenario_sha256: sha256_hex(stored.scenario.text.as_bytes()),
         vehicle_sha256: sha256_hex(stored.vehicle.text.as_bytes()),
         telemetry_sha256: sha256_hex(&stored.log),
-        pictures: photographs(&session.join(SNAPSHOTS)),
+        pictures: Vec::new(),
     }
 }
 
-/// The photographs of a session that are small enough, by the number that ends their names.
+/// The photographs that the page can hold, by the number that ends their names; each as its copy, where there is one.
 fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
-    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.sort();
-    let mut left = PICTURES_MOST;
-    let mut found = Vec::new();
-    for path in paths {
-        let Some(number) = number_of(&path) else { continue };
+    let files = numbered(folder);
+    let (mut left, mut found) = (PICTURES_MOST, Vec::new());
+    for (number, path) in &files {
         let size = path.metadata().map_or(u64::MAX, |about| about.len());
-        if size > PICTURE_MOST.min(left) {
-            tracing::debug!("{}: too large for the page, drawn instead", path.display());
-            continue;
-        }
-        if let Ok(bytes) = std::fs::read(&path) {
+        if size <= PICTURE_MOST.min(left)
+            && let Ok(bytes) = std::fs::read(path)
+        {
             left -= size;
-            found.push((number, Jpeg { bytes }));
+            found.push((*number, Jpeg { bytes }));
         }
     }
+    let sketched = files.len() - found.len();
+    if sketched > 0 {
+        tracing::warn!(
+            "{}: {sketched} of {} photographs are sketches in the report, which takes in {} kB of each and {} kB of all: `spandrel render \
+             SESSION --snapshots` makes copies that fit",
+            folder.display(),
+            files.len(),
+            PICTURE_MOST / 1000,
+            PICTURES_MOST / 1000
+        );
+    }
     found
+}
+
+/// Photographs by the number that ends their names, or their copies.
+fn numbered(folder: &Path) -> Vec<(u32, PathBuf)> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut names: Vec<_> = entries.flatten().map(|entry| entry.file_name()).collect();
+    names.sort();
+    let small = |name| Some(folder.join(SMALL).join(name)).filter(|copy| copy.is_file());
+    let file = |name| small(name).unwrap_or_else(|| folder.join(name));
+    names.iter().filter_map(|name| Some((number_of(Path::new(name))?, file(name)))).collect()
 }
 
 /// The number that ends the name of a JPEG file.
@@ -176,6 +203,26 @@ mod tests {
         {
             assert_eq!(number_of(Path::new(name)), number, "{name}");
         }
+    }
+
+    #[test]
+    fn exact_a_page_holds_copies_and_leaves_what_is_too_large() {
+        let folder = tempfile::tempdir().unwrap();
+        let put = |name: &str, bytes: u64| std::fs::write(folder.path().join(name), vec![0; bytes as usize]).unwrap();
+        std::fs::create_dir(folder.path().join(SMALL)).unwrap();
+        put("0001.jpg", 3 * PICTURE_MOST);
+        put("small/0001.jpg", 70);
+        put("0002.jpg", PICTURE_MOST + 1);
+        (3..14).for_each(|k| put(&format!("{k:04}.jpg"), PICTURE_MOST));
+        let found: Vec<(u32, u64)> = photographs(folder.path()).iter().map(|(k, file)| (*k, file.bytes.len() as u64)).collect();
+        let whole = (3..=11).map(|k| (k, PICTURE_MOST));
+        assert_eq!(found, [(1, 70)].into_iter().chain(whole).collect::<Vec<_>>(), "ten times the most of one, less the copy");
+    }
+
+    #[test]
+    #[cfg(feature = "view")]
+    fn exact_every_photograph_has_its_share() {
+        assert_eq!([0, 1, 10, 100].map(picture_most), [400_000, 400_000, 400_000, 40_000]);
     }
 
     #[test]

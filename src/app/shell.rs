@@ -4,7 +4,7 @@ use super::clock::{self, Stopwatch};
 use super::errors::AppError;
 use super::heard::HeardFile;
 use super::links::{Change, Links};
-use super::pace::{PATIENCE, Pace, Patience, Speed};
+use super::pace::{Lateness, PATIENCE, Pace, Patience, Speed};
 use super::params::ParamFile;
 use super::standstill::Standstill;
 use super::store::Store;
@@ -248,12 +248,17 @@ impl Shell {
         }
     }
 
+    /// How late the machine has been.
+    pub fn late(&self) -> Lateness {
+        self.pace.late()
+    }
+
     /// Finishes the log and tells what was lost.
     pub fn farewell(&mut self) {
         self.core.stop_recording();
         self.keep_files();
         self.keep_heard(true);
-        let slipped = self.pace.slipped();
+        let slipped = self.late().slipped;
         if slipped >= Duration::from_secs(1) {
             tracing::warn!("the machine could not keep up: {:.1} s of wall time were lost", slipped.as_secs_f64());
         }

@@ -6,7 +6,7 @@ use super::files;
 use super::heard::HeardFile;
 use super::key;
 use super::links::Links;
-use super::pace::Speed;
+use super::pace::{Lateness, Speed};
 use super::params::ParamFile;
 use super::ports::PortArgs;
 use super::progress::Progress;
@@ -21,6 +21,7 @@ use crate::sitl::sim::{Sim, SimConfig};
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Simulate the vehicle
 ///
@@ -80,6 +81,10 @@ pub struct Args {
     /// Print the digest of every tick's state at the end: the same scenario, seed and inputs give the same digest
     #[arg(long)]
     digest: bool,
+    /// Print one JSON line {"latest_ms", "slips", "slipped_ms"} for each vehicle at the end: the most by which its ticks were late, how often
+    /// they were so late (250 ms) that the clock let time go, and how much; all in wall time
+    #[arg(long)]
+    lateness: bool,
     /// Print one JSON line {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output first
     #[arg(long)]
     announce: bool,
@@ -164,13 +169,27 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             Ok(shell)
         })
         .collect::<Result<_, AppError>>()?;
-    let digests = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
-    if args.digest {
-        for digest in digests {
+    let flown = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
+    for Flown { digest, late } in flown {
+        if args.digest {
             println!("{}", digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
+        }
+        if args.lateness {
+            println!("{}", told(late));
         }
     }
     Ok(())
+}
+
+fn told(late: Lateness) -> serde_json::Value {
+    let ms = |time: Duration| 1e3 * time.as_secs_f64();
+    serde_json::json!({ "latest_ms": ms(late.latest), "slips": late.slips, "slipped_ms": ms(late.slipped) })
+}
+
+/// What is left of a vehicle at the end.
+struct Flown {
+    digest: [u8; 32],
+    late: Lateness,
 }
 
 fn signing(args: &Args) -> Result<Option<Signing>, AppError> {
@@ -213,8 +232,8 @@ fn numbered(path: &Path, system_id: u8) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Every vehicle in a thread of its own until the end; what goes wrong with one ends all. Gives their digests.
-fn fly(shells: Vec<Shell>, end: SimTime, stop: &Stop, progress: Progress) -> Result<Vec<[u8; 32]>, AppError> {
+/// Every vehicle in a thread of its own until the end; what goes wrong with one ends all.
+fn fly(shells: Vec<Shell>, end: SimTime, stop: &Stop, progress: Progress) -> Result<Vec<Flown>, AppError> {
     let mut progress = Some(progress);
     std::thread::scope(|scope| {
         let threads: Vec<_> = shells
@@ -233,7 +252,7 @@ fn fly(shells: Vec<Shell>, end: SimTime, stop: &Stop, progress: Progress) -> Res
     })
 }
 
-fn fly_one(mut shell: Shell, end: SimTime, stop: &Stop, mut progress: Option<Progress>) -> Result<[u8; 32], AppError> {
+fn fly_one(mut shell: Shell, end: SimTime, stop: &Stop, mut progress: Option<Progress>) -> Result<Flown, AppError> {
     while !stop.asked() && shell.core.now() < end {
         if let Err(error) = shell.turn(end) {
             stop.ask();
@@ -247,5 +266,5 @@ fn fly_one(mut shell: Shell, end: SimTime, stop: &Stop, mut progress: Option<Pro
         progress.end();
     }
     shell.farewell();
-    Ok(shell.core.digest())
+    Ok(Flown { digest: shell.core.digest(), late: shell.late() })
 }

@@ -59,7 +59,7 @@ pub struct Args {
     #[arg(long)]
     pub(super) no_map: bool,
     /// Send the camera's view as H.264 over RTP there; the vehicle then announces the stream, and ground stations show it (QGroundControl
-    /// listens at UDP 5600)
+    /// listens at UDP 5600). It announces port 5600 always: who receives at another one must be told so by hand
     #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
     pub(super) stream: Option<SocketAddr>,
     /// Keep a picture of the window (PNG), then end

@@ -20,6 +20,8 @@ pub const ASSESSMENT: &str = "assessment.json";
 pub const REPORT: &str = "report.html";
 /// Folder of the photographs.
 pub const SNAPSHOTS: &str = "snapshots";
+/// Folder in it: their copies for the report, of the same names.
+pub const SMALL: &str = "small";
 
 /// `session.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]

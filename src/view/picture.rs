@@ -37,6 +37,32 @@ impl Picture {
         if count > 0.0 { sum / count } else { 0.0 }
     }
 
+    /// The same, no wider than this, px: each pixel is the mean of those that it covers.
+    #[must_use]
+    pub fn narrowed(&self, most_px: u32) -> Self {
+        if self.width <= most_px {
+            return self.clone();
+        }
+        let part = |k: u32, of: u32, whole: u32| (u64::from(whole) * u64::from(k) / u64::from(of)) as u32;
+        let width = most_px.max(1);
+        let height = part(width, self.width, self.height).max(1);
+        let corner = |x: u32, y: u32| (part(x, width, self.width), part(y, height, self.height));
+        let rgba = (0..height).flat_map(|y| (0..width).flat_map(move |x| self.mean(corner(x, y), corner(x + 1, y + 1))));
+        Self { width, height, rgba: rgba.collect() }
+    }
+
+    /// Mean of a rectangle's pixels.
+    fn mean(&self, (left, top): (u32, u32), (right, bottom): (u32, u32)) -> [u8; 4] {
+        let (mut sums, mut count) = ([0_u32; 3], 0);
+        for (x, y) in (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y))) {
+            let pixel = self.at(x, y);
+            sums.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += u32::from(value));
+            count += 1;
+        }
+        let [r, g, b] = sums.map(|sum| ((sum + count / 2) / count.max(1)) as u8);
+        [r, g, b, u8::MAX]
+    }
+
     /// Mean absolute difference per channel (0..255); `None` when the sizes differ.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<f64> {
@@ -61,5 +87,18 @@ mod tests {
         assert!((grey(40).luma((0, 0), (9, 9)) - 40.0).abs() < 1e-9);
         assert_eq!(grey(7).at(1, 0), [7, 7, 7]);
         assert_eq!(grey(7).at(2, 0), [0, 0, 0]);
+    }
+
+    #[test]
+    fn exact_a_narrower_picture_has_the_means_of_its_pixels() {
+        let value = |k: u32| 10 * k as u8;
+        let rgba = (0..20).flat_map(|k| [value(k), 0, 200, 255]).collect();
+        let wide = Picture { width: 5, height: 4, rgba };
+        assert_eq!(wide.narrowed(5), wide);
+        let small = wide.narrowed(2);
+        // Columns 0 and 1, then 2 to 4; four rows become one.
+        assert_eq!((small.width, small.height), (2, 1));
+        assert_eq!([small.at(0, 0), small.at(1, 0)], [[80, 0, 200], [105, 0, 200]]);
+        assert_eq!(wide.narrowed(0).rgba.len(), 4);
     }
 }

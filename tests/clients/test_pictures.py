@@ -11,10 +11,12 @@ from PIL import Image
 import display
 import spandrel
 
-# Bytes that a photograph may have (what the report takes in).
-MOST_BYTES = 400_000
+# Bytes that the report takes in of a photograph, and of all together.
+MOST_BYTES, ALL_BYTES = 400_000, 4_000_000
 # Drawn this small, so that a software driver is done soon.
 SIZE = (640, 480)
+# A wider picture keeps the sensor's shape.
+WITHIN = (800, 480)
 # A hundred-thousandth of a degree is a metre: EXIF holds a ten-thousandth of a second, 3 mm.
 PLACE_DEG = 1e-7
 
@@ -38,12 +40,14 @@ def degrees(parts, reference):
 @pytest.mark.timeout(900)
 def test_val_photographs_tell_where_and_how_they_were_taken(session):
     """Pillow reads EXIF and XMP; the report shows the photographs."""
-    spandrel.run("render", str(session), "--snapshots", "--quality", "low", "--size", f"{SIZE[0]}x{SIZE[1]}", program=spandrel.COCKPIT)
+    spandrel.run("render", str(session), "--snapshots", "--quality", "low", "--size", f"{WITHIN[0]}x{WITHIN[1]}", program=spandrel.COCKPIT)
     taken = json.loads((session / "assessment.json").read_text(encoding="utf-8"))["snapshots"]["taken"]
     photographs = sorted((session / "snapshots").glob("[0-9][0-9][0-9][0-9].jpg"))
     assert taken > 0 and len(photographs) >= taken, (taken, photographs)
-    for path in photographs:
-        assert path.stat().st_size <= MOST_BYTES
+    copies = [path.parent / "small" / path.name for path in photographs]
+    assert sum(path.stat().st_size for path in copies) <= ALL_BYTES
+    for path, copy in zip(photographs, copies):
+        assert copy.stat().st_size <= MOST_BYTES and Image.open(copy).size[0] <= 1280
         image = Image.open(path)
         image.load()
         assert image.size == SIZE and image.getextrema() != ((0, 0),) * 3

@@ -250,14 +250,29 @@ fn wire_focus_is_answered_as_it_is_and_a_stream_runs_while_somebody_sends_it() {
     };
     let stream = told(&station).expect("told to everybody at once");
     assert_eq!((stream.flags, stream.resolution_h, stream.resolution_v, stream.framerate), (running, 640, 360, 20.0));
+    for (width, announced) in [(640, false), (960, true), (640, true)] {
+        station.heard.clear();
+        station.send(&MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA { resolution_h: width, ..sent.clone() }));
+        station.run_ms(100);
+        assert_eq!(told(&station).map(|s| s.resolution_h), announced.then_some(width), "another size is told to everybody");
+    }
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_STREAMING, p(&[1.0])), OK);
-    station.send(&MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA { framerate: f32::NAN, resolution_h: 9, ..sent }));
+    station.send(&MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
+        framerate: f32::NAN,
+        resolution_h: 9,
+        ..sent.clone()
+    }));
     station.run_ms(3_000);
     assert_eq!(ask(&mut station, 269), OK);
     assert_eq!(told(&station).map(|s| (s.flags, s.resolution_h)), Some((running, 640)), "nonsense changes nothing");
     station.run_ms(1_000);
     assert_eq!(ask(&mut station, 269), OK);
     assert_eq!(told(&station).map(|s| s.flags), Some(VideoStreamStatusFlags::empty()), "nobody sends it any more");
+    station.sim.set_pace(10.0);
+    station.send(&MavMessage::VIDEO_STREAM_STATUS(sent));
+    station.run_ms(30_000);
+    assert_eq!(ask(&mut station, 269), OK);
+    assert_eq!(told(&station).map(|s| s.flags), Some(running), "three seconds for who sends it");
     for track in [MavCmd::MAV_CMD_CAMERA_TRACK_POINT, MavCmd::MAV_CMD_CAMERA_STOP_TRACKING] {
         assert_eq!(station.command(CAMERA, track, p(&[0.5, 0.5])), UNSUPPORTED);
     }

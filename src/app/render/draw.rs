@@ -94,12 +94,12 @@ fn point(name: &str, text: &str) -> Result<Vec3<Enu>, AppError> {
     }
 }
 
-/// A time from the command line.
-pub fn instant(seconds: f64) -> Result<SimTime, AppError> {
+/// A time from an option (`at`) of the command line.
+pub fn instant(name: &str, seconds: f64) -> Result<SimTime, AppError> {
     if (0.0..=86_400.0).contains(&seconds) {
         Ok(SimTime::from_s(seconds))
     } else {
-        Err(AppError::wrong(format!("--at {seconds}: give seconds of simulation time, 0 to 86400")))
+        Err(AppError::wrong(format!("--{name} {seconds}: give seconds of simulation time, 0 to 86400")))
     }
 }
 
@@ -122,7 +122,7 @@ fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pictur
         return Err(AppError::wrong("of a scenario --from E,N,U and --look E,N,U say what to draw"));
     };
     let (from, look) = (point("from", from)?, point("look", look)?);
-    let at = instant(args.at.unwrap_or(0.0))?;
+    let at = instant("at", args.at.unwrap_or(0.0))?;
     let lens = match args.fov {
         Some(deg) if (1.0..=150.0).contains(&deg) => Camera { hfov_rad: deg.to_radians(), ..vehicle.camera },
         Some(deg) => return Err(AppError::wrong(format!("--fov {deg}: give degrees, 1 to 150"))),
@@ -141,7 +141,7 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
     let recorded = Recorded::read(std::path::Path::new(&args.what))?;
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
     let (first, last) = recorded.span();
-    let at = instant(args.at.unwrap_or(0.5 * (first.s() + last.s())))?;
+    let at = instant("at", args.at.unwrap_or(0.5 * (first.s() + last.s())))?;
     let moment = recorded.moment(at)?;
     let drawing = Drawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_gates(recorded.gates());
     let stage = drawing.stage(scenario, vehicle);

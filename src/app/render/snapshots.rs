@@ -9,13 +9,12 @@ use super::draw::{Drawing, quality, size};
 use super::recorded::Recorded;
 use super::{Args, masks};
 use crate::base::geodesy::LocalPlane;
-use crate::monitor::folder::SNAPSHOTS;
+use crate::monitor::folder::{SMALL, SNAPSHOTS};
 use crate::report::pictures::Picture;
+use crate::view::arrange::{drawn_px, fitted_px};
 use crate::view::photo::{self, About, PhotoError};
 use crate::view::shot::Shot;
 
-/// Largest file, bytes: what the report takes in.
-const MOST_BYTES: usize = 400_000;
 /// Without a graphics card pictures have at most so many pixels unless a size is asked for: a second each, not a minute.
 const SOFTWARE_PX: f64 = 1280.0 * 960.0;
 
@@ -39,13 +38,16 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let drawing = drawing.with_gates(recorded.gates());
     let camera = &recorded.vehicle().camera;
     let most = drawing.gpu.software.then_some(SOFTWARE_PX);
-    let size_px =
-        asked.unwrap_or_else(|| crate::view::arrange::drawn_px((f64::from(camera.width_px), f64::from(camera.height_px)), most));
+    let size_px = match asked {
+        Some(within) => fitted_px(within, camera.aspect()),
+        None => drawn_px((f64::from(camera.width_px), f64::from(camera.height_px)), most),
+    };
     if size_px != (camera.width_px, camera.height_px) {
         tracing::info!("drawn at {} x {} px, not the camera's {} x {}", size_px.0, size_px.1, camera.width_px, camera.height_px);
     }
     let folder = recorded.folder.join(SNAPSHOTS);
-    std::fs::create_dir_all(&folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
+    let copies = folder.join(SMALL);
+    std::fs::create_dir_all(&copies).map_err(|error| AppError::failed(format!("{}: {error}", copies.display())))?;
     let mut brush = drawing.brush();
     let mut progress = Progress::start("drawing pictures");
     for (k, picture) in taken.iter().enumerate() {
@@ -53,12 +55,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         let moment = recorded.moment(picture.time)?;
         let shot = drawing.stage(recorded.scenario(), recorded.vehicle()).camera(&moment, size_px);
         let drawn = brush.draw(&shot, &[])?;
-        let bytes = photo::jpeg(&drawn, &about(&recorded, picture, &shot), MOST_BYTES)?;
-        if bytes.len() > MOST_BYTES {
-            tracing::warn!("picture {} has {} bytes at the coarsest: give a smaller --size", picture.number, bytes.len());
-        }
-        let path = folder.join(format!("{:04}.jpg", picture.index.max(0)));
-        replace(&path, &bytes)?;
+        let name = format!("{:04}.jpg", picture.index.max(0));
+        let path = folder.join(&name);
+        replace(&path, &photo::jpeg(&drawn, &about(&recorded, picture, &shot))?)?;
+        replace(&copies.join(&name), &photo::copy(&drawn, report::picture_most(taken.len()))?)?;
         if args.masks {
             masks::write(&mut brush, &shot, drawing.defects(), &path)?;
         }

@@ -85,7 +85,7 @@ fn span(args: &Args, recorded: &Recorded) -> Result<(SimTime, SimTime), AppError
     };
     let (from, to) = text.split_once(',').ok_or_else(wrong)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
-    let (from, to) = (instant(number(from)?)?, instant(number(to)?)?);
+    let (from, to) = (instant("span", number(from)?)?, instant("span", number(to)?)?);
     if from < first || to > last || from >= to { Err(wrong()) } else { Ok((from, to)) }
 }
 

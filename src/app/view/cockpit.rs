@@ -19,6 +19,7 @@ mod window;
 mod words;
 
 use super::Args;
+use crate::app::clock;
 use crate::app::controller;
 use crate::app::errors::AppError;
 use crate::app::files;
@@ -53,8 +54,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         announce: args.announce && !args.led,
     };
     let stop = Stop::install(args.leash && !args.led)?;
-    let stream = args.stream.map(Stream::open).transpose()?;
-    let mut crew = Crew { pilot: None, lead: None, flight: None, stream };
+    let mut crew = Crew { pilot: None, lead: None, flight: None, stream: None };
     if args.led || args.fly.is_some() {
         crew.pilot = Some(Pilot::start(args, keys.clone())?);
     }
@@ -69,8 +69,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     if let (Some(pilot), Some(vehicle)) = (&crew.pilot, args.fly) {
         pilot.ask(Ask::Fly(vehicle));
     }
-    // On Linux every thread has a niceness of its own, that of the thread which began it: sticks are sent by one that began before.
+    // On Linux every thread has a niceness of its own, that of the thread which began it: sticks are sent by one that began before, pictures
+    // are encoded by one that begins after.
     priority::stand_back();
+    crew.stream = args.stream.map(|to| Stream::open(to, clock::unix_us())).transpose()?;
     let speaker = Speaker::new(keys.sounds, !args.no_sound);
     Cockpit::new(plan, keys, flow, crew, speaker, stop).run()
 }

@@ -47,6 +47,8 @@ const ROTORS: (u32, f32) = (36, 20.0);
 const FLIGHT: u32 = 264;
 /// Pulses of outputs that are at rest and full, µs (SERVO_OUTPUT_RAW).
 const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
+/// A stream without a picture for so long has ended: a window that is hidden draws none.
+const VIDEO_LASTS: SimTime = SimTime::from_ms(3_000);
 /// A clock that goes back by more is a restarted simulator, once so many samples in a row say so.
 const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
 const RESTART_CONFIRM: u32 = 3;
@@ -74,7 +76,8 @@ pub struct Live {
     heard: Option<SimTime>,
     head: Playhead,
     state: State,
-    video: Option<Video>,
+    /// And when its last picture went out, wall time.
+    video: Option<(Video, SimTime)>,
 }
 
 /// What begins anew with the simulator.
@@ -277,9 +280,18 @@ impl Live {
         self.state = State::default();
     }
 
-    /// The camera's view is streamed; the vehicle hears of it every second, and announces it.
-    pub fn streams(&mut self, video: Video) {
-        self.video = Some(video);
+    /// The camera's view is streamed, a picture went out at a wall time; or it is not. The vehicle hears of it every second, and announces it.
+    pub fn streams(&mut self, video: Option<Video>, wall: SimTime) {
+        match video {
+            Some(video) => self.video = Some((video, wall)),
+            None => self.end_video(),
+        }
+    }
+
+    fn end_video(&mut self) {
+        if let Some((video, _)) = self.video.take() {
+            self.say(&video.status(false));
+        }
     }
 
     /// Queues what is due to be said: a heartbeat, so that the vehicle knows its listener, and questions to one that says no truth.
@@ -287,8 +299,10 @@ impl Live {
         if wall >= self.next_beat {
             self.next_beat = wall + HEARTBEAT_EVERY;
             self.say(&station::companion_heartbeat());
-            if let Some(video) = self.video {
-                self.say(&video.status());
+            match self.video {
+                Some((_, last)) if wall.saturating_sub(last) > VIDEO_LASTS => self.end_video(),
+                Some((video, _)) => self.say(&video.status(true)),
+                None => {}
             }
         }
         if let (Some(system), Some(due)) = (self.system, self.next_rotors)

@@ -238,3 +238,37 @@ fn exact_who_begins_to_listen_in_flight_asks_since_when_it_flies() {
     wire.say(&MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { takeoff_time_utc: 99_000_000, ..flight }), 60);
     assert_eq!(wire.now(60).unwrap().told.begun, Some(SimTime::from_ms(12_500)), "a flight begins once");
 }
+
+#[test]
+fn exact_a_stream_is_told_of_while_pictures_go_out_and_its_end_once() {
+    let mut wire = Wire::new();
+    let video = Video { width_px: 640, height_px: 360, rate_hz: 20.0, bits_s: 1_000_000 };
+    let mut decoder = Decoder::new();
+    let mut said = |live: &mut Live| -> Vec<bool> {
+        let frames: Vec<_> = std::iter::from_fn(|| live.poll_transmit()).flat_map(|bytes| decoder.datagram(&bytes)).collect();
+        let runs = |message: &MavMessage| match message {
+            MavMessage::VIDEO_STREAM_STATUS(status) => Some(!status.flags.is_empty()),
+            _ => None,
+        };
+        frames.iter().filter_map(|frame| frame.message.as_ref().and_then(runs)).collect()
+    };
+    let at = SimTime::from_ms;
+    wire.live.streams(None, at(0));
+    wire.live.handle_timeout(at(0));
+    assert_eq!(said(&mut wire.live), [], "what never ran does not end");
+    wire.live.streams(Some(video), at(500));
+    let mut beats = |live: &mut Live, from_s: i64| -> Vec<Vec<bool>> {
+        let beat = |k| {
+            live.handle_timeout(at(1_000 * k));
+            said(live)
+        };
+        (from_s..from_s + 5).map(beat).collect()
+    };
+    let ended: [&[bool]; 5] = [&[true], &[true], &[true], &[false], &[]];
+    assert_eq!(beats(&mut wire.live, 1), ended, "no picture since half a second");
+    wire.live.streams(Some(video), at(10_000));
+    assert_eq!(beats(&mut wire.live, 10)[0], [true]);
+    wire.live.streams(Some(video), at(15_000));
+    wire.live.streams(None, at(15_000));
+    assert_eq!(beats(&mut wire.live, 15)[0], [false], "at once");
+}

@@ -16,13 +16,14 @@ pub struct Video {
 }
 
 impl Video {
-    /// As the vehicle is told of it.
-    pub(super) fn status(&self) -> MavMessage {
+    /// As the vehicle is told of it: that it runs, or that it has ended.
+    pub(super) fn status(&self, runs: bool) -> MavMessage {
         let side = |px: u32| u16::try_from(px).unwrap_or(u16::MAX);
+        let running = VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING;
         MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
             framerate: self.rate_hz as f32,
             bitrate: self.bits_s,
-            flags: VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING,
+            flags: if runs { running } else { VideoStreamStatusFlags::empty() },
             resolution_h: side(self.width_px),
             resolution_v: side(self.height_px),
             stream_id: 1,

@@ -68,21 +68,43 @@ impl About {
 /// Direction of a pose's optical axis: degrees clockwise from true north (0 to 360), degrees over the horizon.
 #[must_use]
 pub fn direction_deg(pose: &CameraPose) -> (f64, f64) {
-    let forward: Vec3<Enu> = pose.forward;
-    let yaw = math::atan2(forward.east(), forward.north()).to_degrees().rem_euclid(360.0);
+    let (forward, right): (Vec3<Enu>, Vec3<Enu>) = (pose.forward, pose.right);
+    // From the image's right, which the gimbal holds level: straight up and down the axis itself has no heading.
+    let yaw = (math::atan2(right.east(), right.north()).to_degrees() - 90.0).rem_euclid(360.0);
     (yaw, math::asin(forward.up().clamp(-1.0, 1.0)).to_degrees())
 }
 
-/// The photograph as a file of at most `most` bytes, as good as fits; larger only where even the coarsest JPEG is.
+/// Widest copy, px: what a report shows at most.
+const COPY_WIDEST_PX: u32 = 1280;
+/// Narrowest copy, px: in a narrower one no defect would be seen.
+const COPY_NARROWEST_PX: u32 = 320;
+
+/// The photograph as a file, at the quality of which one sees no loss, however large.
 ///
 /// # Errors
 /// When JPEG or EXIF cannot say it.
-pub fn jpeg(picture: &Picture, about: &About, most: usize) -> Result<Vec<u8>, PhotoError> {
+pub fn jpeg(picture: &Picture, about: &About) -> Result<Vec<u8>, PhotoError> {
     let size = (picture.width, picture.height);
-    jpeg::encode(picture, Some((&tags::write(about, size)?, &xmp::write(about, size))), most)
+    jpeg::encode(picture, Some((&tags::write(about, size)?, &xmp::write(about, size))), usize::MAX)
 }
 
-/// A picture that tells nothing of itself, as good as fits into `most` bytes.
+/// A copy for a report that tells nothing of itself, as wide and as good as fits into `most` bytes; larger only where even the narrowest and
+/// coarsest is.
+///
+/// # Errors
+/// When JPEG cannot say it.
+pub fn copy(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
+    let mut small = picture.narrowed(COPY_WIDEST_PX);
+    loop {
+        let file = plain(&small, most)?;
+        if file.len() <= most || small.width / 2 < COPY_NARROWEST_PX {
+            return Ok(file);
+        }
+        small = small.narrowed(small.width / 2);
+    }
+}
+
+/// A picture that tells nothing of itself, as good as fits into `most` bytes; larger only where even the coarsest JPEG is.
 ///
 /// # Errors
 /// When JPEG cannot say it.

@@ -55,10 +55,11 @@ fn camera(about: &About, (width, height): (u32, u32)) -> Vec<(Tag, Value)> {
         (Tag::PixelYDimension, Value::Long(vec![height])),
         (Tag::FocalLength, one(focal_mm, 1000)),
         (Tag::FocalLengthIn35mmFilm, Value::Short(vec![(focal_mm * FILM_MM / SENSOR_MM).round() as u16])),
-        // Pixels of this picture over a millimetre of the sensor: with the focal length this is all that a bundle adjustment needs.
-        (Tag::FocalPlaneXResolution, one(f64::from(width) / SENSOR_MM, 1000)),
-        (Tag::FocalPlaneYResolution, one(f64::from(width) / SENSOR_MM, 1000)),
-        (Tag::FocalPlaneResolutionUnit, Value::Short(vec![4])),
+        // Pixels of this picture over a centimetre of the sensor: with the focal length this is all that a bundle adjustment needs. EXIF knows
+        // inches and centimetres alone; a millimetre (4) is TIFF/EP's, and not every program reads it.
+        (Tag::FocalPlaneXResolution, one(10.0 * f64::from(width) / SENSOR_MM, 1000)),
+        (Tag::FocalPlaneYResolution, one(10.0 * f64::from(width) / SENSOR_MM, 1000)),
+        (Tag::FocalPlaneResolutionUnit, Value::Short(vec![3])),
         (Tag::FNumber, one(lens.f_number, 100)),
         (Tag::ExposureTime, one(about.exposure_s, 1_000_000)),
         (Tag::PhotographicSensitivity, Value::Short(vec![about.iso.round().clamp(1.0, 65_535.0) as u16])),

@@ -1,5 +1,7 @@
 //! H.264 in RTP packets (RFC 3550, RFC 6184): small units whole, large ones in fragments (FU-A).
 
+use crate::base::random::RandomStream;
+
 /// Payload type of the stream: the first dynamic one, which ground stations expect.
 pub const PAYLOAD_TYPE: u8 = 96;
 /// RTP's clock for video, Hz.
@@ -15,18 +17,23 @@ const FU_A: u8 = 28;
 pub struct Packets {
     sequence: u16,
     source: u32,
+    /// Time stamp of time zero.
+    zero: u32,
 }
 
 impl Packets {
-    /// A stream with an identifier of its own.
+    /// A stream whose identifier and first numbers come from a seed: another one for each stream, so that a receiver takes none for the
+    /// continuation of the one before (RFC 3550, 5.1).
     #[must_use]
-    pub fn new(source: u32) -> Self {
-        Self { sequence: 0, source }
+    pub fn new(seed: u64) -> Self {
+        let mut random = RandomStream::new(seed, "rtp");
+        let mut bits = || (random.bits() >> 32) as u32;
+        Self { sequence: (bits() >> 16) as u16, source: bits(), zero: bits() }
     }
 
     /// The packets of a picture that was taken at a time, s; the last one is marked.
     pub fn picture(&mut self, units: &[Vec<u8>], at_s: f64) -> Vec<Vec<u8>> {
-        let stamp = ((at_s * CLOCK_HZ).round() as i64) as u32;
+        let stamp = self.zero.wrapping_add(((at_s * CLOCK_HZ).round() as i64) as u32);
         let payloads: Vec<Vec<u8>> = units.iter().flat_map(|unit| payloads(unit)).collect();
         let last = payloads.len().saturating_sub(1);
         payloads.into_iter().enumerate().map(|(k, payload)| self.packet(&payload, stamp, k == last)).collect()

@@ -45,13 +45,17 @@ fn exact_every_tenth_picture_can_be_read_by_itself() {
 fn exact_packets_put_together_again_are_the_units() {
     let units = vec![vec![0x67, 1, 2], vec![0x65; 5_000], vec![0x41; 1_388], vec![0x41; 1_389]];
     let mut packets = rtp::Packets::new(9);
+    let number = |packet: &[u8]| u16::from_be_bytes([packet[2], packet[3]]);
+    let stamp = |packet: &[u8]| u32::from_be_bytes([packet[4], packet[5], packet[6], packet[7]]);
+    let begin = packets.picture(&[vec![0x41, 1]], 0.0).remove(0);
     let sent = packets.picture(&units, 2.0);
     let mut whole: Vec<Vec<u8>> = Vec::new();
     for (k, packet) in sent.iter().enumerate() {
         assert!(packet.len() <= 1_400);
         assert_eq!((packet[0], packet[1] & 0x7F, packet[1] >> 7 == 1), (0x80, 96, k + 1 == sent.len()));
-        assert_eq!(u16::from_be_bytes([packet[2], packet[3]]) as usize, k);
-        assert_eq!(u32::from_be_bytes([packet[4], packet[5], packet[6], packet[7]]), 180_000);
+        assert_eq!(number(packet).wrapping_sub(number(&begin)) as usize, k + 1);
+        assert_eq!(stamp(packet).wrapping_sub(stamp(&begin)), 180_000);
+        assert_eq!(packet[8..12], begin[8..12], "one source");
         let payload = &packet[12..];
         if payload[0] & 0x1F == 28 {
             if payload[1] & 0x80 != 0 {
@@ -63,6 +67,15 @@ fn exact_packets_put_together_again_are_the_units() {
         }
     }
     assert_eq!(whole, units);
+}
+
+#[test]
+fn exact_each_stream_has_numbers_of_its_own() {
+    let first = |seed: u64| rtp::Packets::new(seed).picture(&[vec![0x41, 1]], 0.0).remove(0);
+    assert_eq!(first(1), first(1));
+    for field in [2..4, 4..8, 8..12] {
+        assert_ne!(first(1)[field.clone()], first(2)[field]);
+    }
 }
 
 #[test]

@@ -184,8 +184,9 @@ impl Cockpit {
         if let Some(keeper) = keeper {
             keeper.take(picture.clone());
         }
-        if let Some(video) = stream.and_then(|stream| stream.push(picture)) {
-            flight.listener.live().streams(video);
+        if let Some(stream) = stream {
+            let (video, wall) = (stream.push(picture), flight.listener.wall());
+            flight.listener.live().streams(video, wall);
         }
         Ok(())
     }

@@ -114,6 +114,8 @@ impl Cockpit {
     pub(super) fn land(&mut self) {
         self.keeper = None;
         if let Some(flight) = self.crew.flight.take() {
+            let wall = flight.listener.wall();
+            flight.listener.live().streams(None, wall);
             let watch = self.watch;
             flight.end(self.screen.as_mut(), |first| watch.elapsed().saturating_sub(first));
         }

@@ -8,8 +8,11 @@ use crate::base::time::SimTime;
 use crate::mav::dialect::{VIDEO_STREAM_INFORMATION_DATA, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
 use mavlink::MessageData;
 
-/// A stream that is not told of for so long has ended: it is told of every second.
-const LASTS: SimTime = SimTime::from_ms(3_500);
+/// A stream that is not told of for so long, s of its sender's time, has ended: it is told of every second.
+const LASTS_S: f64 = 3.5;
+/// Where ground stations listen for it, UDP (mavlink.md 1.7): nobody can tell the vehicle another port, for VIDEO_STREAM_STATUS has no place for
+/// it.
+pub const PORT: u16 = 5600;
 /// Largest rate that is believed, Hz.
 const RATE_MAX_HZ: f32 = 240.0;
 
@@ -26,7 +29,7 @@ pub struct Stream {
     pub bits_s: u32,
 }
 
-/// The last word of who sends it.
+/// The last word of who sends it, and until when it holds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Told(Option<(Stream, SimTime)>);
 
@@ -34,7 +37,7 @@ impl Told {
     /// The stream, while it is told of.
     #[must_use]
     pub fn running(&self, now: SimTime) -> Option<Stream> {
-        self.0.filter(|(_, heard)| now.saturating_sub(*heard) <= LASTS).map(|(stream, _)| stream)
+        self.0.filter(|(_, until)| now <= *until).map(|(stream, _)| stream)
     }
 }
 
@@ -48,9 +51,12 @@ pub(in super::super) fn status(e: &mut Endpoint, m: &VIDEO_STREAM_STATUS_DATA, a
     let before = e.payload.camera.stream.running(a.view.now);
     let runs = m.flags.contains(VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING);
     let stream = Stream { width_px: m.resolution_h, height_px: m.resolution_v, rate_hz: m.framerate, bits_s: m.bitrate };
-    e.payload.camera.stream = Told(runs.then_some((stream, a.view.now)));
-    // Ground stations open the picture when they hear that it runs.
-    if before.is_some() != runs {
+    // Who sends it lives in wall time, as clients do.
+    let until = a.view.now + SimTime::from_s(LASTS_S * e.pace);
+    e.payload.camera.stream = Told(runs.then_some((stream, until)));
+    // Ground stations open the picture when they hear that it runs, and shape it by the size that they hear.
+    let size = |stream: Stream| (stream.width_px, stream.height_px);
+    if before.map(size) != runs.then(|| size(stream)) {
         e.payload.news.say(VIDEO_STREAM_INFORMATION_DATA::ID);
         e.payload.news.say(VIDEO_STREAM_STATUS_DATA::ID);
     }

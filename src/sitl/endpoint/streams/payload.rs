@@ -1,7 +1,7 @@
 //! Camera, gimbal and lamp.
 
 use super::super::camera::card::CARD_MIB;
-use super::super::camera::stream::Stream;
+use super::super::camera::stream::{PORT, Stream};
 use super::super::camera::{Mode, settings, zoom};
 use super::super::gimbal::DEVICE;
 use super::super::view::View;
@@ -127,8 +127,6 @@ pub(super) fn capture_status(v: &View) -> Option<MavMessage> {
 
 /// What is told of a stream that does not run (estimate: what wireless networks carry).
 const STREAM: Stream = Stream { width_px: 1280, height_px: 720, rate_hz: 25.0, bits_s: 3_000_000 };
-/// Where ground stations listen for RTP (mavlink.md 1.7).
-const STREAM_PORT: &str = "5600";
 
 fn stream_flags(v: &View) -> VideoStreamStatusFlags {
     let mut flags = VideoStreamStatusFlags::empty();
@@ -150,7 +148,7 @@ pub(super) fn stream_information(v: &View) -> Option<MavMessage> {
         count: 1,
         mavtype: VideoStreamType::VIDEO_STREAM_TYPE_RTPUDP,
         name: "Camera".into(),
-        uri: STREAM_PORT.into(),
+        uri: PORT.to_string().as_str().into(),
         encoding: VideoStreamEncoding::VIDEO_STREAM_ENCODING_H264,
         ..Default::default()
     }))
