@@ -70,6 +70,7 @@ pub struct Link {
     next_beat: SimTime,
     pending: Vec<Pending>,
     aim_deg: Option<f32>,
+    pictures: u16,
 }
 
 impl Default for Link {
@@ -87,6 +88,7 @@ impl Default for Link {
             next_beat: SimTime::ZERO,
             pending: Vec::new(),
             aim_deg: None,
+            pictures: 0,
         }
     }
 }
@@ -178,7 +180,7 @@ impl Link {
         let one = |value: f32| [value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         match action {
             Action::Lamp => (AUTOPILOT, M::MAV_CMD_ILLUMINATOR_ON_OFF, one(if self.heard.lamp { 0.0 } else { 1.0 })),
-            Action::Snapshot => (CAMERA, M::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0, 0.0, NAN, NAN, NAN]),
+            Action::Snapshot => self.snapshot(),
             Action::Arm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)),
             Action::Disarm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(0.0)),
             Action::TakeOff => (AUTOPILOT, M::MAV_CMD_NAV_TAKEOFF, [NAN; 7]),
@@ -194,6 +196,14 @@ impl Link {
             Action::CameraZoomIn => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
             Action::CameraZoomOut => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         }
+    }
+
+    /// Every press has a number of its own, from 1; the camera knows by it a command that is only said again.
+    fn snapshot(&mut self) -> (u8, MavCmd, [f32; 7]) {
+        const NAN: f32 = f32::NAN;
+        self.pictures = self.pictures.checked_add(1).unwrap_or(1);
+        let number = f32::from(self.pictures);
+        (CAMERA, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0, number, NAN, NAN, NAN])
     }
 
     fn aim(&mut self, step: f32) -> (u8, MavCmd, [f32; 7]) {
@@ -371,6 +381,22 @@ mod tests {
         }
         answer(&mut link, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED);
         assert_eq!(link.poll_told().as_deref(), Some("camera zoom out: this camera's lens does not zoom"));
+    }
+
+    /// The numbers of the pictures that commands ask for.
+    fn pictures(messages: &[MavMessage]) -> Vec<f32> {
+        let number = |m: &MavMessage| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param4) } else { None };
+        messages.iter().filter_map(number).collect()
+    }
+
+    #[test]
+    fn exact_a_picture_that_is_asked_for_again_keeps_its_number_and_a_new_press_has_the_next() {
+        let mut link = known();
+        link.act(Action::Snapshot, at(0.0));
+        assert_eq!(pictures(&sent(&mut link, 0.0, 1.1)), [1.0; 3]);
+        answer(&mut link, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, MavResult::MAV_RESULT_ACCEPTED);
+        link.act(Action::Snapshot, at(1.2));
+        assert_eq!(pictures(&sent(&mut link, 1.2, 1.8)), [2.0; 2]);
     }
 
     #[test]
