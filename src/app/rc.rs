@@ -151,6 +151,7 @@ impl Pilot {
                             board.press(&key, terminal.tells_releases, now).into_iter().for_each(|action| link.act(action, now))
                         }
                         controller::Key::Up(key) => board.release(&key),
+                        controller::Key::LetGo => board.let_go(),
                         controller::Key::End => over = true,
                     }
                 }
