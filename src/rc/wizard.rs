@@ -314,22 +314,23 @@ impl Wizard {
         }
     }
 
+    /// How far an axis has come since the push was asked for, of the raw range of 2.
+    fn come(&self, axis: u32) -> f64 {
+        let ends = self.from.get(&axis).zip(self.raw.axes.get(&axis));
+        ends.map_or(0.0, |(from, value)| (value - from).abs())
+    }
+
     /// The axis that has come to an end since the push was asked for, and whether to its upper one; none while there are two.
     fn only_pushed(&self) -> Option<(u32, bool)> {
-        let come = |axis: u32, value: f64| (value - self.from.get(&axis).copied().unwrap_or(value)).abs();
-        let half = |seen: &Seen| (seen.ends.1 - seen.ends.0) / 2.0;
-        let pushed = |(axis, seen): (&u32, &Seen)| {
-            let (value, part) = self.deflection(*axis)?;
-            (part.abs() >= PUSHED && come(*axis, value) >= COME * half(seen)).then_some((*axis, part > 0.0))
+        let pushed = |axis: &u32| {
+            let ends = self.seen.get(axis)?.ends;
+            let (_, part) = self.deflection(*axis)?;
+            (part.abs() >= PUSHED && self.come(*axis) >= COME * (ends.1 - ends.0) / 2.0).then_some((*axis, part > 0.0))
         };
-        let (full, other): (Vec<_>, Vec<_>) = self.seen.iter().partition(|(axis, _)| self.full.contains(axis));
-        let sticks: Vec<(u32, bool)> = full.into_iter().filter_map(pushed).collect();
-        let fresh = other.into_iter().filter_map(|(axis, _)| {
-            let value = *self.raw.axes.get(axis)?;
-            (come(*axis, value) >= MOVED).then_some((*axis, true))
-        });
+        let sticks: Vec<(u32, bool)> = self.full.iter().filter_map(pushed).collect();
+        let mut others = self.seen.keys().filter(|axis| !self.full.contains(axis) && self.come(**axis) >= MOVED);
         match sticks.as_slice() {
-            [] => fresh.last(),
+            [] => others.next().map(|axis| (*axis, true)),
             [one] => Some(*one),
             _ => None,
         }
