@@ -8,23 +8,26 @@ use super::files;
 use super::net::{Arrival, Hub, SocketId};
 use super::stop::Stop;
 use crate::base::time::SimTime;
-use crate::rc::StickMode;
 use crate::rc::keyboard::Keyboard;
 use crate::rc::link::Link;
 use crate::rc::record::Record;
 use crate::rc::wizard::Wizard;
+use crate::rc::{Profile, StickMode};
 use std::io::BufRead;
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// Longest wait for a datagram: a quarter of the time between two stick samples.
 const WAIT: Duration = Duration::from_millis(5);
 /// A vehicle that was heard and then is silent for this much wall time is gone.
 const SILENT: Duration = Duration::from_secs(10);
+/// A vehicle that has not been heard after this much wall time is told to be waited for.
+const PATIENCE: Duration = Duration::from_secs(3);
 /// Between two looks of the wizard at the device.
 const LOOK: Duration = Duration::from_millis(5);
+const NO_ENTER: &str = "nothing was kept: calibrating asks for Enter, and standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
 
 /// Fly with a gamepad, a transmitter or the keyboard
 ///
@@ -151,6 +154,7 @@ impl Pilot {
                             board.press(&key, terminal.tells_releases, now).into_iter().for_each(|action| link.act(action, now))
                         }
                         controller::Key::Up(key) => board.release(&key),
+                        controller::Key::LetGo => board.let_go(),
                         controller::Key::End => over = true,
                     }
                 }
@@ -163,7 +167,7 @@ impl Pilot {
 fn fly(pilot: &mut Pilot, hub: &mut Hub, socket: SocketId, vehicle: SocketAddr, stop: &Stop) -> Result<(), AppError> {
     let (watch, mut link, mut heard) = (Stopwatch::start(), Link::default(), None);
     // A record begins when the vehicle is there.
-    let mut begin = None;
+    let (mut begin, mut told) = (None, false);
     while !stop.asked() {
         if let Some(Arrival::Datagram { from, bytes, .. }) = hub.next(WAIT)
             && from == vehicle
@@ -173,6 +177,10 @@ fn fly(pilot: &mut Pilot, hub: &mut Hub, socket: SocketId, vehicle: SocketAddr, 
             }
             heard = Some(watch.elapsed());
             link.receive(&bytes);
+        }
+        if heard.is_none() && !told && watch.elapsed() > PATIENCE {
+            say(&format!("no vehicle on {vehicle} yet; waiting"));
+            told = true;
         }
         let now = SimTime::from_s(watch.elapsed().as_secs_f64());
         if link.heard.system.is_some() {
@@ -203,21 +211,28 @@ fn calibrate(args: &Args, profiles: &Profiles, stop: &Stop) -> Result<(), AppErr
     profiles.folder()?;
     let mut source = Source::device(args.device.as_deref())?;
     let mode = StickMode::numbered(args.stick_mode).unwrap_or(StickMode::Two);
+    let profile = ask(&mut source, mode, &enters(), stop)?;
+    println!("{}", profiles.keep(&profile)?.display());
+    Ok(())
+}
+
+fn ask(source: &mut Source, mode: StickMode, enters: &Receiver<()>, stop: &Stop) -> Result<Profile, AppError> {
     let mut wizard = Wizard::new(source.of().clone(), mode);
-    let (watch, enters) = (Stopwatch::start(), enters());
+    let watch = Stopwatch::start();
     let mut told = String::new();
     while !stop.asked() {
         let now = SimTime::from_s(watch.elapsed().as_secs_f64());
         while let Some(event) = source.next(now) {
             wizard.handle(event, now);
         }
-        if enters.recv_timeout(LOOK).is_ok() {
-            wizard.confirm(now);
+        match enters.recv_timeout(LOOK) {
+            Ok(()) => wizard.confirm(now),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return Err(AppError::failed(NO_ENTER)),
         }
         wizard.handle_timeout(now);
         if let Some(profile) = wizard.profile() {
-            println!("{}", profiles.keep(&profile)?.display());
-            return Ok(());
+            return Ok(profile);
         }
         let prompt = wizard.prompt();
         if prompt != told {
@@ -257,5 +272,13 @@ mod tests {
         let args = Line::parse_from(["rc", "--calibrate"]).args;
         let told = calibrate(&args, &Profiles::default(), &Stop::default()).unwrap_err().to_string();
         assert!(told.contains("name a folder with --profiles"), "{told}");
+    }
+
+    #[test]
+    fn exact_a_calibration_whose_input_has_ended_ends() {
+        let record = Record::read("r", "{\"format\":1,\"device\":\"Pad\",\"id\":\"1:2\"}").unwrap();
+        let (_, enters) = channel();
+        let told = ask(&mut Source::Record(record), StickMode::Two, &enters, &Stop::default()).unwrap_err().to_string();
+        assert!(told.starts_with("nothing was kept") && told.contains("standard input has ended"), "{told}");
     }
 }

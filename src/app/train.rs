@@ -15,6 +15,7 @@ use super::ports::PortArgs;
 use super::stop::Stop;
 use super::table;
 use course::Course;
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 
 /// The job that is flown unless another one is asked for: the paper's.
@@ -85,6 +86,9 @@ pub struct Args {
     /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration]
     #[arg(long, value_name = "DIR", conflicts_with = "no_view")]
     profiles: Option<PathBuf>,
+    /// Send the camera's view as H.264 over RTP there while the window flies (as `spandrel view --stream`; QGroundControl listens at UDP 5600)
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, conflicts_with = "no_view")]
+    stream: Option<SocketAddr>,
     #[command(flatten)]
     ports: PortArgs,
 }

@@ -54,6 +54,12 @@ impl Action {
     pub fn name(self) -> &'static str {
         ALL.iter().find(|(_, action)| *action == self).map_or("", |(name, _)| name)
     }
+
+    /// It moves something by a step, and is meant to be asked for several times.
+    #[must_use]
+    pub fn is_step(self) -> bool {
+        matches!(self, Self::GimbalUp | Self::GimbalDown | Self::CameraZoomIn | Self::CameraZoomOut)
+    }
 }
 
 #[cfg(test)]

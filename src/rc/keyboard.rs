@@ -10,6 +10,9 @@ pub const PUSH: f64 = 0.5;
 /// A terminal tells no release: a key counts as held for this long after it was heard last, s. Above the usual delay of 0.5 s before
 /// a held key repeats (X.Org's and Windows' defaults: 0.25 to 0.66 s).
 pub const HELD_S: f64 = 0.7;
+/// Steps of gimbal and zoom may be asked for as fast as a person taps, s (estimate: up to 8 taps a second). Above the usual 0.03 s
+/// between repeats of a held key.
+const TAP_S: f64 = 0.12;
 
 /// Which way a key pushes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -272,13 +275,14 @@ fn bound(
 pub struct Keyboard {
     keys: Keys,
     held: BTreeMap<Push, Option<SimTime>>,
+    acted: BTreeMap<Action, SimTime>,
 }
 
 impl Keyboard {
     /// Nothing is held.
     #[must_use]
     pub fn new(keys: Keys) -> Self {
-        Self { keys, held: BTreeMap::new() }
+        Self { keys, held: BTreeMap::new(), acted: BTreeMap::new() }
     }
 
     /// Which key does what.
@@ -287,14 +291,19 @@ impl Keyboard {
         &self.keys
     }
 
-    /// A key went down (again). Where releases are not told, `until_released` is false and it counts as held for [`HELD_S`].
-    /// Returns what it does when it is no stick.
+    /// A key went down. Where releases are told (`until_released`), a held key must not be told again. Elsewhere a stick's key counts as
+    /// held for [`HELD_S`], and what a held key repeats does nothing: an action must have rested for that long, a step of gimbal or zoom
+    /// for [`TAP_S`]. Returns what it does when it is no stick.
     pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<Action> {
         let key = key.to_lowercase();
         if let Some(push) = self.keys.pushes.get(&key) {
             self.held.insert(*push, (!until_released).then(|| now + SimTime::from_s(HELD_S)));
         }
-        self.keys.actions.get(&key).copied()
+        let action = self.keys.actions.get(&key).copied()?;
+        let rest_s = if action.is_step() { TAP_S } else { HELD_S };
+        let before = self.acted.insert(action, now);
+        let repeated = before.is_some_and(|before| (now - before).s() < rest_s);
+        (until_released || !repeated).then_some(action)
     }
 
     /// A key came up.
@@ -355,6 +364,23 @@ mod tests {
         board.press("w", false, at(0.5));
         assert_eq!(board.sticks(at(0.5 + HELD_S - 0.01)).up, PUSH);
         assert_eq!(board.sticks(at(0.5 + HELD_S)).up, 0.0);
+    }
+
+    #[test]
+    fn exact_what_a_held_key_repeats_does_nothing_and_steps_may_be_tapped() {
+        let mut board = Keyboard::default();
+        // A second: 0.5 s before the first repeat, then 30 a second.
+        let held: Vec<f64> = std::iter::once(0.0).chain((0..15).map(|k| 0.5 + f64::from(k) / 30.0)).collect();
+        let done = |board: &mut Keyboard, key: &str, times: &[f64]| {
+            times.iter().filter_map(|s| board.press(key, false, at(*s))).collect::<Vec<_>>()
+        };
+        assert_eq!(done(&mut board, "p", &held), [Action::Snapshot]);
+        assert_eq!(done(&mut board, "b", &held), [Action::Lamp], "every action for itself");
+        assert_eq!(done(&mut board, "p", &[1.0, 1.0 + HELD_S]), [Action::Snapshot], "let go and pressed again");
+        assert_eq!(done(&mut board, "pagedown", &[0.0, 0.2, 0.4]), [Action::GimbalDown; 3]);
+        assert_eq!(done(&mut board, "]", &[0.0, 0.03, 0.06]), [Action::CameraZoomIn]);
+        let told = [2.0, 2.1].map(|s| board.press("p", true, at(s)));
+        assert_eq!(told, [Some(Action::Snapshot); 2], "where releases are told, every press is one");
     }
 
     #[test]

@@ -30,6 +30,9 @@ const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
 const ZOOM_STEP: f32 = 0.0;
 /// One press of a gimbal button, degrees.
 const GIMBAL_STEP_DEG: f32 = 10.0;
+/// The next press counts from where the last one aimed for this long, s: the gimbal may still swing there (estimate: two taps of a person and
+/// a swing by some steps). Later it counts from where the gimbal is, for others aim it, too.
+const AIM_S: f64 = 2.0;
 
 /// What the vehicle said last.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -69,7 +72,8 @@ pub struct Link {
     next_sticks: SimTime,
     next_beat: SimTime,
     pending: Vec<Pending>,
-    aim_deg: Option<f32>,
+    aim: Option<(f32, SimTime)>,
+    pictures: u16,
 }
 
 impl Default for Link {
@@ -86,7 +90,8 @@ impl Default for Link {
             next_sticks: SimTime::ZERO,
             next_beat: SimTime::ZERO,
             pending: Vec::new(),
-            aim_deg: None,
+            aim: None,
+            pictures: 0,
         }
     }
 }
@@ -144,6 +149,9 @@ impl Link {
         if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
             let done = self.pending.remove(k);
             if result != MavResult::MAV_RESULT_ACCEPTED {
+                if command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW {
+                    self.aim = None;
+                }
                 self.tell(done.what, refusal(command, result));
             }
         }
@@ -154,7 +162,7 @@ impl Link {
         let Some(system) = self.heard.system else {
             return self.tell(action.name(), "no vehicle has been heard yet");
         };
-        let (component, command, params) = self.wish(action);
+        let (component, command, params) = self.wish(action, now);
         let command = station::command(system, component, command, params);
         // A newer wish of the same kind takes the place of an older one.
         self.pending.retain(|p| p.command.command != command.command);
@@ -172,13 +180,13 @@ impl Link {
         }
     }
 
-    fn wish(&mut self, action: Action) -> (u8, MavCmd, [f32; 7]) {
+    fn wish(&mut self, action: Action, now: SimTime) -> (u8, MavCmd, [f32; 7]) {
         use MavCmd as M;
         const NAN: f32 = f32::NAN;
         let one = |value: f32| [value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         match action {
             Action::Lamp => (AUTOPILOT, M::MAV_CMD_ILLUMINATOR_ON_OFF, one(if self.heard.lamp { 0.0 } else { 1.0 })),
-            Action::Snapshot => (CAMERA, M::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0, 0.0, NAN, NAN, NAN]),
+            Action::Snapshot => self.snapshot(),
             Action::Arm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)),
             Action::Disarm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(0.0)),
             Action::TakeOff => (AUTOPILOT, M::MAV_CMD_NAV_TAKEOFF, [NAN; 7]),
@@ -189,17 +197,27 @@ impl Link {
                 let (command, params) = station::position_mode(self.heard.autopilot);
                 (AUTOPILOT, command, params)
             }
-            Action::GimbalUp => self.aim(GIMBAL_STEP_DEG),
-            Action::GimbalDown => self.aim(-GIMBAL_STEP_DEG),
+            Action::GimbalUp => self.aim(GIMBAL_STEP_DEG, now),
+            Action::GimbalDown => self.aim(-GIMBAL_STEP_DEG, now),
             Action::CameraZoomIn => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
             Action::CameraZoomOut => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         }
     }
 
-    fn aim(&mut self, step: f32) -> (u8, MavCmd, [f32; 7]) {
-        let from = self.aim_deg.or(self.heard.gimbal_deg).unwrap_or(0.0);
+    /// Every press has a number of its own, from 1; the camera knows by it a command that is only said again.
+    fn snapshot(&mut self) -> (u8, MavCmd, [f32; 7]) {
+        const NAN: f32 = f32::NAN;
+        self.pictures = self.pictures.checked_add(1).unwrap_or(1);
+        let number = f32::from(self.pictures);
+        (CAMERA, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0, number, NAN, NAN, NAN])
+    }
+
+    fn aim(&mut self, step: f32, now: SimTime) -> (u8, MavCmd, [f32; 7]) {
+        let aimed = self.aim.map(|(aim, _)| aim);
+        let fresh = self.aim.filter(|(_, at)| (now - *at).s() < AIM_S).map(|(aim, _)| aim);
+        let from = fresh.or(self.heard.gimbal_deg).or(aimed).unwrap_or(0.0);
         let to = (from + step).clamp(-90.0, 90.0);
-        self.aim_deg = Some(to);
+        self.aim = Some((to, now));
         (AUTOPILOT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, f32::NAN, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
     }
 
@@ -371,6 +389,37 @@ mod tests {
         }
         answer(&mut link, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED);
         assert_eq!(link.poll_told().as_deref(), Some("camera zoom out: this camera's lens does not zoom"));
+    }
+
+    /// The numbers of the pictures that commands ask for.
+    fn pictures(messages: &[MavMessage]) -> Vec<f32> {
+        let number = |m: &MavMessage| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param4) } else { None };
+        messages.iter().filter_map(number).collect()
+    }
+
+    #[test]
+    fn exact_a_picture_that_is_asked_for_again_keeps_its_number_and_a_new_press_has_the_next() {
+        let mut link = known();
+        link.act(Action::Snapshot, at(0.0));
+        assert_eq!(pictures(&sent(&mut link, 0.0, 1.1)), [1.0; 3]);
+        answer(&mut link, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, MavResult::MAV_RESULT_ACCEPTED);
+        link.act(Action::Snapshot, at(1.2));
+        assert_eq!(pictures(&sent(&mut link, 1.2, 1.8)), [2.0; 2]);
+    }
+
+    #[test]
+    fn exact_a_press_aims_on_from_the_last_one_and_later_from_where_the_gimbal_is() {
+        let mut link = known();
+        let aimed = |link: &mut Link, action: Action, s: f64| {
+            link.act(action, at(s));
+            let messages = sent(link, s, s + 0.1);
+            messages.iter().find_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param1) } else { None }).unwrap()
+        };
+        assert_eq!([0.0, 0.2].map(|s| aimed(&mut link, Action::GimbalDown, s)), [-10.0, -20.0], "it has not swung yet");
+        link.heard.gimbal_deg = Some(-60.0);
+        assert_eq!(aimed(&mut link, Action::GimbalUp, 0.2 + AIM_S), -50.0, "a mission has aimed it meanwhile");
+        answer(&mut link, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, MavResult::MAV_RESULT_DENIED);
+        assert_eq!(aimed(&mut link, Action::GimbalUp, 0.5 + AIM_S), -50.0, "what was refused is no aim");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::axis::{Axis, LEAST_WAY};
 use super::profile::{DEAD_BAND, EXPO, Profile, StickMode, WAYS, Way};
 use super::{Action, Device, Event, Raw};
 use crate::base::time::SimTime;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Sticks are left alone for this long, s, while their centre and its noise are measured (estimate).
 const REST_S: f64 = 1.5;
@@ -15,6 +15,14 @@ const PUSHED: f64 = 0.8;
 const LET_GO: f64 = 0.3;
 /// It must stay pushed for this long, s, so that a stick in passing is not taken (estimate).
 const PUSHED_S: f64 = 0.3;
+/// It has come at least this part of its way from where it stood when it was asked for: what stands at an end since before is no answer.
+const COME: f64 = 0.5;
+/// An axis stands still while it moves by less than this of the raw range of 2 (estimate: above the noise of a worn stick).
+const STILL: f64 = 0.2;
+/// Sticks rest in their middle after this long, s; what stands elsewhere for [`ASIDE_S`] is a trigger, a switch or a knob, and does not come
+/// back (estimates).
+const STILL_S: f64 = 0.2;
+const ASIDE_S: f64 = 1.0;
 /// The dead band is this many times the noise at rest, at least the usual one, at most [`MOST_DEAD`].
 const NOISES: f64 = 2.0;
 const MOST_DEAD: f64 = 0.2;
@@ -58,8 +66,36 @@ struct Seen {
     count: u32,
     /// At rest.
     quiet: (f64, f64),
+    /// Measured while nobody touched it, and not only between two pushes.
+    rested: bool,
     /// Over everything.
     ends: (f64, f64),
+    /// Where it stands, and since when.
+    stands: (f64, SimTime),
+}
+
+impl Seen {
+    fn at(value: f64, now: SimTime) -> Self {
+        let one = (value, value);
+        Self { sum: 0.0, count: 0, quiet: one, rested: false, ends: one, stands: (value, now) }
+    }
+
+    fn take(&mut self, value: f64, now: SimTime) {
+        self.ends = (self.ends.0.min(value), self.ends.1.max(value));
+        if (value - self.stands.0).abs() > STILL {
+            self.stands = (value, now);
+        }
+    }
+
+    fn measure(&mut self, value: f64) {
+        let quiet = if self.count == 0 { (value, value) } else { self.quiet };
+        self.quiet = (quiet.0.min(value), quiet.1.max(value));
+        (self.sum, self.count) = (self.sum + value, self.count + 1);
+    }
+
+    fn is_still(&self, seconds: f64, now: SimTime) -> bool {
+        (now - self.stands.1).s() >= seconds
+    }
 }
 
 /// The wizard.
@@ -71,6 +107,10 @@ pub struct Wizard {
     raw: Raw,
     since: SimTime,
     seen: BTreeMap<u32, Seen>,
+    /// Axes that have been moved along their ends.
+    full: BTreeSet<u32>,
+    /// Where axes stood when a push was asked for.
+    from: BTreeMap<u32, f64>,
     pushed: Option<(u32, bool)>,
     found: BTreeMap<Way, (u32, bool)>,
     buttons: BTreeMap<u32, Action>,
@@ -88,6 +128,8 @@ impl Wizard {
             raw: Raw::default(),
             since: SimTime::ZERO,
             seen: BTreeMap::new(),
+            full: BTreeSet::new(),
+            from: BTreeMap::new(),
             pushed: None,
             found: BTreeMap::new(),
             buttons: BTreeMap::new(),
@@ -129,9 +171,8 @@ impl Wizard {
         if let Event::Axis { axis, .. } = event
             && let Some(value) = self.raw.axes.get(&axis).copied()
         {
-            let fresh = Seen { sum: 0.0, count: 0, quiet: (value, value), ends: (value, value) };
-            let seen = self.seen.entry(axis).or_insert(fresh);
-            seen.ends = (seen.ends.0.min(value), seen.ends.1.max(value));
+            self.seen.entry(axis).or_insert_with(|| Seen::at(value, now)).take(value, now);
+            self.from.entry(axis).or_insert(value);
         }
         if let (Step::Button(k), Event::Button { button, pressed: true }) = (self.step, event) {
             if let std::collections::btree_map::Entry::Vacant(free) = self.buttons.entry(button) {
@@ -152,20 +193,24 @@ impl Wizard {
         self.note = None;
         match self.step {
             Step::LetGo => {
-                for (axis, seen) in &mut self.seen {
-                    let value = self.raw.axes.get(axis).copied().unwrap_or(0.0);
-                    *seen = Seen { sum: 0.0, count: 0, quiet: (value, value), ends: (value, value) };
-                }
-                self.found.clear();
+                // An axis that has not been heard of stands nobody knows where: it is measured when it comes back to its middle.
+                self.seen = self.raw.axes.iter().map(|(axis, value)| (*axis, Seen::at(*value, now))).collect();
                 self.buttons.clear();
                 self.begin(Step::Rest, now);
             }
-            Step::Range if self.seen.values().filter(|seen| moved(seen)).count() < 4 => {
-                self.note = Some("Fewer than four axes have moved.");
-            }
-            Step::Range => self.begin(Step::Middle(0), now),
+            Step::Range => self.end_range(now),
             Step::Button(k) => self.next_button(k),
             Step::Rest | Step::Middle(_) | Step::Push(_) | Step::Done => {}
+        }
+    }
+
+    fn end_range(&mut self, now: SimTime) {
+        self.full = self.seen.iter().filter(|(_, seen)| moved(seen)).map(|(axis, _)| *axis).collect();
+        self.found.clear();
+        if self.full.len() < WAYS.len() {
+            self.note = Some("Fewer than four axes have moved.");
+        } else {
+            self.begin(Step::Middle(0), now);
         }
     }
 
@@ -182,7 +227,11 @@ impl Wizard {
     pub fn handle_timeout(&mut self, now: SimTime) {
         match self.step {
             Step::Rest => self.rest(now),
-            Step::Middle(k) if self.deflections().all(|(_, part)| part.abs() < LET_GO) => self.begin(Step::Push(k), now),
+            Step::Middle(k) if self.is_middle(now) => {
+                self.measure_middle();
+                self.from.clone_from(&self.raw.axes);
+                self.begin(Step::Push(k), now);
+            }
             Step::Push(k) => self.push(k, now),
             _ => {}
         }
@@ -190,36 +239,59 @@ impl Wizard {
 
     fn rest(&mut self, now: SimTime) {
         for (axis, seen) in &mut self.seen {
-            let value = self.raw.axes.get(axis).copied().unwrap_or(0.0);
-            (seen.sum, seen.count) = (seen.sum + value, seen.count + 1);
-            seen.quiet = (seen.quiet.0.min(value), seen.quiet.1.max(value));
+            if let Some(value) = self.raw.axes.get(axis) {
+                seen.measure(*value);
+                seen.rested = true;
+            }
         }
         if (now - self.since).s() >= REST_S {
             self.begin(Step::Range, now);
         }
     }
 
-    /// Axes of the sticks and how far they are out, -1 to 1 of their ends.
-    fn deflections(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        self.seen.iter().filter(|(_, seen)| moved(seen)).map(|(axis, seen)| {
-            let value = self.raw.axes.get(axis).copied().unwrap_or(0.0);
-            let centre = centre(seen);
-            let end = if value >= centre { seen.ends.1 } else { seen.ends.0 };
-            (*axis, if end == centre { 0.0 } else { (value - centre).abs() / (end - centre).abs() * (value - centre).signum() })
+    /// Where an axis stands, and how far that is out, -1 to 1 of its ends.
+    fn deflection(&self, axis: u32) -> Option<(f64, f64)> {
+        let (value, seen) = (*self.raw.axes.get(&axis)?, self.seen.get(&axis)?);
+        let centre = centre(seen);
+        let way = if value >= centre { seen.ends.1 - centre } else { centre - seen.ends.0 };
+        Some((value, if way == 0.0 { 0.0 } else { (value - centre) / way }))
+    }
+
+    fn is_known(&self, axis: u32) -> bool {
+        self.found.values().any(|(known, _)| *known == axis)
+    }
+
+    fn is_middle(&self, now: SimTime) -> bool {
+        let still = |axis: u32, seconds: f64| self.seen.get(&axis).is_none_or(|seen| seen.is_still(seconds, now));
+        self.full.iter().all(|axis| match self.deflection(*axis) {
+            Some((_, part)) if part.abs() < LET_GO => still(*axis, STILL_S),
+            Some(_) => !self.is_known(*axis) && still(*axis, ASIDE_S),
+            None => true,
         })
     }
 
+    /// Some systems say nothing of an axis before it moves: its centre is where it comes back to.
+    fn measure_middle(&mut self) {
+        for axis in self.full.clone() {
+            let Some((value, part)) = self.deflection(axis) else { continue };
+            if let Some(seen) = self.seen.get_mut(&axis).filter(|seen| !seen.rested && part.abs() < LET_GO) {
+                seen.measure(value);
+            }
+        }
+    }
+
     fn push(&mut self, k: usize, now: SimTime) {
-        let most = self.deflections().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        let second =
-            self.deflections().filter(|(axis, _)| most.is_none_or(|(first, _)| first != *axis)).map(|(_, part)| part.abs());
-        let alone = second.fold(0.0, f64::max) < PUSHED;
-        let now_pushed = most.filter(|(_, part)| part.abs() >= PUSHED && alone).map(|(axis, part)| (axis, part > 0.0));
+        self.follow(now);
+        let now_pushed = self.only_pushed();
         if now_pushed != self.pushed {
             (self.pushed, self.since) = (now_pushed, now);
         }
         let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= PUSHED_S) else { return };
-        if self.found.values().any(|(known, _)| *known == axis) {
+        if !self.full.contains(&axis) {
+            self.note = Some("That stick had not been moved along its ends.");
+            return self.begin(Step::Range, now);
+        }
+        if self.is_known(axis) {
             self.note = Some("That way is known already: push the other one.");
             return self.begin(Step::Middle(k), now);
         }
@@ -229,6 +301,38 @@ impl Wizard {
             self.begin(Step::Middle(k + 1), now);
         } else {
             self.begin(Step::Button(0), now);
+        }
+    }
+
+    /// A stick that was still held when a push was asked for, and has been let go since, may answer.
+    fn follow(&mut self, now: SimTime) {
+        for axis in &self.full {
+            let Some((value, part)) = self.deflection(*axis) else { continue };
+            if part.abs() < LET_GO && self.seen.get(axis).is_some_and(|seen| seen.is_still(PUSHED_S, now)) {
+                self.from.insert(*axis, value);
+            }
+        }
+    }
+
+    /// How far an axis has come since the push was asked for, of the raw range of 2.
+    fn come(&self, axis: u32) -> f64 {
+        let ends = self.from.get(&axis).zip(self.raw.axes.get(&axis));
+        ends.map_or(0.0, |(from, value)| (value - from).abs())
+    }
+
+    /// The axis that has come to an end since the push was asked for, and whether to its upper one; none while there are two.
+    fn only_pushed(&self) -> Option<(u32, bool)> {
+        let pushed = |axis: &u32| {
+            let ends = self.seen.get(axis)?.ends;
+            let (_, part) = self.deflection(*axis)?;
+            (part.abs() >= PUSHED && self.come(*axis) >= COME * (ends.1 - ends.0) / 2.0).then_some((*axis, part > 0.0))
+        };
+        let sticks: Vec<(u32, bool)> = self.full.iter().filter_map(pushed).collect();
+        let mut others = self.seen.keys().filter(|axis| !self.full.contains(axis) && self.come(**axis) >= MOVED);
+        match sticks.as_slice() {
+            [] => others.next().map(|axis| (*axis, true)),
+            [one] => Some(*one),
+            _ => None,
         }
     }
 
@@ -267,6 +371,7 @@ fn read_as(axis: u32, up: bool, seen: &Seen) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rc::record;
 
     /// A person at a transmitter: axes 0 roll, 1 pitch (counts down), 2 throttle (no spring), 3 yaw; 5 is a knob.
     struct Person {
@@ -316,7 +421,7 @@ mod tests {
             self.axis(axis, value);
             self.wait(0.5);
             self.axis(axis, 0.01);
-            self.wait(0.1);
+            self.wait(0.4);
         }
     }
 
@@ -325,7 +430,7 @@ mod tests {
         let mut person = Person::new();
         person.stir();
         person.confirm();
-        person.wait(0.1);
+        person.wait(0.4);
         // Left up: throttle; left right: yaw; right up: pitch, which counts down; right right: roll.
         for (axis, value) in [(2, 0.9), (3, 0.8), (1, -1.0), (0, 0.95)] {
             person.hold(axis, value);
@@ -359,11 +464,105 @@ mod tests {
         let mut person = Person::new();
         person.stir();
         person.confirm();
-        person.wait(0.1);
+        person.wait(0.4);
         person.hold(2, 0.9);
         person.hold(2, 0.9);
         assert!(person.wizard.prompt().contains("known already"), "{}", person.wizard.prompt());
         person.wizard.handle(Event::Lost, person.now);
         assert!(person.wizard.prompt().contains("plug it in again"));
+    }
+
+    /// A gamepad as Linux tells of it: nothing before something moves, triggers from -1. Sticks 0, 1 and 3, 4 (up is -1), triggers 2 and 5, a
+    /// hat 16. Seconds, axis, value.
+    const PAD: [(f64, u32, f64); 38] = [
+        // Both triggers and the hat are touched before any stick; the right trigger sticks a little.
+        (2.2, 2, -0.9),
+        (2.3, 2, 1.0),
+        (2.4, 2, -1.0),
+        (2.5, 5, 0.8),
+        (2.6, 5, -0.95),
+        (2.7, 16, 1.0),
+        (2.8, 16, -1.0),
+        (2.9, 16, 0.0),
+        // Along the ends; the sticks rest beside the middle of what they reach.
+        (3.0, 0, -1.0),
+        (3.1, 0, 1.0),
+        (3.2, 0, 0.06),
+        (3.3, 1, -1.0),
+        (3.4, 1, 0.9),
+        (3.5, 1, -0.02),
+        (3.6, 3, 0.95),
+        (3.7, 3, -0.95),
+        (3.8, 3, 0.04),
+        (3.9, 4, 1.0),
+        (4.0, 4, -1.0),
+        (4.1, 4, 0.0),
+        // Left up, in passing over the left; the trigger is squeezed and let go meanwhile.
+        (6.0, 0, -0.5),
+        (6.05, 1, -1.0),
+        (6.1, 0, 0.0),
+        (6.2, 2, 1.0),
+        (6.3, 2, -1.0),
+        (7.0, 1, 0.02),
+        (7.05, 0, 0.06),
+        // Left right, right up, right right.
+        (9.0, 0, 1.0),
+        (9.5, 0, 0.08),
+        (11.0, 4, -0.7),
+        (11.1, 4, -1.0),
+        (11.6, 4, 0.0),
+        (13.0, 3, 0.9),
+        (13.6, 3, 0.05),
+        // While buttons are asked for, a trigger does no harm.
+        (14.0, 2, 0.2),
+        (14.1, 2, 1.0),
+        (14.5, 2, 0.0),
+        (14.6, 2, -1.0),
+    ];
+
+    #[test]
+    fn exact_triggers_that_were_touched_first_are_no_sticks_and_an_axis_unheard_of_is_measured_where_it_comes_back_to() {
+        let device = Device { name: "Pad".into(), id: "1:2".into() };
+        let lines = PAD.map(|(s, axis, value)| record::line(SimTime::from_s(s), Event::Axis { axis, value }));
+        let text: Vec<String> = std::iter::once(record::head(&device)).chain(lines).collect();
+        let mut record = record::Record::read("pad.jsonl", &text.join("\n")).unwrap();
+        let mut wizard = Wizard::new(device, StickMode::Two);
+        let enters = [0.4, 4.3].map(SimTime::from_s).into_iter().chain((0..7).map(|k| SimTime::from_s(f64::from(k) + 20.0)));
+        let mut enters = enters.peekable();
+        let mut now = SimTime::ZERO;
+        while wizard.profile().is_none() && now < SimTime::from_s(30.0) {
+            std::iter::from_fn(|| record.due(now)).for_each(|event| wizard.handle(event, now));
+            if enters.next_if(|at| *at <= now).is_some() {
+                wizard.confirm(now);
+            }
+            wizard.handle_timeout(now);
+            now += SimTime::from_ms(5);
+        }
+        let profile = wizard.profile().unwrap_or_else(|| panic!("stands at: {}", wizard.prompt()));
+        let ways = [Way::LeftVertical, Way::LeftHorizontal, Way::RightVertical, Way::RightHorizontal];
+        assert_eq!(ways.map(|way| profile.ways[&way].axis), [1, 0, 4, 3]);
+        let across = profile.ways[&Way::LeftHorizontal];
+        assert!((across.centre - 0.065).abs() < 0.006, "{across:?}: its ends' middle is 0");
+        assert!(across.low < across.high && profile.ways[&Way::LeftVertical].low > 0.0, "a pad's up counts down");
+        assert_eq!(Profile::read("p", &profile.write()).unwrap(), profile);
+    }
+
+    #[test]
+    fn exact_a_stick_that_was_not_moved_along_its_ends_is_sent_back_there() {
+        let mut person = Person::new();
+        person.stir();
+        person.confirm();
+        person.wait(0.4);
+        person.axis(5, 1.0);
+        person.wait(0.5);
+        let told = person.wizard.prompt();
+        assert!(told.starts_with("That stick had not been moved along its ends. Move both sticks"), "{told}");
+        for value in [-1.0, 0.0] {
+            person.axis(5, value);
+        }
+        person.confirm();
+        person.wait(0.4);
+        person.hold(2, 0.9);
+        assert!(person.wizard.prompt().contains("LEFT stick fully to the RIGHT"), "{}", person.wizard.prompt());
     }
 }

@@ -124,3 +124,26 @@ def test_wire_a_device_that_is_not_calibrated_or_a_wrong_file_is_told(tmp_path):
     assert refused.returncode == 1 and "--keyboard needs a terminal" in refused.stderr
     refused = rc("--list")
     assert refused.returncode in (0, 1) and (refused.returncode == 0 or "gamepad" in refused.stderr)
+
+
+def test_wire_who_waits_for_a_vehicle_is_told_so_and_when_it_is_there(tmp_path):
+    """A wrong address, or a simulator that is not started yet, looks like nothing else."""
+    (tmp_path / "pad-1-2.toml").write_text(PROFILE, encoding="utf-8")
+    record = tmp_path / "flight.jsonl"
+    record.write_text('{"format": 1, "device": "Pad", "id": "1:2"}\n{"t_s": 600, "lost": true}\n', encoding="utf-8")
+    dial = spandrel.free_udp_port()
+    waits = subprocess.Popen(
+        [spandrel.PROGRAM, "rc", "--replay", str(record), "--profiles", str(tmp_path), "--connect", f"127.0.0.1:{dial}"],
+        stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+    )
+    said = (line.strip() for line in waits.stderr)
+    told = []
+    try:
+        told.append(next(line for line in said if "vehicle" in line))
+        sim = spandrel.start_sim(tmp_path, spandrel.free_udp_port(), speed=1, gcs_port=dial)
+        told.append(next(line for line in said if "vehicle" in line))
+        spandrel.end(sim)
+    finally:
+        spandrel.end(waits)
+    assert told == [f"no vehicle on 127.0.0.1:{dial} yet; waiting", f"the vehicle at 127.0.0.1:{dial} answers"]
+    assert waits.returncode == 0

@@ -89,6 +89,37 @@ fn wire_the_echo_of_the_sticks_is_what_was_sent_and_a_sidecars_is_forward_positi
     }
 }
 
+/// What the record of a session is made of: the monitor's link carries the stick samples themselves, also of one control tick, and of
+/// those who do not have the sticks.
+#[test]
+fn wire_a_sidecar_hears_every_sample_of_the_sticks_as_it_was_sent() {
+    let sidecar = LinkId(6);
+    let mut station = Station::new("drill-hover", 7);
+    station.sim.open_link(sidecar, LinkKind::Payload, false);
+    let beat = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
+    station.sim.handle_datagram(sidecar, &spandrel::mav::codec::Encoder::new(1, 191).encode(&beat));
+    station.run_ms(10);
+    let (mut sent, mut heard) = (Vec::new(), Vec::new());
+    for at in 0..60 {
+        for k in 0..at % 4 {
+            let sample = (255 - u8::from(k == 2), 10 * at + k);
+            station.speak_as(sample.0, 190);
+            station.sticks(sample.1, 0, 500, 0);
+            sent.push(sample);
+        }
+        station.sim.handle_timeout(station.sim.now() + SimTime::from_ms(i64::from(1 + 7 * (at % 3))));
+        while let Some(transmit) = station.sim.poll_transmit() {
+            let frames = Decoder::new().datagram(&transmit.bytes).into_iter().filter(|_| transmit.link == sidecar);
+            heard.extend(frames.filter_map(|frame| match frame.message {
+                Some(MavMessage::MANUAL_CONTROL(sticks)) => Some((frame.system_id, sticks.x)),
+                _ => None,
+            }));
+        }
+    }
+    assert!(sent.len() > 80);
+    assert_eq!(heard, sent);
+}
+
 /// A throttle from -1000 to 1000 shows by its first negative value, and is remembered of its sender alone.
 #[test]
 fn wire_a_sender_that_has_sent_a_negative_throttle_has_its_middle_at_zero() {

@@ -35,22 +35,7 @@ impl Window {
             tracing::warn!("no window: it listens at the payload port, and --payload-port is none");
             return None;
         }
-        let mut words =
-            ["--led", "--log", &log.to_string().to_lowercase(), "--quality", &args.quality].map(str::to_owned).to_vec();
-        if let Some(keys) = &args.keys {
-            words.extend(["--keys".to_owned(), keys.display().to_string()]);
-        }
-        if let Some(device) = &args.device {
-            words.extend(["--device".to_owned(), device.clone()]);
-        }
-        if let Some(profiles) = &args.profiles {
-            words.extend(["--profiles".to_owned(), profiles.display().to_string()]);
-        }
-        words.extend(["--picture".to_owned(), super::camera(args).display().to_string()]);
-        if args.no_sound {
-            words.push("--no-sound".to_owned());
-        }
-        let opened = Child::start_beside("view", &words, &[spare_threads()]);
+        let opened = Child::start_beside("view", &words(args, log), &[spare_threads()]);
         let child = opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()?;
         Some(Self::of(child))
     }
@@ -121,6 +106,25 @@ impl Window {
     }
 }
 
+/// The window's command line.
+fn words(args: &Args, log: tracing::Level) -> Vec<String> {
+    let mut words = ["--led", "--log", &log.to_string().to_lowercase(), "--quality", &args.quality].map(str::to_owned).to_vec();
+    let given = [
+        ("--keys", args.keys.as_ref().map(|file| file.display().to_string())),
+        ("--device", args.device.clone()),
+        ("--profiles", args.profiles.as_ref().map(|folder| folder.display().to_string())),
+        ("--stream", args.stream.map(|to| to.to_string())),
+        ("--picture", Some(super::camera(args).display().to_string())),
+    ];
+    for (name, value) in given {
+        words.extend(value.map(|value| [name.to_owned(), value]).into_iter().flatten());
+    }
+    if args.no_sound {
+        words.push("--no-sound".to_owned());
+    }
+    words
+}
+
 fn farewell(closed: bool, flies: bool) -> &'static str {
     match (closed, flies) {
         (true, false) => "the window is closed",
@@ -146,6 +150,17 @@ impl Window {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_what_train_is_told_of_the_window_reaches_it_once() {
+        let told = ["--stream", "127.0.0.1:5600", "--device", "Pad", "--no-sound", "--quality", "low"];
+        let words = words(&super::super::tests::parsed(&told), tracing::Level::WARN);
+        for pair in [["--stream", "127.0.0.1:5600"], ["--device", "Pad"], ["--quality", "low"], ["--log", "warn"]] {
+            assert_eq!(words.windows(2).filter(|two| *two == pair).count(), 1, "{pair:?}: {words:?}");
+        }
+        let count = |word: &str| words.iter().filter(|w| *w == word).count();
+        assert_eq!([count("--stream"), count("--no-sound"), count("--keys")], [1, 1, 0]);
+    }
 
     #[test]
     fn exact_a_window_that_breaks_off_is_neither_ready_nor_closed() {

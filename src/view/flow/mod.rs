@@ -19,7 +19,7 @@ mod tutorial;
 pub use controls::Controls;
 pub use menu::{Deed, Kind, Row};
 pub use names::Names;
-pub use page::{Order, Page, Press};
+pub use page::{Order, Page, Press, Tune};
 pub use sheet::Sheet;
 pub use tutorial::PICTURES;
 

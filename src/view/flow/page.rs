@@ -2,6 +2,17 @@
 
 use super::pipe::{Flying, FromWindow};
 
+/// What changes of a controller's profile; all else stays as it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tune {
+    /// Which stick does what, 1 to 4.
+    Mode(i64),
+    /// Dead band of every way, a part of it, 0 to 0.5.
+    DeadBand(f64),
+    /// Expo of every way, 0 to 1.
+    Expo(f64),
+}
+
 /// What a person did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Press {
@@ -69,8 +80,8 @@ pub enum Order {
     Confirm,
     /// Leave the wizard.
     Cancel,
-    /// Change and keep the profile: stick mode, dead band, expo.
-    Profile(i64, f64, f64),
+    /// Change this of the controller's profile, and keep it.
+    Tune(Tune),
     /// Show an address in a browser.
     Open(String),
     /// Sound on or off.

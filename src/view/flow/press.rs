@@ -2,7 +2,7 @@
 
 use super::menu::{Deed, Kind, Row};
 use super::pipe::{Ended, FromWindow, Offers, Purpose};
-use super::{Controls, Flow, Order, Page, Press, tutorial};
+use super::{Controls, Flow, Order, Page, Press, Tune, tutorial};
 
 /// Most signs of a pseudonym, as everywhere.
 const NAME_MAX: usize = 32;
@@ -72,15 +72,15 @@ impl Flow {
             }
             Deed::Mode => {
                 let mode = (mode - 1 + if on { 1 } else { 3 }) % 4 + 1;
-                self.out.push_back(Order::Profile(mode, dead_band, expo));
+                self.out.push_back(Order::Tune(Tune::Mode(mode)));
             }
             Deed::DeadBand => {
                 let dead_band = (dead_band + FINE * way).clamp(0.0, 0.5);
-                self.out.push_back(Order::Profile(mode, dead_band, expo));
+                self.out.push_back(Order::Tune(Tune::DeadBand(dead_band)));
             }
             Deed::Expo => {
                 let expo = (expo + COARSE * way).clamp(0.0, 1.0);
-                self.out.push_back(Order::Profile(mode, dead_band, expo));
+                self.out.push_back(Order::Tune(Tune::Expo(expo)));
             }
             _ => {}
         }

@@ -1,7 +1,7 @@
 //! The way through the pages by keys, what is refused where, and what stands on each page.
 
 use super::pipe::{Choice, Ended, Flying, FromWindow, Job, Offers, Person, Purpose, Score, ToWindow};
-use super::{Controls, Flow, Names, Order, PICTURES, Page, Press};
+use super::{Controls, Flow, Names, Order, PICTURES, Page, Press, Tune};
 use crate::view::hud::{Item, Point};
 use std::net::SocketAddr;
 
@@ -244,9 +244,9 @@ fn exact_the_profile_changes_by_steps_within_its_range() {
     });
     press(&mut flow, &[Press::Row(2), Press::Right, Press::Row(3), Press::Right, Press::Row(4), Press::Left]);
     let told = orders(&mut flow);
-    assert_eq!(told[0], Order::Profile(1, 0.5, 0.05), "after mode 4 comes 1");
-    assert_eq!(told[1], Order::Profile(4, 0.5, 0.05), "no dead band over a half");
-    assert_eq!(told[2], Order::Profile(4, 0.5, 0.0));
+    assert_eq!(told[0], Order::Tune(Tune::Mode(1)), "after mode 4 comes 1");
+    assert_eq!(told[1], Order::Tune(Tune::DeadBand(0.5)), "no dead band over a half");
+    assert_eq!(told[2], Order::Tune(Tune::Expo(0.0)));
     flow.look(Controls { wizard: Some("Let go.".into()), ..flow.controls.clone() });
     assert_eq!(flow.page(), Page::Calibrating);
     press(&mut flow, &[Press::Enter, Press::Escape]);

@@ -6,7 +6,7 @@ use crate::base::time::SimTime;
 use crate::rc::link::Link;
 use crate::rc::wizard::Wizard;
 use crate::rc::{Profile, Raw, StickMode, Sticks};
-use crate::view::flow::Controls;
+use crate::view::flow::{Controls, Tune};
 
 /// What is known of the device.
 enum Held {
@@ -119,15 +119,13 @@ impl Desk {
         }
     }
 
-    /// Changes and keeps stick mode, dead band and expo of all sticks.
-    pub fn change(&mut self, mode: i64, dead_band: f64, expo: f64) {
-        self.mode = StickMode::numbered(mode).unwrap_or(self.mode);
-        let Held::Hand(hand) = &mut self.held else { return };
-        let mut profile = hand.profile().clone();
-        profile.mode = self.mode;
-        for axis in profile.ways.values_mut() {
-            (axis.dead_band, axis.expo) = (dead_band, expo);
+    /// Changes this of the profile, and keeps it.
+    pub fn tune(&mut self, tune: Tune) {
+        if let Tune::Mode(number) = tune {
+            self.mode = StickMode::numbered(number).unwrap_or(self.mode);
         }
+        let Held::Hand(hand) = &mut self.held else { return };
+        let profile = tuned(hand.profile(), tune);
         hand.set(profile.clone());
         self.keep(&profile);
     }
@@ -199,5 +197,42 @@ impl Desk {
                 }
             }
         }
+    }
+}
+
+/// A profile with this changed: an axis keeps what the wizard measured of it, or a person wrote, until that itself is asked for.
+fn tuned(profile: &Profile, tune: Tune) -> Profile {
+    let mut profile = profile.clone();
+    match tune {
+        Tune::Mode(number) => profile.mode = StickMode::numbered(number).unwrap_or(profile.mode),
+        Tune::DeadBand(part) => profile.ways.values_mut().for_each(|axis| axis.dead_band = part),
+        Tune::Expo(expo) => profile.ways.values_mut().for_each(|axis| axis.expo = expo),
+    }
+    profile
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rc::Device;
+    use crate::rc::axis::Axis;
+    use crate::rc::profile::WAYS;
+
+    #[test]
+    fn exact_what_is_not_asked_for_stays_as_every_axis_has_it() {
+        let axis = |n: u32| {
+            let own = f64::from(n) / 10.0;
+            Axis { axis: n, low: -1.0, centre: 0.0, high: 1.0, dead_band: own, expo: 2.0 * own }
+        };
+        let ways = WAYS.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        let device = Device { name: "Pad".into(), id: "1:2".into() };
+        let before = Profile { device, mode: StickMode::Two, ways, buttons: [].into() };
+        let of = |profile: &Profile| profile.ways.values().map(|axis| (axis.dead_band, axis.expo)).collect::<Vec<_>>();
+        let own = of(&before);
+        assert_eq!(tuned(&before, Tune::Mode(4)), Profile { mode: StickMode::Four, ..before.clone() });
+        let still = tuned(&before, Tune::DeadBand(0.07));
+        assert_eq!(of(&still), own.iter().map(|(_, expo)| (0.07, *expo)).collect::<Vec<_>>());
+        let straight = tuned(&before, Tune::Expo(0.0));
+        assert_eq!(of(&straight), own.iter().map(|(dead_band, _)| (*dead_band, 0.0)).collect::<Vec<_>>());
     }
 }

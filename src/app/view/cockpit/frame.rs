@@ -86,7 +86,7 @@ impl Cockpit {
             Order::Calibrate => self.hand_on(Ask::Calibrate),
             Order::Confirm => self.hand_on(Ask::Confirm),
             Order::Cancel => self.hand_on(Ask::Cancel),
-            Order::Profile(mode, dead_band, expo) => self.hand_on(Ask::Profile(mode, dead_band, expo)),
+            Order::Tune(tune) => self.hand_on(Ask::Tune(tune)),
             Order::Open(address) => {
                 if let Err(error) = open::that_detached(&address) {
                     self.flow.note(format!("No browser opens ({error}): the address stands above."));

@@ -10,7 +10,7 @@ use crate::base::time::SimTime;
 use crate::rc::keyboard::{Keyboard, Keys};
 use crate::rc::link::Link;
 use crate::rc::{Action, Sticks};
-use crate::view::flow::Controls;
+use crate::view::flow::{Controls, Tune};
 use std::net::SocketAddr;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -42,8 +42,8 @@ pub enum Ask {
     Confirm,
     /// Leave the wizard.
     Cancel,
-    /// Stick mode, dead band, expo.
-    Profile(i64, f64, f64),
+    /// Change this of its profile, and keep it.
+    Tune(Tune),
 }
 
 /// The window's end of the pilot.
@@ -206,7 +206,7 @@ impl Seat {
             Ask::Calibrate => self.desk.calibrate(),
             Ask::Confirm => self.desk.confirm(now),
             Ask::Cancel => self.desk.cancel(),
-            Ask::Profile(mode, dead_band, expo) => self.desk.change(mode, dead_band, expo),
+            Ask::Tune(tune) => self.desk.tune(tune),
         }
     }
 

@@ -1,0 +1,153 @@
+"""`spandrel rc` with a gamepad that Linux itself makes (uinput): calibrated by its wizard, flown, unplugged in the air."""
+
+import os
+import subprocess
+import threading
+import time
+
+import pytest
+from pymavlink import mavutil
+
+import asking
+import gamepad
+import spandrel
+
+# Buttons that the wizard asks for: three have one, the others none.
+WISHES = (("the lamp", gamepad.SOUTH), ("a snapshot", gamepad.EAST), ("arming", gamepad.NORTH), ("take-off", None), ("landing", None),
+          ("the camera up", None), ("the camera down", None))
+# A pad's up is below its middle.
+PUSHES = (("LEFT stick fully UP", gamepad.Y, -1), ("LEFT stick fully to the RIGHT", gamepad.X, 1),
+          ("RIGHT stick fully UP", gamepad.RIGHT_Y, -1), ("RIGHT stick fully to the RIGHT", gamepad.RIGHT_X, 1))
+# Wall seconds for the wizard's next question on a busy machine, ten times over.
+LIMIT_S = 60
+
+
+@pytest.fixture(name="pad")
+def fixture_pad():
+    """A gamepad that the program can read; without one, why there is none."""
+    try:
+        pad = gamepad.Gamepad()
+    except gamepad.Missing as missing:
+        pytest.skip(f"no gamepad to fly with: {missing}")
+    listed = subprocess.run([spandrel.COCKPIT, "rc", "--list"], capture_output=True, text=True, timeout=LIMIT_S, check=False)
+    if "this build reads no gamepads" in listed.stderr:
+        pad.close()
+        pytest.skip(f"{spandrel.COCKPIT} was built without the feature `gamepad`")
+    yield pad
+    pad.close()
+
+
+class Bridge:
+    """`rc` with the pad, and what it says, read as it comes."""
+
+    def __init__(self, pad, profiles, *args):
+        command = [spandrel.COCKPIT, "rc", "--device", gamepad.NAME, "--profiles", str(profiles), *args]
+        self.process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ | pad.environment(),
+        )
+        self.lines, self.read = [], 0
+        threading.Thread(target=lambda: self.lines.extend(self.process.stderr), daemon=True).start()
+
+    def hear(self, words):
+        """Waits for the next line with these words."""
+        def said():
+            for k in range(self.read, len(self.lines)):
+                if words in self.lines[k]:
+                    self.read = k + 1
+                    return True
+            return False
+
+        spandrel.wait_for(f"'{words}' after line {self.read} of {self.lines}", said, LIMIT_S)
+
+    def enter(self):
+        """Presses Enter."""
+        self.process.stdin.write("\n")
+        self.process.stdin.flush()
+
+
+def is_listed(pad, profiles):
+    """The line of `rc --list` that is the pad's."""
+    listed = subprocess.run(
+        [spandrel.COCKPIT, "rc", "--list", "--profiles", str(profiles)],
+        capture_output=True, text=True, timeout=LIMIT_S, check=False, env=os.environ | pad.environment(),
+    )
+    assert listed.returncode == 0, listed.stderr
+    return next((line for line in listed.stdout.splitlines() if gamepad.NAME in line), None)
+
+
+def calibrate(pad, profiles):
+    """Answers the wizard as a person does who has played with the triggers first."""
+    wizard = Bridge(pad, profiles, "--calibrate")
+    try:
+        wizard.hear("Let go of both sticks")
+        wizard.enter()
+        wizard.hear("Move both sticks along their ends")
+        for axis in (gamepad.LEFT_TRIGGER, gamepad.RIGHT_TRIGGER, *(axis for _, axis, _ in PUSHES)):
+            for part in (-1, 1, -1 if gamepad.AXES[axis] == gamepad.TRIGGER else 0):
+                pad.axis(axis, part)
+                time.sleep(0.05)
+        wizard.hear("Axes found: 4 of 4")
+        # What was reported last is read before the Enter.
+        time.sleep(0.5)
+        wizard.enter()
+        for words, axis, part in PUSHES:
+            wizard.hear(f"Push the {words}")
+            pad.axis(axis, part)
+            wizard.hear("Back to the middle" if (words, axis, part) != PUSHES[-1] else f"button for {WISHES[0][0]}")
+            pad.axis(axis, 0)
+        for (_, button), following in zip(WISHES, [*WISHES[1:], None]):
+            if button is None:
+                wizard.enter()
+            else:
+                pad.press(button)
+            if following:
+                wizard.hear(f"button for {following[0]}")
+        kept, _ = wizard.process.stdout.read(), wizard.process.wait(timeout=LIMIT_S)
+        assert wizard.process.returncode == 0, wizard.lines
+        return kept.strip()
+    finally:
+        spandrel.end(wizard.process)
+
+
+@pytest.mark.timeout(600)
+def test_wire_a_gamepad_is_calibrated_flies_the_vehicle_and_is_unplugged_in_the_air(pad, tmp_path):
+    """From the system's events to the flight: the wizard's profile, sticks, buttons, and the failsafe after the loss."""
+    profiles = tmp_path / "profiles"
+    assert spandrel.wait_for("the system lists the gamepad", lambda: is_listed(pad, profiles), LIMIT_S).endswith("not calibrated")
+    kept = calibrate(pad, profiles)
+    assert kept.startswith(str(profiles)) and is_listed(pad, profiles).endswith("  calibrated")
+    watcher, dial = spandrel.free_udp_port(), spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, watcher, speed=1, gcs_port=dial)
+    bridge = Bridge(pad, profiles, "--connect", f"127.0.0.1:{dial}")
+    try:
+        link = asking.connect(watcher)
+        assert asking.command(link, mavutil.mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, 376, 200_000) == 0
+        bridge.hear("answers")
+        arm = asking.Again(lambda: pad.press(gamepad.NORTH))
+
+        def armed(beat):
+            arm.if_due()
+            return beat.get_srcComponent() == 1 and beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED
+
+        asking.hear(link, "HEARTBEAT", armed)
+        pad.axis(gamepad.Y, -1)
+        asking.hear(link, "RC_CHANNELS", lambda rc: rc.chan3_raw == 2000)
+        asking.hear(link, "LOCAL_POSITION_NED", lambda p: -p.z > 3)
+        pad.axis(gamepad.Y, 0)
+        pad.axis(gamepad.RIGHT_Y, -1)
+        asking.hear(link, "LOCAL_POSITION_NED", lambda p: (p.vx**2 + p.vy**2) ** 0.5 > 1)
+        pad.axis(gamepad.RIGHT_Y, 0)
+        asking.hear(link, "RC_CHANNELS", lambda rc: {rc.chan1_raw, rc.chan2_raw, rc.chan3_raw, rc.chan4_raw} == {1500})
+        pad.press(gamepad.SOUTH)
+        asking.hear(link, "RELAY_STATUS", lambda relay: relay.on & 1)
+        pad.press(gamepad.EAST)
+        asking.hear(link, "CAMERA_IMAGE_CAPTURED")
+        pad.close()
+        bridge.hear("is lost: sticks centred, then silent")
+        asking.hear(link, "STATUSTEXT", lambda text: "manual control lost" in text.text)
+        beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
+        assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "it holds in the air"
+    finally:
+        spandrel.end(bridge.process)
+        spandrel.end(process)
+    assert bridge.process.returncode == 0, bridge.lines
