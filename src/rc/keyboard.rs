@@ -293,7 +293,7 @@ impl Keyboard {
 
     /// A key went down. Where releases are told (`until_released`), a held key must not be told again. Elsewhere a stick's key counts as
     /// held for [`HELD_S`], and what a held key repeats does nothing: an action must have rested for that long, a step of gimbal or zoom
-    /// for [`TAP_S`]. Returns what it does when it is no stick.
+    /// for `TAP_S`. Returns what it does when it is no stick.
     pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<Action> {
         let key = key.to_lowercase();
         if let Some(push) = self.keys.pushes.get(&key) {

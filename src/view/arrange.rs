@@ -38,8 +38,8 @@ pub struct Place {
 
 /// Width of the small view as a share of the window's.
 const SMALL: f64 = 0.3;
-/// From the upper edge to the small view below the display's speed, a share of the window's height.
-const UNDER_SPEED: f64 = 0.17;
+/// From the upper edge to the small view below the display's speed, a share of the window's height; enough for a wide picture in a narrow window.
+const UNDER_SPEED: f64 = 0.23;
 
 impl Place {
     /// The largest place of this shape (width over height) in the middle of this one, in a window of that shape: what a camera's sensor does

@@ -1,4 +1,4 @@
-//! Where everything stands. Sizes and places are in units of [`Pane`]: shares of the height of a picture that is not narrow.
+//! Where everything stands. Sizes and places are in units of `Pane`: shares of the height of a picture that is not narrow.
 
 use super::battery::battery;
 use super::brief::brief;
