@@ -202,24 +202,29 @@ def heard_propellers(folder):
 
 
 @pytest.mark.timeout(1200)
-def test_wire_an_assessment_is_neither_paused_nor_begun_anew(screen, tmp_path):
-    """The keys of the pause are refused with words, and the flight goes on."""
+def test_wire_an_assessment_is_not_paused_nor_begun_anew_but_may_be_ended(screen, tmp_path):
+    """The key of the pause asks whether it is to end, and the flight goes on meanwhile."""
     training = Training(screen, tmp_path, "--trainee", "otto", "--scenario", "drill-hover", "--purpose", "assessment", "--no-sound")
     try:
         training.see("assessment", in_flight)
         screen.focus()
-        for key, words in ((ESCAPE, "it is not paused"), ("BackSpace", "it does not begin anew")):
-            again = asking.Again(lambda key=key: screen.tap(key), again_s=AGAIN_S)
+        again = asking.Again(lambda: screen.tap("BackSpace"), again_s=AGAIN_S)
 
-            def refused(again=again, words=words):
-                again.if_due()
-                return words in training.told()
+        def refused():
+            again.if_due()
+            return "it does not begin anew" in training.told()
 
-            spandrel.wait_for(f"'{words}'", refused, LIMIT_S)
-        assert in_flight(screen.photograph())
+        spandrel.wait_for("'it does not begin anew'", refused, LIMIT_S)
+        training.see("assessment-asked", paused, ESCAPE)
+        training.see("assessment-goes-on", in_flight, ESCAPE)
         assert "time stands still" not in training.told() and len(folders(training)) == 1
+        training.see("assessment-asked-again", paused, ESCAPE)
+        screen.tap(DOWN)
+        training.see("assessment-over", is_page, ENTER)
+        assert "so there is no session to score" in training.told(), "it never lifted off"
     finally:
         training.close()
+    assert len(folders(training)) == 1
 
 
 def window_of(training):
