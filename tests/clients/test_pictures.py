@@ -65,7 +65,8 @@ def test_val_photographs_tell_where_and_how_they_were_taken(session):
         if "spandrel:DistanceMetre" in told:
             # Width over distance is width over focal length, on the ground as on the sensor.
             wide = float(camera[0xA002]) * float(told["spandrel:GroundSamplingDistanceMillimetre"]) / 1000
-            plate = float(camera[0xA002]) / float(camera[0xA20E])
+            assert camera[0xA210] == 3, "the sensor's resolution counts per centimetre"
+            plate = 10 * float(camera[0xA002]) / float(camera[0xA20E])
             assert abs(wide / float(told["spandrel:DistanceMetre"]) - plate / float(camera[0x920A])) < 1e-3
     assert (session / "report.html").read_text(encoding="utf-8").count("data:image/jpeg;base64,") >= taken
 

@@ -112,10 +112,10 @@ def with_display(screen):
 
 
 def in_the_middle(screen):
-    """The camera's view stands in the middle of the window, with its sensor's shape: bars are left and right of it."""
+    """The camera's view stands in the middle of the window, with its sensor's shape: a bar is left of it, empty above the small view."""
     photograph = screen.photograph()
     green, bar = display.pixels_of(photograph, GREEN), screen.size[0] // 4
-    return len(green) > 0 and 0.6 < green[:, 1].max() / screen.size[0] < 0.75 and contrast(photograph[: screen.size[1] // 4, : bar - 4]) < 1.0
+    return len(green) > 0 and 0.6 < green[:, 1].max() / screen.size[0] < 0.75 and contrast(photograph[: screen.size[1] // 5, : bar - 4]) < 1.0
 
 
 def armable(link):
