@@ -25,6 +25,8 @@ const WAIT: Duration = Duration::from_millis(5);
 const SILENT: Duration = Duration::from_secs(10);
 /// A vehicle that has not been heard after this much wall time is told to be waited for.
 const PATIENCE: Duration = Duration::from_secs(3);
+/// The key that ends flying in the terminal.
+const ENDS: &str = "escape";
 /// Between two looks of the wizard at the device.
 const LOOK: Duration = Duration::from_millis(5);
 const NO_ENTER: &str = "nothing was kept: calibrating asks for Enter, and standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
@@ -125,9 +127,18 @@ enum Pilot {
 fn pilot(args: &Args, profiles: &Profiles) -> Result<Pilot, AppError> {
     if args.keyboard {
         let keys = controller::keys(args.keys.as_deref())?;
+        if let Some(duty) = keys.duty(ENDS) {
+            let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
+            return Err(AppError::wrong(format!("{file}{duty} = \"{ENDS}\": in the terminal this key ends; give another one")));
+        }
         let words = keys.explain();
         let terminal = Terminal::take()?;
-        say(&format!("{words}\nescape     end"));
+        say(&format!("{words}\n{ENDS:10} end"));
+        if !terminal.tells_releases {
+            say(
+                "this terminal does not tell when a key comes up: sticks let go by themselves, and what a key does once it does again after a rest of 0.7 s",
+            );
+        }
         return Ok(Pilot::Keyboard { terminal, board: Keyboard::new(keys) });
     }
     let source = match &args.replay {

@@ -98,7 +98,7 @@ pub struct Args {
     /// Leave the processor to others who want it
     #[arg(long)]
     nice: bool,
-    /// Seed that places defects and traffic of a scenario without a seed of its own
+    /// Seed that places defects and traffic of a scenario [default: its own]
     #[arg(long, value_name = "N", value_parser = args::seed)]
     seed: Option<u64>,
 }

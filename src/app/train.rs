@@ -101,7 +101,17 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     // What is wrong with the files is told before anything starts.
     files::scenario(args.scenario.as_deref().unwrap_or(USUAL))?;
     files::vehicle(&args.vehicle)?;
+    super::controller::keys(args.keys.as_deref())?;
+    check_quality(&args.quality)?;
     Course::new(args, log, Stop::install(false)?).run()
+}
+
+/// Refuses a preset that there is not; a build without the window has none.
+fn check_quality(name: &str) -> Result<(), AppError> {
+    #[cfg(feature = "view")]
+    super::view::check_quality(name)?;
+    let _ = name;
+    Ok(())
 }
 
 /// Where the window keeps the camera's view for the live page: a place that nobody else can write to, one for each process.

@@ -91,6 +91,15 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     cockpit::run(args)
 }
 
+/// Refuses a preset that there is not.
+///
+/// # Errors
+/// When there is none of this name.
+#[cfg(feature = "view")]
+pub fn check_quality(name: &str) -> Result<(), AppError> {
+    cockpit::plan::quality(name).map(|_| ())
+}
+
 /// Says what is missing.
 ///
 /// # Errors

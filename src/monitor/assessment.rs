@@ -280,14 +280,19 @@ pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Veh
 /// The flight that counts: the first one that lifted off, else the last.
 #[must_use]
 pub fn scored_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Flight {
+    scored_epoch(timeline, scenario, vehicle).1
+}
+
+/// The same, with how many flights of the timeline came before it.
+#[must_use]
+pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> (usize, Flight) {
     let height_m = lift_off_height_m(vehicle);
-    let flights = (0..timeline.epochs()).map(|epoch| timeline.flight(epoch));
-    let mut last = Flight::default();
-    for flight in flights {
-        if flight.lift_off(scenario.ground_team.pad_m.up(), height_m).is_some() {
-            return flight;
+    let mut last = (0, Flight::default());
+    for epoch in 0..timeline.epochs() {
+        last = (epoch, timeline.flight(epoch));
+        if last.1.lift_off(scenario.ground_team.pad_m.up(), height_m).is_some() {
+            break;
         }
-        last = flight;
     }
     last
 }

@@ -203,6 +203,13 @@ impl Keys {
         self.pushes.contains_key(&key.to_lowercase())
     }
 
+    /// What a key flies or does at the vehicle, by its name in files.
+    #[must_use]
+    pub fn duty(&self, key: &str) -> Option<&'static str> {
+        let push = self.pushes.get(key).and_then(|push| PUSHES.iter().find(|p| p.1 == *push)).map(|p| p.0);
+        push.or_else(|| self.actions.get(key).map(|action| action.name()))
+    }
+
     /// The key of a stick, an action or a wish for people, by the name of that duty in files; empty when there is no such duty.
     #[must_use]
     pub fn label(&self, name: &str) -> String {

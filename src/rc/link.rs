@@ -26,6 +26,9 @@ const AGAIN_S: f64 = 0.5;
 const TIMES: u8 = 5;
 /// What buttons depend on, and how often, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
 const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
+/// What has not come for this long is asked for again, s: an answer was lost, or the vehicle began anew (estimate).
+const STREAMS_AGAIN_S: f64 = 5.0;
+const TELLING: &str = "telling of lamp and gimbal";
 /// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: one press zooms by one step of the camera's own.
 const ZOOM_STEP: f32 = 0.0;
 /// One press of a gimbal button, degrees.
@@ -64,7 +67,10 @@ pub struct Link {
     encoder: Encoder,
     out: VecDeque<Vec<u8>>,
     told: VecDeque<String>,
-    unasked: bool,
+    next_ask: SimTime,
+    /// Which of [`STREAMS`] have come since they were looked for last, and which the vehicle refuses.
+    came: [bool; 2],
+    refused: [bool; 2],
     /// What the vehicle said last.
     pub heard: Heard,
     sticks: Sticks,
@@ -73,6 +79,8 @@ pub struct Link {
     next_beat: SimTime,
     pending: Vec<Pending>,
     aim: Option<(f32, SimTime)>,
+    /// It has been told that the streams are not answered.
+    complained: bool,
     pictures: u16,
 }
 
@@ -83,7 +91,9 @@ impl Default for Link {
             encoder: Encoder::new(SYSTEM, COMPONENT),
             out: VecDeque::new(),
             told: VecDeque::new(),
-            unasked: true,
+            next_ask: SimTime::ZERO,
+            came: [false; 2],
+            refused: [false; 2],
             heard: Heard::default(),
             sticks: Sticks::default(),
             lost: Some(SimTime::ZERO - SimTime::from_s(NEUTRAL_S)),
@@ -91,6 +101,7 @@ impl Default for Link {
             next_beat: SimTime::ZERO,
             pending: Vec::new(),
             aim: None,
+            complained: false,
             pictures: 0,
         }
     }
@@ -122,8 +133,12 @@ impl Link {
                     self.heard.autopilot = Some(beat.autopilot);
                     self.heard.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
                 }
-                Some(MavMessage::ILLUMINATOR_STATUS(status)) => self.heard.lamp = status.enable != 0,
+                Some(MavMessage::ILLUMINATOR_STATUS(status)) => {
+                    self.came[0] = true;
+                    self.heard.lamp = status.enable != 0;
+                }
                 Some(MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(status)) => {
+                    self.came[1] = true;
                     let attitude = crate::base::frames::Rotation::<crate::base::frames::Frd, crate::base::frames::Ned>::from_wxyz(
                         status.q.map(f64::from),
                     );
@@ -148,6 +163,9 @@ impl Link {
         }
         if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
             let done = self.pending.remove(k);
+            if let Some(n) = STREAMS.iter().position(|(id, _)| done.what == TELLING && *id as f32 == done.command.param1) {
+                self.refused[n] = result != MavResult::MAV_RESULT_ACCEPTED;
+            }
             if result != MavResult::MAV_RESULT_ACCEPTED {
                 if command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW {
                     self.aim = None;
@@ -169,14 +187,19 @@ impl Link {
         self.pending.push(Pending { what: action.name(), command, sent: 0, next: now });
     }
 
-    /// What the buttons depend on is asked for once there is a vehicle.
+    /// What the buttons depend on is asked for once there is a vehicle, and again when it does not come.
     fn ask_for_streams(&mut self, now: SimTime) {
-        let Some(system) = self.heard.system.filter(|_| self.unasked) else { return };
-        self.unasked = false;
-        for (id, rate_hz) in STREAMS {
+        let Some(system) = self.heard.system.filter(|_| now >= self.next_ask) else { return };
+        self.next_ask = now + SimTime::from_s(STREAMS_AGAIN_S);
+        let came = std::mem::take(&mut self.came);
+        for (n, (id, rate_hz)) in STREAMS.into_iter().enumerate() {
+            if came[n] || self.refused[n] {
+                continue;
+            }
             let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
             let command = station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
-            self.pending.push(Pending { what: "telling of lamp and gimbal", command, sent: 0, next: now });
+            self.pending.retain(|p| p.command != command);
+            self.pending.push(Pending { what: TELLING, command, sent: 0, next: now });
         }
     }
 
@@ -259,7 +282,9 @@ impl Link {
                 return true;
             }
             if p.sent == TIMES {
-                self.tell(p.what, "the vehicle does not answer");
+                if p.what != TELLING || !std::mem::replace(&mut self.complained, true) {
+                    self.tell(p.what, "the vehicle does not answer");
+                }
                 return false;
             }
             p.command.confirmation = p.sent;
@@ -344,6 +369,27 @@ mod tests {
     }
 
     #[test]
+    fn exact_lamp_and_gimbal_are_asked_for_again_while_they_do_not_come_and_are_not_refused() {
+        let mut link = known();
+        let asked = |messages: &[MavMessage]| -> Vec<u32> {
+            let ids =
+                messages.iter().filter_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param1 as u32) } else { None });
+            ids.collect()
+        };
+        let gimbal =
+            MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(crate::mav::dialect::GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::default());
+        link.receive(&Encoder::new(1, 1).encode(&gimbal));
+        let again = sent(&mut link, 0.0, STREAMS_AGAIN_S + 0.1);
+        assert_eq!(asked(&again), [STREAMS[0].0], "the gimbal's has come");
+        answer(&mut link, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
+        let later = sent(&mut link, STREAMS_AGAIN_S + 0.1, 2.0 * STREAMS_AGAIN_S + 0.1);
+        assert_eq!(asked(&later), [STREAMS[1].0], "the lamp's is refused, the gimbal's has stopped");
+        sent(&mut link, 2.0 * STREAMS_AGAIN_S + 0.1, 60.0);
+        let told: Vec<String> = std::iter::from_fn(|| link.poll_told()).collect();
+        assert_eq!(told.len(), 2, "a refusal, and once that nobody answers: {told:?}");
+    }
+
+    #[test]
     fn exact_sticks_go_out_fifty_times_a_second() {
         let mut link = known();
         link.set_sticks(Some(Sticks { forward: 1.0, right: -0.5, up: -1.0, yaw: 0.25 }), at(0.0));
@@ -425,6 +471,8 @@ mod tests {
     #[test]
     fn exact_a_command_is_said_until_it_is_answered() {
         let mut link = known();
+        // Nothing else is asked for.
+        link.refused = [true; 2];
         link.act(Action::Lamp, at(0.0));
         let count = |messages: &[MavMessage]| messages.iter().filter(|m| matches!(m, MavMessage::COMMAND_LONG(_))).count();
         assert_eq!(count(&sent(&mut link, 0.0, 1.1)), 3);

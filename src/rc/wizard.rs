@@ -160,6 +160,12 @@ impl Wizard {
         }
     }
 
+    /// The device is away.
+    #[must_use]
+    pub fn lost(&self) -> bool {
+        self.raw.lost
+    }
+
     /// How far each axis stands, for a display: number, reading, ends.
     pub fn axes(&self) -> impl Iterator<Item = (u32, f64, (f64, f64))> + '_ {
         self.raw.axes.iter().filter_map(|(axis, value)| Some((*axis, *value, self.seen.get(axis)?.ends)))

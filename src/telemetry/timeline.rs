@@ -12,7 +12,7 @@ use crate::base::time::SimTime;
 use serde::Serialize;
 
 /// A truth sample this much older than the newest is no mere reordering.
-const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
+pub const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
 /// So many old truth samples in a row make a restart; fewer are stragglers.
 const RESTART_CONFIRM: usize = 3;
 /// A message's own clock is believed within this span of the truth's.

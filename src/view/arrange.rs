@@ -40,6 +40,9 @@ pub struct Place {
 const SMALL: f64 = 0.3;
 /// From the upper edge to the small view below the display's speed, a share of the window's height; enough for a wide picture in a narrow window.
 const UNDER_SPEED: f64 = 0.23;
+/// From the upper edge to the end of the window's own words above the display's warnings, a share of the window's height; enough for a wide
+/// picture in a narrow window.
+const ABOVE_WARNINGS: f64 = 0.6;
 
 impl Place {
     /// The largest place of this shape (width over height) in the middle of this one, in a window of that shape: what a camera's sensor does
@@ -54,11 +57,12 @@ impl Place {
     }
 }
 
-/// The largest picture of this shape (width over height) within a size, px; even, as video needs it.
+/// The largest picture of this shape (width over height) within a size, px; even, as video needs it, and 2 px at least.
 #[must_use]
 pub fn fitted_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
+    let (width, height) = ((width & !1).max(2), (height & !1).max(2));
     let (w, h) = (f64::from(width), f64::from(height));
-    let even = |px: f64, most: u32| (2 * (0.5 * px).round() as u32).clamp(2, most.max(2));
+    let even = |px: f64, most: u32| (2 * (0.5 * px).round() as u32).clamp(2, most);
     if w / h > aspect { (even(h * aspect, width), height) } else { (width, even(w / aspect, height)) }
 }
 
@@ -79,8 +83,8 @@ impl Arrangement {
     pub fn words(self) -> (f64, f64, f64) {
         match self {
             Self::Beside => (0.0, 1.0, 0.5),
-            // Above the four warnings at the lower left.
-            Self::Camera => (0.0, 0.69, 0.45),
+            // Above the four warnings at the lower left, one of them of two lines.
+            Self::Camera => (0.0, ABOVE_WARNINGS, 0.45),
             // Left of the small view.
             Self::Inspector => (0.0, 1.0, 0.5 - 0.5 * SMALL),
         }
@@ -154,7 +158,8 @@ mod tests {
         assert_eq!(fitted_px((1280, 720), 4.0 / 3.0), (960, 720));
         assert_eq!(fitted_px((640, 1001), 16.0 / 9.0), (640, 360));
         assert_eq!(fitted_px((4000, 3000), 4.0 / 3.0), (4000, 3000));
-        assert_eq!(fitted_px((1, 1), 16.0 / 9.0), (1, 2));
+        assert_eq!(fitted_px((641, 361), 4.0 / 3.0), (480, 360));
+        assert_eq!(fitted_px((1, 1), 16.0 / 9.0), (2, 2));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::vehicle::Lamp;
 
 /// Noise of a camera at its lowest sensitivity, as a share of white (estimate: consumer sensors, about 40 dB).
 const NOISE_AT_100: f64 = 0.006;
-/// Corners come out darker by about this share (estimate: small wide lenses).
+/// Corners come out darker by half of this share, places between by the square of their distance from the middle (estimate: small wide lenses).
 const VIGNETTE: f64 = 0.45;
 
 /// A lamp's beam.

@@ -7,6 +7,21 @@ import pytest
 import sdk
 import spandrel
 
+# What tests have measured, for whoever reads their output; no test fails by it.
+MEASURED = []
+
+
+@pytest.fixture
+def measured():
+    """Where a test tells what it has measured."""
+    return MEASURED.append
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Measured figures at the end of the output, also of tests that pass."""
+    for line in MEASURED:
+        terminalreporter.write_line(f"measured: {line}")
+
 
 @pytest.fixture
 def flight(request, tmp_path):

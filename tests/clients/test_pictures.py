@@ -3,6 +3,7 @@
 import json
 import re
 import struct
+import subprocess
 
 import numpy
 import pytest
@@ -117,6 +118,11 @@ def test_val_a_film_has_every_picture_and_its_chapters(session, tmp_path):
     at = data.index(b"mdhd")
     scale, length = struct.unpack(">II", data[at + 16 : at + 24])
     assert abs(length / scale - 30.5) < 0.01
+    # GStreamer's demuxer and decoder find as many pictures of that size.
+    raw = tmp_path / "flight.raw"
+    chain = f"filesrc location={film} ! qtdemux ! avdec_h264 ! videoconvert ! video/x-raw,format=GRAY8 ! filesink location={raw}"
+    subprocess.run(["gst-launch-1.0", "-q", *chain.split()], check=True, timeout=300)
+    assert raw.stat().st_size == 61 * 320 * 240
     chapters = film.with_suffix(".vtt").read_text(encoding="utf-8")
     events = [json.loads(line) for line in (session / "events.jsonl").read_text(encoding="utf-8").splitlines()]
     taken = sum(event["event"] == "snapshot" and 30 <= event["t_s"] <= 60 for event in events)

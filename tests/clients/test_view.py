@@ -134,6 +134,12 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
         )
 
     blind = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET")}
+    def said(*args):
+        return subprocess.run(
+            [spandrel.COCKPIT, *args], env=blind, capture_output=True, text=True, timeout=DRAW_LIMIT_S, check=False,
+            stdin=subprocess.DEVNULL,
+        )
+
     refused = view(blind)
     assert refused.returncode == 1 and refused.stderr.count("no display") == 1, refused.stderr
     refused = view(screen.environment() | {"VK_DRIVER_FILES": str(tmp_path / "none.json")})
@@ -142,6 +148,13 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
     keys.write_text('format = 1\n[window]\nmap = "b"\n', encoding="utf-8")
     refused = view(blind, "--keys", str(keys))
     assert refused.returncode == 2 and "does lamp already" in refused.stderr, refused.stderr
+    for asked in (["train", "--keys", str(keys)], ["train", "--quality", "best"]):
+        refused = said(*asked, "--sessions", str(tmp_path / "sessions"))
+        assert refused.returncode == 2 and asked[2].split("/")[-1] in refused.stderr, refused.stderr
+    assert not (tmp_path / "sessions").exists(), "nothing was begun"
+    keys.write_text('format = 1\n[window]\npause = "q"\n[actions]\nland = "escape"\n', encoding="utf-8")
+    refused = said("rc", "--keyboard", "--keys", str(keys))
+    assert refused.returncode == 2 and 'land = "escape"' in refused.stderr, refused.stderr
 
 
 @pytest.mark.timeout(600)

@@ -110,6 +110,8 @@ fn name(code: KeyCode) -> Option<String> {
         KeyCode::Left => "left".to_owned(),
         KeyCode::Right => "right".to_owned(),
         KeyCode::Enter => "enter".to_owned(),
+        KeyCode::Tab => "tab".to_owned(),
+        KeyCode::Backspace => "backspace".to_owned(),
         KeyCode::PageUp => "pageup".to_owned(),
         KeyCode::PageDown => "pagedown".to_owned(),
         _ => return None,

@@ -5,15 +5,15 @@ use super::super::files;
 use super::super::session_folder::Stored;
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
-use crate::monitor::assessment::scored_flight;
+use crate::monitor::assessment::scored_epoch;
 use crate::monitor::folder::EVENTS;
 use crate::monitor::measures::attention;
 use crate::scenario::Scenario;
 use crate::site::CameraPose;
 use crate::site::gates::Gates;
 use crate::telemetry::sample::{Header, truth_time};
-use crate::telemetry::{Flight, Timeline, tlog};
-use crate::vehicle::Vehicle;
+use crate::telemetry::{Flight, RESTART_AFTER, Timeline, tlog};
+use crate::vehicle::{Camera, Vehicle};
 use crate::view::feed::Feed;
 use crate::view::live::Trace;
 use crate::view::scene::DronePose;
@@ -28,6 +28,8 @@ pub struct Recorded {
     pub stored: Stored,
     /// The flight.
     pub flight: Flight,
+    /// So many flights before it are in the log: the simulator has begun anew.
+    before: usize,
 }
 
 impl Recorded {
@@ -39,11 +41,11 @@ impl Recorded {
         let stored = Stored::read(folder)?;
         let mut timeline = Timeline::new(LocalPlane::new(stored.scenario.scenario.origin));
         timeline.push_log(&stored.log);
-        let flight = scored_flight(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
+        let (before, flight) = scored_epoch(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
         if flight.truths.is_empty() {
             return Err(AppError::failed("the session holds no flight to draw"));
         }
-        Ok(Self { folder: folder.to_owned(), stored, flight })
+        Ok(Self { folder: folder.to_owned(), stored, flight, before })
     }
 
     /// The job.
@@ -93,8 +95,11 @@ impl Recorded {
             .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
             .filter_map(|event| Some((event["t_s"].as_f64().map(SimTime::from_s)?, event)))
             .collect();
-        events.sort_by_key(|event| std::cmp::Reverse(event.0));
-        Heard { feed: Feed::default(), now: SimTime::ZERO, frames: tlog::Reader::new(&self.stored.log), next: None, events }
+        // Taken from the end; those of one time stay in their order.
+        events.sort_by_key(|event| event.0);
+        events.reverse();
+        let frames = tlog::Reader::new(&self.stored.log);
+        Heard { feed: Feed::default(), now: SimTime::ZERO, before: self.before, frames, next: None, events }
     }
 }
 
@@ -102,6 +107,7 @@ impl Recorded {
 pub struct Heard<'a> {
     feed: Feed,
     now: SimTime,
+    before: usize,
     frames: tlog::Reader<'a>,
     next: Option<&'a [u8]>,
     events: Vec<(SimTime, serde_json::Value)>,
@@ -112,6 +118,11 @@ impl Heard<'_> {
     pub fn until(&mut self, at: SimTime) -> &Feed {
         while let Some(frame) = self.next.take().or_else(|| self.frames.next().map(|record| record.frame)) {
             let now = truth_time(frame).unwrap_or(self.now);
+            if self.before > 0 {
+                self.before -= usize::from(now + RESTART_AFTER < self.now);
+                self.now = now;
+                continue;
+            }
             if now > at {
                 self.next = Some(frame);
                 break;
@@ -133,7 +144,7 @@ impl Heard<'_> {
     }
 }
 
-/// Where everything was, `None` where the telemetry says nothing. Attitude and gimbal go evenly between what was told, as in the live view; the
+/// Where everything was, `None` where the telemetry says nothing. Attitude, gimbal and zoom go evenly between what was told, as in the live view; the
 /// measures take what was told last.
 fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<Moment> {
     let state = flight.between(at)?;
@@ -145,7 +156,7 @@ fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<Moment> {
         drone: DronePose { position_m: state.position_m, ned_from_frd, spinning: flight.armed.at(at).unwrap_or(false) },
         velocity_m_s: state.velocity_m_s,
         camera: CameraPose::on(&vehicle.camera, (state.position_m, ned_from_frd), trace.gimbal_at(at), lamp_on),
-        lens: attention::camera(flight, at, &vehicle.camera),
+        lens: trace.lens_told_at(at).map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera }),
         turn: trace.turn_at(at),
     })
 }
@@ -159,6 +170,9 @@ fn trace(flight: &Flight, at: SimTime) -> Trace {
     truths[around].iter().for_each(|truth| trace.push(*truth));
     let around = near(pitches.partition_point(|told| told.0 <= at), pitches.len());
     pitches[around].iter().for_each(|told| trace.push_gimbal(told.0, told.2));
+    let fields = flight.field_of_view.all();
+    let around = near(fields.partition_point(|told| told.0 <= at), fields.len());
+    fields[around].iter().for_each(|told| trace.push_lens(told.0, told.2));
     trace
 }
 

@@ -14,6 +14,7 @@ use crate::report::pictures::Picture;
 use crate::view::arrange::{drawn_px, fitted_px};
 use crate::view::photo::{self, About, PhotoError};
 use crate::view::shot::Shot;
+use crate::view::stage::Moment;
 
 /// Without a graphics card pictures have at most so many pixels unless a size is asked for: a second each, not a minute.
 const SOFTWARE_PX: f64 = 1280.0 * 960.0;
@@ -57,7 +58,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         let drawn = brush.draw(&shot, &[])?;
         let name = format!("{:04}.jpg", picture.index.max(0));
         let path = folder.join(&name);
-        replace(&path, &photo::jpeg(&drawn, &about(&recorded, picture, &shot))?)?;
+        replace(&path, &photo::jpeg(&drawn, &about(&recorded, picture, &moment, &shot))?)?;
         replace(&copies.join(&name), &photo::copy(&drawn, report::picture_most(taken.len()))?)?;
         if args.masks {
             masks::write(&mut brush, &shot, drawing.defects(), &path)?;
@@ -69,30 +70,29 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-fn about(recorded: &Recorded, picture: &Picture, shot: &Shot) -> About {
+/// What is known of a photograph: as it was drawn, with attitude and gimbal between what was told.
+fn about(recorded: &Recorded, picture: &Picture, moment: &Moment, shot: &Shot) -> About {
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
     let taken_unix_us = recorded.stored.started_unix_us + u64::try_from(picture.time.us()).unwrap_or(0);
     let (utc, _) = clock::utc(taken_unix_us);
     let (date, time) = utc.trim_end_matches('Z').split_once('T').unwrap_or(("", ""));
-    let (yaw_deg, pitch_deg) = photo::direction_deg(&picture.pose);
-    let attitude = recorded.flight.between(picture.time).map_or([0.0; 3], |state| {
-        let (roll, pitch, yaw) = state.ned_from_frd.euler();
-        [yaw, pitch, roll].map(f64::to_degrees)
-    });
+    let pose = &moment.camera;
+    let (yaw_deg, pitch_deg) = photo::direction_deg(pose);
+    let (roll, pitch, yaw) = moment.drone.ned_from_frd.euler();
     About {
         number: picture.number,
         taken_unix_us,
         taken_utc: (date.replace('-', ":"), time.to_owned()),
         at_s: picture.time.s(),
-        place: LocalPlane::new(scenario.origin).geo_from_enu(picture.pose.position_m),
-        over_pad_m: (picture.pose.position_m - scenario.ground_team.pad_m).up(),
+        place: LocalPlane::new(scenario.origin).geo_from_enu(pose.position_m),
+        over_pad_m: (pose.position_m - scenario.ground_team.pad_m).up(),
         yaw_deg,
         pitch_deg,
-        aircraft_deg: attitude,
-        lens: picture.camera,
+        aircraft_deg: [yaw, pitch, roll].map(f64::to_degrees),
+        lens: moment.lens,
         exposure_s: shot.finish.exposure.time_s,
         iso: shot.finish.exposure.iso,
-        lamp: picture.pose.lamp_on,
+        lamp: pose.lamp_on,
         distance_m: picture.target.as_ref().map(|target| target.distance_m),
         model: format!("{} inspection camera", vehicle.name),
         job: scenario.name.clone(),

@@ -38,6 +38,13 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     if !(1.0..=60.0).contains(&args.fps) {
         return Err(AppError::wrong(format!("--fps {}: give pictures a second, 1 to 60", args.fps)));
     }
+    let track = path.with_extension("vtt");
+    if track == path {
+        return Err(AppError::wrong(format!(
+            "--video {}: its chapters go there; give the film another ending, as .mp4",
+            path.display()
+        )));
+    }
     let recorded = Recorded::read(Path::new(&args.what))?;
     let (from, to) = span(args, &recorded)?;
     let size_px = fitted_px(within_px, recorded.vehicle().camera.aspect());
@@ -51,6 +58,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     let (mut brush, mut heard, mut progress) = (drawing.brush(), recorded.heard(), Progress::start("drawing the film"));
     let mut meter = Adaptation::default();
     let count = ((to - from).s() * args.fps).floor() as u32 + 1;
+    let picture_s = 1.0 / args.fps;
     for k in 0..count {
         let at = from + SimTime::from_s(f64::from(k) / args.fps);
         progress.tell(|| format!("{:.1} of {:.1} s", (at - from).s(), (to - from).s()));
@@ -69,8 +77,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     }
     file.finish()?;
     progress.end();
-    let track = path.with_extension("vtt");
-    replace(&track, webvtt::write(&chapters(&report::pictures(&recorded.folder)?, from, to)).as_bytes())?;
+    replace(&track, webvtt::write(&chapters(&report::pictures(&recorded.folder)?, (from, to), picture_s)).as_bytes())?;
     println!("film          {} ({count} pictures), chapters {}", path.display(), track.display());
     Ok(())
 }
@@ -89,8 +96,8 @@ fn span(args: &Args, recorded: &Recorded) -> Result<(SimTime, SimTime), AppError
     if from < first || to > last || from >= to { Err(wrong()) } else { Ok((from, to)) }
 }
 
-/// A chapter for each photograph of the span, named by its verdict.
-fn chapters(taken: &[Picture], from: SimTime, to: SimTime) -> Vec<webvtt::Chapter> {
+/// A chapter for each photograph of the span, named by its verdict; none is shorter than a picture of the film, s.
+fn chapters(taken: &[Picture], (from, to): (SimTime, SimTime), picture_s: f64) -> Vec<webvtt::Chapter> {
     let within: Vec<&Picture> = taken.iter().filter(|picture| (from..=to).contains(&picture.time)).collect();
     let next = |k: usize| within.get(k + 1).map_or(to, |next: &&Picture| next.time);
     within
@@ -98,7 +105,8 @@ fn chapters(taken: &[Picture], from: SimTime, to: SimTime) -> Vec<webvtt::Chapte
         .enumerate()
         .map(|(k, picture)| webvtt::Chapter {
             from_s: (picture.time - from).s(),
-            to_s: (picture.time - from).s().max(((picture.time + SimTime::from_s(CHAPTER_S)).min(next(k)) - from).s()),
+            to_s: ((picture.time - from).s() + picture_s)
+                .max(((picture.time + SimTime::from_s(CHAPTER_S)).min(next(k)) - from).s()),
             title: format!("Picture {}: {} ({})", picture.number, picture.verdict.name(), picture.reason),
         })
         .collect()

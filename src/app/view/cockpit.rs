@@ -11,7 +11,7 @@ mod lead;
 mod listener;
 mod panes;
 mod pilot;
-mod plan;
+pub mod plan;
 mod screen;
 mod sound;
 mod stream;
@@ -72,7 +72,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     // On Linux every thread has a niceness of its own, that of the thread which began it: sticks are sent by one that began before, pictures
     // are encoded by one that begins after.
     priority::stand_back();
-    crew.stream = args.stream.map(|to| Stream::open(to, clock::unix_us())).transpose()?;
+    crew.stream = match args.stream.map(|to| Stream::open(to, clock::unix_us())).transpose() {
+        // A trainee's window is worth more than what it sends elsewhere.
+        Err(error) if args.led => {
+            tracing::warn!("no stream: {error}");
+            None
+        }
+        opened => opened?,
+    };
     let speaker = Speaker::new(keys.sounds, !args.no_sound);
     Cockpit::new(plan, keys, flow, crew, speaker, stop).run()
 }

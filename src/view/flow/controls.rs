@@ -9,6 +9,8 @@ use crate::view::hud::{Colour, Side};
 pub struct Controls {
     /// Its name; none: the keys fly.
     pub device: Option<String>,
+    /// It was there and is away: the keys fly.
+    pub lost: bool,
     /// It has a profile.
     pub calibrated: bool,
     /// Which stick does what, 1 to 4.
@@ -33,6 +35,7 @@ impl Default for Controls {
     fn default() -> Self {
         Self {
             device: None,
+            lost: false,
             calibrated: false,
             mode: 2,
             dead_band: 0.0,
@@ -42,6 +45,24 @@ impl Default for Controls {
             wizard: None,
             note: String::new(),
             keys: String::new(),
+        }
+    }
+}
+
+impl Controls {
+    /// A device is connected.
+    #[must_use]
+    pub fn is_there(&self) -> bool {
+        self.device.is_some() && !self.lost
+    }
+
+    /// In words: which device, and what flies.
+    fn standing(&self) -> String {
+        match &self.device {
+            None => "No controller: the keys fly.".to_owned(),
+            Some(name) if self.lost => format!("{name} is not connected: the keys fly"),
+            Some(name) if self.calibrated => format!("{name}, calibrated"),
+            Some(name) => format!("{name}, not calibrated: the keys fly until it is"),
         }
     }
 }
@@ -61,11 +82,7 @@ pub fn page(pen: &mut Pen, controls: &Controls, rows: &[Row], focus: usize) {
     let left = 0.04;
     let half = 0.42 * pen.width;
     pen.text((left, 0.08), Side::Left, TITLE, Colour::White, "Check the controller");
-    let name = controls.device.as_deref().map_or("No controller: the keys fly.".to_owned(), |name| match controls.calibrated {
-        true => format!("{name}, calibrated"),
-        false => format!("{name}, not calibrated: the keys fly until it is"),
-    });
-    let mut y = pen.lines((left, 0.165), half, TEXT, Colour::Yellow, &name);
+    let mut y = pen.lines((left, 0.165), half, TEXT, Colour::Yellow, &controls.standing());
     if let Some(prompt) = &controls.wizard {
         y = pen.lines((left, y + 0.02), half, 1.1 * TEXT, Colour::White, prompt) + 0.02;
     }
@@ -80,7 +97,7 @@ pub fn page(pen: &mut Pen, controls: &Controls, rows: &[Row], focus: usize) {
         stick(pen, (x + (size + 0.1) * k as f64, 0.22), size, (right, way), [name, up, across]);
     }
     let below = 0.22 + size + 0.16;
-    if controls.device.is_none() {
+    if !controls.is_there() && controls.wizard.is_none() {
         columns(pen, (left, y + 0.02), half, &controls.keys);
         pen.lines(
             (x, below),

@@ -97,7 +97,7 @@ impl Flow {
     /// The keys that fly are tried: they do nothing else on this page.
     #[must_use]
     pub fn tries_keys(&self) -> bool {
-        self.page == Page::Controls && self.controls.device.is_none()
+        self.page == Page::Controls && !self.controls.is_there()
     }
 
     /// The flight is seen under a question about it.
@@ -174,6 +174,7 @@ impl Flow {
                 self.choice = flying.choice.clone();
                 self.ended = None;
                 self.words = None;
+                self.anew = false;
                 self.flying = Some(flying.clone());
                 self.out.push_back(Order::Fly(Box::new(flying)));
                 self.go(Page::Flight);

@@ -42,15 +42,13 @@ impl Flow {
     fn controls_rows(&self) -> Vec<Row> {
         let controls = &self.controls;
         let mut rows = vec![Row::button(Deed::Fly, "Go on: fly")];
-        if controls.device.is_some() {
+        if controls.is_there() {
             rows.push(Row::button(Deed::Calibrate, if controls.calibrated { "Calibrate again" } else { "Calibrate" }));
+            rows.push(Row::choice(Deed::Mode, "Stick mode", controls.mode.to_string()));
         } else {
             rows.push(Row::button(Deed::Look, "Look for a controller again"));
         }
-        if controls.device.is_some() {
-            rows.push(Row::choice(Deed::Mode, "Stick mode", controls.mode.to_string()));
-        }
-        if controls.calibrated {
+        if controls.is_there() && controls.calibrated {
             rows.push(Row::choice(Deed::DeadBand, "Dead band", format!("{:.0} %", 100.0 * controls.dead_band)));
             rows.push(Row::choice(Deed::Expo, "Expo", format!("{:.1}", controls.expo)));
         }

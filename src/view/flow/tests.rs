@@ -1,7 +1,7 @@
 //! The way through the pages by keys, what is refused where, and what stands on each page.
 
 use super::pipe::{Choice, Ended, Flying, FromWindow, Job, Offers, Person, Purpose, Score, ToWindow};
-use super::{Controls, Flow, Names, Order, PICTURES, Page, Press, Tune};
+use super::{Controls, Deed, Flow, Names, Order, PICTURES, Page, Press, Tune};
 use crate::view::hud::{Item, Point};
 use std::net::SocketAddr;
 
@@ -150,6 +150,36 @@ fn exact_a_key_that_flies_does_nothing_on_a_page_that_comes_under_it() {
     assert!(flow.tries_keys(), "keys fly: they are tried here");
     flow.look(Controls { device: Some("Pad".into()), ..Controls::default() });
     assert!(!flow.tries_keys(), "a controller's values are chosen by keys");
+}
+
+#[test]
+fn exact_a_controller_that_was_unplugged_is_said_to_be_and_may_be_looked_for() {
+    let mut flow = started();
+    press(&mut flow, &[Press::Row(3)]);
+    let there = Controls { device: Some("Pad".into()), calibrated: true, ..Controls::default() };
+    let lost = Controls { lost: true, keys: "w up".into(), ..there.clone() };
+    let deeds = |flow: &Flow| flow.rows().into_iter().map(|row| row.deed).collect::<Vec<_>>();
+    flow.look(there);
+    assert!(words(&flow).contains("Pad, calibrated") && !deeds(&flow).contains(&Deed::Look));
+    flow.look(lost);
+    let told = words(&flow);
+    assert!(told.contains("Pad is not connected: the keys fly") && !told.contains("calibrated") && told.contains("up"), "{told}");
+    assert_eq!(deeds(&flow), [Deed::Fly, Deed::Look, Deed::Back]);
+    assert!(flow.tries_keys(), "keys fly: they are tried here");
+}
+
+#[test]
+fn regress_a_flight_that_ended_before_its_pause_leaves_no_wish_to_begin_anew() {
+    let mut flow = in_flight(Purpose::Practice);
+    flow.restart();
+    flow.hear(ToWindow::Ended(ended()));
+    let mut next = in_flight(Purpose::Practice);
+    next.hear(ToWindow::Paused { on: true });
+    let harmless = next.focus;
+    let flying = next.flying.clone().unwrap();
+    flow.hear(ToWindow::Flying(flying));
+    flow.hear(ToWindow::Paused { on: true });
+    assert_eq!(flow.focus, harmless);
 }
 
 #[test]

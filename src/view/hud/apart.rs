@@ -172,6 +172,29 @@ fn prop_nothing_lies_over_anything_else_in_pictures_of_any_size() {
 }
 
 #[test]
+fn prop_the_windows_own_words_cover_no_warning_of_the_large_cameras_display() {
+    use crate::view::arrange::{Arrangement, Which};
+    let (left, bottom, width) = Arrangement::Camera.words();
+    let [camera, _] = Arrangement::Camera.places();
+    assert_eq!(camera.which, Which::Camera);
+    for (name, state) in states().into_iter().filter(|(_, state)| state.cues == ALL_CUES) {
+        for window in [1.0, 4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
+            for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
+                let place = camera.fitted(lens, window);
+                let low = |block: &&Block| block.ground[1] > 0.5 && place.left + place.width * block.ground[0] < left + width;
+                let found = blocks(layout(&state, lens), 1.0);
+                let warnings: Vec<&Block> = found.iter().filter(low).filter(|block| !is_map(block)).collect();
+                assert!(warnings.len() >= 4, "{name}: {} warnings", warnings.len());
+                for block in warnings {
+                    let top = place.top + place.height * block.ground[1];
+                    assert!(top >= bottom, "{name}: {block:?} at {top:.3} under the words, lens {lens}, window {window}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn prop_the_small_view_hides_nothing_of_the_large_cameras_display() {
     use crate::view::arrange::{Arrangement, Which};
     let all = Hud { cues: ALL_CUES, hit: Some("suspension bridge, tower leg".into()), zoom: 2.0, ..hud() };

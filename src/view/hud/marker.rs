@@ -1,12 +1,15 @@
 //! In the inspector's view: where the drone is, small as it may look.
 
 use super::super::camera::Eye;
+use super::letters::width_of;
 use super::{Colour, Item, Point, Side, at};
 use crate::base::frames::{Enu, Vec3};
 use crate::base::math;
 
 /// Half the bracket's side as a share of the picture's height, at least.
 const LEAST: f64 = 0.022;
+/// Height of the type as a share of the picture's height.
+const TYPE: f64 = 0.026;
 /// The bracket is this much wider than the drone, m from its centre.
 const ROOM_M: f64 = 0.6;
 
@@ -40,13 +43,13 @@ pub fn marker(eye: &Eye, aspect: f64, drone_m: Vec3<Enu>, hidden: bool) -> Vec<I
         .flat_map(|(right, down)| corner(right, down))
         .map(|points| Item::Line { points, width: 0.003, colour })
         .collect();
-    items.push(Item::Text {
-        place: at(middle.x, (middle.y + half + 0.02).min(0.98)),
-        side: Side::Middle,
-        height: 0.026,
-        colour,
-        words: format!("{distance_m:.0} m{}", if hidden { ", hidden" } else { "" }),
-    });
+    let words = format!("{distance_m:.0} m{}", if hidden { ", hidden" } else { "" });
+    let place = at(middle.x, (middle.y + half + 0.022).min(0.98));
+    // A pale sky is as bright as the words.
+    let ground = (0.5 * (width_of(&words, TYPE) + 0.4 * TYPE) / aspect, 0.6 * TYPE);
+    let side = |sign: f64| at(place.x + sign * ground.0, place.y + sign * ground.1);
+    items.push(Item::Panel { from: side(-1.0), to: side(1.0), colour: Colour::Shade });
+    items.push(Item::Text { place, side: Side::Middle, height: TYPE, colour, words });
     items
 }
 
@@ -63,7 +66,7 @@ mod tests {
             Item::Panel { .. } | Item::Fill { .. } | Item::Line { .. } => None,
         });
         assert_eq!(words, Some(("80 m".to_owned(), 0.5)));
-        assert_eq!(items.len(), 5);
+        assert_eq!(items.len(), 6);
         assert!(marker(&eye, 1.5, Vec3::new(0.0, -80.0, 0.0), false).is_empty());
         let hidden = marker(&eye, 1.5, Vec3::new(0.0, 80.0, 0.0), true);
         let told = |item: &Item| matches!(item, Item::Text { words, colour: Colour::Grey, .. } if words == "80 m, hidden");

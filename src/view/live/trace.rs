@@ -106,6 +106,12 @@ impl Trace {
         self.lens.at(time.saturating_sub(LENS_BEHIND))
     }
 
+    /// The horizontal field of view at a time of a flight that is known whole, rad. None: nothing has been heard.
+    #[must_use]
+    pub fn lens_told_at(&self, time: SimTime) -> Option<f64> {
+        self.lens.at(time)
+    }
+
     /// How fast the camera turns at a time: as evenly as between the samples; not at all where nothing is made up.
     #[must_use]
     pub fn turn_at(&self, time: SimTime) -> Turn {

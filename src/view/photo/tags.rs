@@ -88,7 +88,8 @@ fn place(about: &About) -> Vec<(Tag, Value)> {
         (Tag::GPSDateStamp, text(&about.taken_utc.0)),
         (Tag::GPSMapDatum, text("WGS-84")),
         (Tag::GPSImgDirectionRef, text("T")),
-        (Tag::GPSImgDirection, one(about.yaw_deg, 100)),
+        // Hundredths, of which a full turn is none: 0 to 359.99.
+        (Tag::GPSImgDirection, one((about.yaw_deg * 100.0).round().rem_euclid(36_000.0) / 100.0, 100)),
     ]
 }
 

@@ -298,11 +298,11 @@ fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     let gone = mix(mix(colour, vec3<f32>(0.45, 0.42, 0.38), ring), vec3<f32>(0.008), hole);
     let bolt = mix(colour, in.tint * (1.25 - 0.8 * smoothstep(0.6 * radius, radius, d)), head);
     colour = mix(bolt, gone, missing);
-    let bleed = smoothstep(0.35, 0.75, fbm(in.q * 25.0 + in.normal.w * 9.0, f * 25.0)) * missing * (1.0 - smoothstep(radius, 2.4 * radius, d));
+    let bleed = smoothstep(0.2, 0.6, fbm(in.q * 25.0 + in.normal.w * 9.0, f * 25.0)) * missing * (1.0 - smoothstep(radius, 0.5 * pitch, d));
     colour = mix(colour, rust(in.q, f), 0.8 * bleed * (1.0 - hole));
     let plate = cover(abs(inside - 0.97) * min(half.x, half.y), 0.004, f);
     (*look).matter.albedo = colour * (1.0 - 0.6 * plate);
-    (*look).matter.normal = frame_normal(in, at / radius * 0.8 * head * (1.0 - missing));
+    (*look).matter.normal = frame_normal(in, -at / radius * 0.8 * head * (1.0 - missing));
     (*look).matter.roughness = 0.5;
     (*look).alpha = 1.0 - smoothstep(0.98, 1.0, inside);
 }
@@ -325,6 +325,7 @@ fn fatigue(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
 }
 
 const WELD_M: f32 = 0.009;
+const RIPPLE_M: f32 = 0.0045;
 
 // A bead beside the crack, laid in ripples and painted over: how much of the pixel it covers, how bright its coat is.
 fn weld(in: Fragment, f: f32, half: f32, look: ptr<function, Look>) -> vec2<f32> {
@@ -332,9 +333,10 @@ fn weld(in: Fragment, f: f32, half: f32, look: ptr<function, Look>) -> vec2<f32>
     let round = max(abs(in.q.x) - half - 0.012, 0.0);
     let d = length(vec2<f32>(across, round));
     let t = clamp(across / (0.5 * WELD_M), -1.0, 1.0);
-    let near = 1.0 - smoothstep(0.002, 0.006, f);
+    // Gone before a ripple is as fine as two pixels.
+    let near = 1.0 - smoothstep(0.25 * RIPPLE_M, 0.5 * RIPPLE_M, f);
     // Scales of the bead bow along it.
-    let scale = (fract((in.q.x - 0.35 * t * t * WELD_M) / 0.0045) - 0.5) * near;
+    let scale = (fract((in.q.x - 0.35 * t * t * WELD_M) / RIPPLE_M) - 0.5) * near;
     (*look).matter.normal = frame_normal(in, vec2<f32>(0.30 * scale, -0.40 * t * near));
     return vec2<f32>(cover(d, WELD_M, f), 1.0 - 0.2 * abs(scale) - 0.1 * abs(t));
 }

@@ -98,7 +98,7 @@ fn lean_concrete(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     tone *= 1.0 - wall * 0.42 * tile.g;
     var colour = vec3<f32>(0.36, 0.345, 0.315) * tone;
     colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * tile.b);
-    colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * tile.a);
+    colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * tile.a * step(-0.3, in.normal.z));
     let over = in.p.z - g.scene.y;
     colour = befriended(colour, in, in.normal, f);
     let reach = 0.8 + 0.5 * tile.r;

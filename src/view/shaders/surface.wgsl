@@ -183,10 +183,10 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     // Soot and lichen in broad patches.
     let dark = smoothstep(0.6, 0.8, fbm(uv * 0.17 + 11.0, f * 0.17));
     colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * dark);
-    // Bird droppings: white splashes, nothing to report.
+    // Bird droppings: white splashes, nothing to report; none on what faces down.
     let spot = floor(uv / 1.7);
     let lucky = hash2(vec2<i32>(spot) + vec2<i32>(77, 19));
-    if lucky > 0.93 {
+    if lucky > 0.93 && n.z > -0.3 {
         let centre = (spot + 0.3 + 0.4 * vec2<f32>(hash2(vec2<i32>(spot)), hash2(vec2<i32>(spot) + 5))) * 1.7;
         let d = length((uv - centre) * vec2<f32>(1.0, mix(1.0, 0.45, wall)));
         let splash = 0.055 * fine(uv * 38.0, 0.0, grain);

@@ -40,6 +40,10 @@ impl Cockpit {
         while let Some(order) = self.flow.poll() {
             self.obey(order)?;
         }
+        let stands = self.flow.stands();
+        if std::mem::replace(&mut self.stood, stands) != stands {
+            self.hand_on(Ask::Stand(stands));
+        }
         match self.flow.page() {
             Page::Flight | Page::Paused | Page::Leaving => self.fly(),
             _ => {

@@ -34,6 +34,8 @@ pub enum Ask {
     Fly(SocketAddr),
     /// Let go of the vehicle.
     Land,
+    /// Time stands still, or goes on: nobody acts meanwhile.
+    Stand(bool),
     /// Look for a controller again.
     Look,
     /// Calibrate it.
@@ -71,8 +73,8 @@ impl Pilot {
         std::thread::spawn(move || {
             // A device is opened where it is used: some systems' devices may not change threads.
             let desk = Desk::new(device, profiles);
-            if !desk.flies() {
-                tracing::info!("{} The window's keys fly.", desk.note());
+            if let Some(why) = desk.why_keys() {
+                tracing::info!("{why} The window's keys fly.");
             }
             let words = keys.explain();
             let board = Keyboard::new(keys);
@@ -84,6 +86,7 @@ impl Pilot {
                 board,
                 desk,
                 touched: false,
+                stands: false,
                 lost: false,
                 shown,
                 words,
@@ -119,6 +122,7 @@ struct Seat {
     board: Keyboard,
     desk: Desk,
     touched: bool,
+    stands: bool,
     lost: bool,
     shown: Arc<Mutex<Controls>>,
     words: String,
@@ -147,7 +151,11 @@ impl Seat {
                 // Nobody is left to hear it when the window is closed.
                 let _ = teller.send(format!("A controller is there. {} {flies}", self.desk.note()));
             }
-            let sticks = self.sticks(now);
+            let (sticks, news) = self.sticks(now);
+            if let Some(news) = news {
+                // Nobody is left to hear it when the window is closed.
+                let _ = teller.send(news);
+            }
             match self.vehicle {
                 Some(vehicle) => {
                     self.link.set_sticks(sticks, now);
@@ -196,11 +204,13 @@ impl Seat {
             Ask::LetGo => self.board.let_go(),
             Ask::Fly(vehicle) => {
                 (self.vehicle, self.link, self.touched) = (Some(vehicle), Link::default(), false);
-                if !self.desk.flies() {
+                self.stands = false;
+                if let Some(why) = self.desk.why_keys() {
                     // Nobody is left to hear it when the window is closed.
-                    let _ = teller.send(format!("{} Keys fly.", self.desk.note()));
+                    let _ = teller.send(format!("{why} Keys fly."));
                 }
             }
+            Ask::Stand(stands) => self.stands = stands,
             Ask::Land => (self.vehicle, self.link) = (None, Link::default()),
             Ask::Look => self.desk.look(),
             Ask::Calibrate => self.desk.calibrate(),
@@ -210,26 +220,46 @@ impl Seat {
         }
     }
 
-    /// A controller's sticks, unless keys are held; the keys' once they have been touched.
-    fn sticks(&mut self, now: SimTime) -> Option<Sticks> {
+    /// A controller's sticks, unless keys are held; the keys' once they have been touched. With it, what a person must know of the
+    /// controller.
+    fn sticks(&mut self, now: SimTime) -> (Option<Sticks>, Option<String>) {
         let keys = self.board.sticks(now);
-        let flown = self.desk.sticks(&mut self.link, now);
-        let lost = matches!(flown, Ok(None)) && self.desk.flies() || flown.is_err();
-        if lost && !self.lost {
-            // Whose controller is gone holds no sticks, whatever keys were pressed before: the vehicle's failsafe acts, until a key flies anew.
-            self.touched = false;
+        // While time stands still a button would act late, or never: it has nobody to act on.
+        let (mut nobody, flown);
+        if self.stands {
+            nobody = Link::default();
+            flown = self.desk.sticks(&mut nobody, now);
+        } else {
+            flown = self.desk.sticks(&mut self.link, now);
         }
-        self.lost = lost;
+        let lost = matches!(flown, Ok(None)) && self.desk.flies() || flown.is_err();
+        let news = self.turn(lost);
         let own = self.touched.then_some(keys);
         match flown {
-            Ok(Some(sticks)) if keys == Sticks::default() => Some(sticks),
-            Ok(Some(_)) => Some(keys),
-            Ok(None) => own,
+            Ok(Some(sticks)) if keys == Sticks::default() => (Some(sticks), news),
+            Ok(Some(_)) => (Some(keys), news),
+            Ok(None) => (own, news),
             Err(error) => {
                 tracing::warn!("the controller is given up: {error}");
                 self.desk.give_up(&error);
-                None
+                (None, Some(self.desk.note().to_owned()))
             }
+        }
+    }
+
+    /// The controller is lost now, or is not; says so when it was not, or was.
+    fn turn(&mut self, lost: bool) -> Option<String> {
+        let before = std::mem::replace(&mut self.lost, lost);
+        let name = self.desk.name().unwrap_or("the controller");
+        match (before, lost) {
+            (false, true) => {
+                // Whose controller is gone holds no sticks, whatever keys were pressed before: the vehicle's failsafe acts, until a key flies
+                // anew.
+                self.touched = false;
+                Some(format!("'{name}' is lost: its sticks are centred, then silent. A key takes over."))
+            }
+            (true, false) if self.desk.flies() => Some(format!("'{name}' flies again.")),
+            _ => None,
         }
     }
 }

@@ -62,6 +62,8 @@ pub struct Cockpit {
     pub(super) gaze: Gaze,
     pub(super) map: bool,
     pub(super) held: Held,
+    /// The pilot has been told that time stands still.
+    pub(super) stood: bool,
     mouse: Option<(f64, f64)>,
     dragging: bool,
     pub(super) words: Vec<(String, Duration)>,
@@ -87,6 +89,7 @@ impl Cockpit {
             pictures: Pictures::default(),
             gaze: Gaze::default(),
             held: Held::default(),
+            stood: false,
             mouse: None,
             dragging: false,
             words: Vec::new(),
@@ -251,6 +254,8 @@ impl ApplicationHandler for Cockpit {
         match event {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::RedrawRequested => self.redraw(events),
+            // Keys that were down when the window came to the front were pressed for somebody else.
+            WindowEvent::KeyboardInput { event, is_synthetic: true, .. } if event.state == ElementState::Pressed => {}
             WindowEvent::KeyboardInput { event, .. } => self.key(&event),
             WindowEvent::Focused(false) => {
                 self.held.let_go();
