@@ -42,7 +42,7 @@ const SMALL: f64 = 0.3;
 const UNDER_SPEED: f64 = 0.23;
 /// From the upper edge to the end of the window's own words above the display's warnings, a share of the window's height; enough for a wide
 /// picture in a narrow window.
-const ABOVE_WARNINGS: f64 = 0.6;
+const ABOVE_WARNINGS: f64 = 0.58;
 
 impl Place {
     /// The largest place of this shape (width over height) in the middle of this one, in a window of that shape: what a camera's sensor does
