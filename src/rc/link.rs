@@ -68,9 +68,8 @@ pub struct Link {
     out: VecDeque<Vec<u8>>,
     told: VecDeque<String>,
     next_ask: SimTime,
-    /// Which of [`STREAMS`] have come since they were looked for last, and which the vehicle refuses.
+    /// Which of [`STREAMS`] have come since they were looked for last.
     came: [bool; 2],
-    refused: [bool; 2],
     /// What the vehicle said last.
     pub heard: Heard,
     sticks: Sticks,
@@ -79,8 +78,8 @@ pub struct Link {
     next_beat: SimTime,
     pending: Vec<Pending>,
     aim: Option<(f32, SimTime)>,
-    /// It has been told that the streams are not answered.
-    complained: bool,
+    /// What came of asking for the streams is known, and told if it was nothing.
+    answered: bool,
     pictures: u16,
 }
 
@@ -93,7 +92,6 @@ impl Default for Link {
             told: VecDeque::new(),
             next_ask: SimTime::ZERO,
             came: [false; 2],
-            refused: [false; 2],
             heard: Heard::default(),
             sticks: Sticks::default(),
             lost: Some(SimTime::ZERO - SimTime::from_s(NEUTRAL_S)),
@@ -101,7 +99,7 @@ impl Default for Link {
             next_beat: SimTime::ZERO,
             pending: Vec::new(),
             aim: None,
-            complained: false,
+            answered: false,
             pictures: 0,
         }
     }
@@ -134,11 +132,11 @@ impl Link {
                     self.heard.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
                 }
                 Some(MavMessage::ILLUMINATOR_STATUS(status)) => {
-                    self.came[0] = true;
+                    (self.came[0], self.answered) = (true, true);
                     self.heard.lamp = status.enable != 0;
                 }
                 Some(MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(status)) => {
-                    self.came[1] = true;
+                    (self.came[1], self.answered) = (true, true);
                     let attitude = crate::base::frames::Rotation::<crate::base::frames::Frd, crate::base::frames::Ned>::from_wxyz(
                         status.q.map(f64::from),
                     );
@@ -163,10 +161,8 @@ impl Link {
         }
         if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
             let done = self.pending.remove(k);
-            if let Some(n) = STREAMS.iter().position(|(id, _)| done.what == TELLING && *id as f32 == done.command.param1) {
-                self.refused[n] = result != MavResult::MAV_RESULT_ACCEPTED;
-            }
-            if result != MavResult::MAV_RESULT_ACCEPTED {
+            let known = done.what == TELLING && std::mem::replace(&mut self.answered, true);
+            if result != MavResult::MAV_RESULT_ACCEPTED && !known {
                 if command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW {
                     self.aim = None;
                 }
@@ -193,7 +189,7 @@ impl Link {
         self.next_ask = now + SimTime::from_s(STREAMS_AGAIN_S);
         let came = std::mem::take(&mut self.came);
         for (n, (id, rate_hz)) in STREAMS.into_iter().enumerate() {
-            if came[n] || self.refused[n] {
+            if came[n] {
                 continue;
             }
             let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -282,7 +278,8 @@ impl Link {
                 return true;
             }
             if p.sent == TIMES {
-                if p.what != TELLING || !std::mem::replace(&mut self.complained, true) {
+                // Asked for again and again: a vehicle that has answered once may stand still.
+                if p.what != TELLING || !std::mem::replace(&mut self.answered, true) {
                     self.tell(p.what, "the vehicle does not answer");
                 }
                 return false;
@@ -369,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_lamp_and_gimbal_are_asked_for_again_while_they_do_not_come_and_are_not_refused() {
+    fn exact_lamp_and_gimbal_are_asked_for_again_while_they_do_not_come_and_what_is_wrong_is_told_once() {
         let mut link = known();
         let asked = |messages: &[MavMessage]| -> Vec<u32> {
             let ids =
@@ -383,10 +380,23 @@ mod tests {
         assert_eq!(asked(&again), [STREAMS[0].0], "the gimbal's has come");
         answer(&mut link, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
         let later = sent(&mut link, STREAMS_AGAIN_S + 0.1, 2.0 * STREAMS_AGAIN_S + 0.1);
-        assert_eq!(asked(&later), [STREAMS[1].0], "the lamp's is refused, the gimbal's has stopped");
+        assert_eq!(asked(&later), STREAMS.map(|(id, _)| id), "the gimbal's has stopped, too");
         sent(&mut link, 2.0 * STREAMS_AGAIN_S + 0.1, 60.0);
-        let told: Vec<String> = std::iter::from_fn(|| link.poll_told()).collect();
-        assert_eq!(told.len(), 2, "a refusal, and once that nobody answers: {told:?}");
+        let told = |link: &mut Link| std::iter::from_fn(|| link.poll_told()).collect::<Vec<_>>();
+        assert!(told(&mut link).is_empty(), "one of them came");
+        let mut refused = known();
+        sent(&mut refused, 0.0, STREAMS_AGAIN_S + 0.1);
+        for _ in STREAMS {
+            answer(&mut refused, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
+        }
+        assert_eq!(told(&mut refused), ["telling of lamp and gimbal: the vehicle has no such thing"]);
+        let mut deaf = known();
+        sent(&mut deaf, 0.0, 60.0);
+        assert_eq!(told(&mut deaf), ["telling of lamp and gimbal: the vehicle does not answer"]);
+        let mut stands = known();
+        stands.receive(&Encoder::new(1, 1).encode(&gimbal));
+        sent(&mut stands, 0.0, 60.0);
+        assert!(told(&mut stands).is_empty(), "time stands still: nothing is wrong");
     }
 
     #[test]
@@ -471,10 +481,11 @@ mod tests {
     #[test]
     fn exact_a_command_is_said_until_it_is_answered() {
         let mut link = known();
-        // Nothing else is asked for.
-        link.refused = [true; 2];
+        link.answered = true;
         link.act(Action::Lamp, at(0.0));
-        let count = |messages: &[MavMessage]| messages.iter().filter(|m| matches!(m, MavMessage::COMMAND_LONG(_))).count();
+        let streams = MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL;
+        let wished = |m: &&MavMessage| matches!(m, MavMessage::COMMAND_LONG(c) if c.command != streams);
+        let count = |messages: &[MavMessage]| messages.iter().filter(wished).count();
         assert_eq!(count(&sent(&mut link, 0.0, 1.1)), 3);
         answer(&mut link, MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, MavResult::MAV_RESULT_DENIED);
         assert_eq!(count(&sent(&mut link, 1.1, 5.0)), 0);

@@ -12,4 +12,4 @@ pub mod tlog;
 pub use frame::Frame;
 pub use hand::Hand;
 pub use sample::{Contact, Sample, Truth};
-pub use timeline::{Flight, RESTART_AFTER, Timeline};
+pub use timeline::{Flight, RESTART_AFTER, RESTART_CONFIRM, Timeline};

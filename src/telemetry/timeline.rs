@@ -14,7 +14,7 @@ use serde::Serialize;
 /// A truth sample this much older than the newest is no mere reordering.
 pub const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
 /// So many old truth samples in a row make a restart; fewer are stragglers.
-const RESTART_CONFIRM: usize = 3;
+pub const RESTART_CONFIRM: usize = 3;
 /// A message's own clock is believed within this span of the truth's.
 const OWN_CLOCK_WITHIN: SimTime = SimTime::from_ms(2_000);
 /// The truth sample found by number is believed within this span of the one found by arrival.

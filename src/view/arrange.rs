@@ -36,13 +36,23 @@ pub struct Place {
     pub height: f64,
 }
 
+/// Where words stand, shares of the window's width and height.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Words {
+    /// Left edge.
+    pub left: f64,
+    /// Lower edge, or the upper one.
+    pub edge: f64,
+    /// Greatest width.
+    pub width: f64,
+    /// They hang from the upper edge; otherwise they stand on the lower one.
+    pub hang: bool,
+}
+
 /// Width of the small view as a share of the window's.
 const SMALL: f64 = 0.3;
 /// From the upper edge to the small view below the display's speed, a share of the window's height; enough for a wide picture in a narrow window.
 const UNDER_SPEED: f64 = 0.23;
-/// From the upper edge to the end of the window's own words above the display's warnings, a share of the window's height; enough for a wide
-/// picture in a narrow window.
-const ABOVE_WARNINGS: f64 = 0.58;
 
 impl Place {
     /// The largest place of this shape (width over height) in the middle of this one, in a window of that shape: what a camera's sensor does
@@ -77,16 +87,15 @@ impl Arrangement {
         }
     }
 
-    /// Where the window's own words stand, shares of its width and height: their left and lower edge, and how wide they may be. Never over
-    /// the display's warnings.
+    /// Where the window's own words stand. Never over the display's warnings.
     #[must_use]
-    pub fn words(self) -> (f64, f64, f64) {
+    pub fn words(self) -> Words {
         match self {
-            Self::Beside => (0.0, 1.0, 0.5),
-            // Above the four warnings at the lower left, one of them of two lines.
-            Self::Camera => (0.0, ABOVE_WARNINGS, 0.45),
+            Self::Beside => Words { left: 0.0, edge: 1.0, width: 0.5, hang: false },
+            // Between the small view and what the display tells at the right, over the middle of the picture.
+            Self::Camera => Words { left: SMALL, edge: UNDER_SPEED, width: 0.35, hang: true },
             // Left of the small view.
-            Self::Inspector => (0.0, 1.0, 0.5 - 0.5 * SMALL),
+            Self::Inspector => Words { left: 0.0, edge: 1.0, width: 0.5 - 0.5 * SMALL, hang: false },
         }
     }
 

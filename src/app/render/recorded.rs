@@ -12,13 +12,16 @@ use crate::scenario::Scenario;
 use crate::site::CameraPose;
 use crate::site::gates::Gates;
 use crate::telemetry::sample::{Header, truth_time};
-use crate::telemetry::{Flight, RESTART_AFTER, Timeline, tlog};
+use crate::telemetry::{Flight, RESTART_AFTER, RESTART_CONFIRM, Timeline, tlog};
 use crate::vehicle::{Camera, Vehicle};
 use crate::view::feed::Feed;
 use crate::view::live::Trace;
 use crate::view::scene::DronePose;
 use crate::view::stage::Moment;
 use std::path::{Path, PathBuf};
+
+/// The record's word for a simulator that has begun anew.
+const RESTARTED: &str = "\"simulator_restarted\"";
 
 /// A session folder that holds a flight.
 pub struct Recorded {
@@ -30,6 +33,8 @@ pub struct Recorded {
     pub flight: Flight,
     /// So many flights before it are in the log: the simulator has begun anew.
     before: usize,
+    /// How long these took.
+    passed: SimTime,
 }
 
 impl Recorded {
@@ -45,7 +50,14 @@ impl Recorded {
         if flight.truths.is_empty() {
             return Err(AppError::failed("the session holds no flight to draw"));
         }
-        Ok(Self { folder: folder.to_owned(), stored, flight, before })
+        let last = |epoch| timeline.flight(epoch).truths.last().map_or(SimTime::ZERO, |truth| truth.time);
+        let passed = (0..before).map(last).fold(SimTime::ZERO, |sum, time| sum + time);
+        Ok(Self { folder: folder.to_owned(), stored, flight, before, passed })
+    }
+
+    /// A simulation time of the flight as the clock of the world had it, microseconds since 1970.
+    pub fn unix_us(&self, at: SimTime) -> u64 {
+        self.stored.started_unix_us + u64::try_from((self.passed + at).us()).unwrap_or(0)
     }
 
     /// The job.
@@ -90,8 +102,11 @@ impl Recorded {
     pub fn heard(&self) -> Heard<'_> {
         // A session without its record of events is drawn without cues.
         let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
-        let mut events: Vec<(SimTime, serde_json::Value)> = events
-            .lines()
+        let mut lines = events.lines();
+        for _ in 0..self.before {
+            lines.find(|line| line.contains(RESTARTED));
+        }
+        let mut events: Vec<(SimTime, serde_json::Value)> = lines
             .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
             .filter_map(|event| Some((event["t_s"].as_f64().map(SimTime::from_s)?, event)))
             .collect();
@@ -99,7 +114,7 @@ impl Recorded {
         events.sort_by_key(|event| event.0);
         events.reverse();
         let frames = tlog::Reader::new(&self.stored.log);
-        Heard { feed: Feed::default(), now: SimTime::ZERO, before: self.before, frames, next: None, events }
+        Heard { feed: Feed::default(), now: SimTime::ZERO, before: self.before, old: 0, frames, next: None, events }
     }
 }
 
@@ -108,21 +123,33 @@ pub struct Heard<'a> {
     feed: Feed,
     now: SimTime,
     before: usize,
+    old: usize,
     frames: tlog::Reader<'a>,
     next: Option<&'a [u8]>,
     events: Vec<(SimTime, serde_json::Value)>,
 }
 
 impl Heard<'_> {
+    /// A truth of a flight before: enough old ones in a row begin the next flight, as in [`Timeline`].
+    fn pass(&mut self, now: SimTime) {
+        if now + RESTART_AFTER >= self.now {
+            (self.now, self.old) = (self.now.max(now), 0);
+            return;
+        }
+        self.old += 1;
+        if self.old == RESTART_CONFIRM {
+            (self.before, self.old, self.now) = (self.before - 1, 0, now);
+        }
+    }
+
     /// What had been told by then: the telemetry's part, and the monitor's own cues and words from its record.
     pub fn until(&mut self, at: SimTime) -> &Feed {
         while let Some(frame) = self.next.take().or_else(|| self.frames.next().map(|record| record.frame)) {
-            let now = truth_time(frame).unwrap_or(self.now);
             if self.before > 0 {
-                self.before -= usize::from(now + RESTART_AFTER < self.now);
-                self.now = now;
+                truth_time(frame).into_iter().for_each(|now| self.pass(now));
                 continue;
             }
+            let now = truth_time(frame).unwrap_or(self.now);
             if now > at {
                 self.next = Some(frame);
                 break;

@@ -73,7 +73,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// What is known of a photograph: as it was drawn, with attitude and gimbal between what was told.
 fn about(recorded: &Recorded, picture: &Picture, moment: &Moment, shot: &Shot) -> About {
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
-    let taken_unix_us = recorded.stored.started_unix_us + u64::try_from(picture.time.us()).unwrap_or(0);
+    let taken_unix_us = recorded.unix_us(picture.time);
     let (utc, _) = clock::utc(taken_unix_us);
     let (date, time) = utc.trim_end_matches('Z').split_once('T').unwrap_or(("", ""));
     let pose = &moment.camera;

@@ -96,7 +96,7 @@ fn span(args: &Args, recorded: &Recorded) -> Result<(SimTime, SimTime), AppError
     if from < first || to > last || from >= to { Err(wrong()) } else { Ok((from, to)) }
 }
 
-/// A chapter for each photograph of the span, named by its verdict; none is shorter than a picture of the film, s.
+/// A chapter for each photograph of the span, named by its verdict; one that would have no length has a picture's, s.
 fn chapters(taken: &[Picture], (from, to): (SimTime, SimTime), picture_s: f64) -> Vec<webvtt::Chapter> {
     let within: Vec<&Picture> = taken.iter().filter(|picture| (from..=to).contains(&picture.time)).collect();
     let next = |k: usize| within.get(k + 1).map_or(to, |next: &&Picture| next.time);
@@ -105,8 +105,10 @@ fn chapters(taken: &[Picture], (from, to): (SimTime, SimTime), picture_s: f64) -
         .enumerate()
         .map(|(k, picture)| webvtt::Chapter {
             from_s: (picture.time - from).s(),
-            to_s: ((picture.time - from).s() + picture_s)
-                .max(((picture.time + SimTime::from_s(CHAPTER_S)).min(next(k)) - from).s()),
+            to_s: match (picture.time + SimTime::from_s(CHAPTER_S)).min(next(k)) {
+                end if end > picture.time => (end - from).s(),
+                _ => (picture.time - from).s() + picture_s,
+            },
             title: format!("Picture {}: {} ({})", picture.number, picture.verdict.name(), picture.reason),
         })
         .collect()

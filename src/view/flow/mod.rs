@@ -156,6 +156,8 @@ impl Flow {
             Page::Calibrating if !wizard => self.go(Page::Controls),
             _ => {}
         }
+        // A device that has gone takes rows with it.
+        self.focus = self.focus.min(self.rows().len().saturating_sub(1));
     }
 
     /// `train` says something.

@@ -157,13 +157,18 @@ fn exact_a_controller_that_was_unplugged_is_said_to_be_and_may_be_looked_for() {
     let mut flow = started();
     press(&mut flow, &[Press::Row(3)]);
     let there = Controls { device: Some("Pad".into()), calibrated: true, ..Controls::default() };
-    let lost = Controls { lost: true, keys: "w up".into(), ..there.clone() };
+    let lost = Controls { lost: true, keys: "w climbs".into(), ..there.clone() };
     let deeds = |flow: &Flow| flow.rows().into_iter().map(|row| row.deed).collect::<Vec<_>>();
     flow.look(there);
     assert!(words(&flow).contains("Pad, calibrated") && !deeds(&flow).contains(&Deed::Look));
+    press(&mut flow, &[Press::Up]);
     flow.look(lost);
+    assert!(flow.focus < flow.rows().len(), "one of the rows is chosen");
     let told = words(&flow);
-    assert!(told.contains("Pad is not connected: the keys fly") && !told.contains("calibrated") && told.contains("up"), "{told}");
+    assert!(
+        told.contains("Pad is not connected: the keys fly") && !told.contains("calibrated") && told.contains("climbs"),
+        "{told}"
+    );
     assert_eq!(deeds(&flow), [Deed::Fly, Deed::Look, Deed::Back]);
     assert!(flow.tries_keys(), "keys fly: they are tried here");
 }

@@ -116,6 +116,8 @@ impl Cockpit {
         self.crew.flight = Some(Flight::begin(self.plan.listen, flying.connect, (scenario, vehicle), Some(flying.seed))?);
         self.keeper = self.plan.keep.clone().map(super::keeper::Keeper::start);
         (self.map, self.gaze) = (self.plan.map, crate::view::gaze::Gaze::default());
+        // What was said on the ground is past.
+        while self.crew.pilot.as_ref().and_then(Pilot::poll_told).is_some() {}
         self.words.clear();
         self.hand_on(Ask::LetGo);
         if let Some(vehicle) = flying.fly {

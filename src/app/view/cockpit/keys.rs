@@ -1,7 +1,7 @@
 //! Keys of the window by the names that files of keys use.
 
 use crate::view::flow::Press;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key, NamedKey, PhysicalKey};
 
@@ -37,11 +37,32 @@ pub enum Change {
     Up(String),
 }
 
-/// Which keys are down. A key that comes up while Shift is held has another sign than when it went down: the place on the keyboard tells.
+/// Which keys are down, and which were down already when the window came to the front: these were pressed for somebody else, and do nothing
+/// until they come up. A key that comes up while Shift is held has another sign than when it went down: the place on the keyboard tells.
 #[derive(Debug, Default)]
-pub struct Held(BTreeMap<String, String>);
+pub struct Held {
+    names: BTreeMap<String, String>,
+    others: BTreeSet<String>,
+}
 
 impl Held {
+    /// A key that was pressed for somebody else. `made_up`: the window system tells of a key that was down already.
+    pub fn is_anothers(&mut self, event: &KeyEvent, made_up: bool) -> bool {
+        self.anothers(place(&event.physical_key), event.state, made_up)
+    }
+
+    fn anothers(&mut self, place: String, state: ElementState, made_up: bool) -> bool {
+        match state {
+            ElementState::Pressed if made_up => {
+                self.others.insert(place);
+                true
+            }
+            // While it is held it repeats, and the first time is not told to be a repetition.
+            ElementState::Pressed => self.others.contains(&place),
+            ElementState::Released => self.others.remove(&place),
+        }
+    }
+
     /// Takes an event of the window.
     pub fn take(&mut self, event: &KeyEvent) -> Option<Change> {
         let place = place(&event.physical_key);
@@ -49,21 +70,21 @@ impl Held {
             ElementState::Pressed if event.repeat => None,
             ElementState::Pressed => {
                 let name = name(&event.logical_key)?;
-                self.0.insert(place, name.clone());
+                self.names.insert(place, name.clone());
                 Some(Change::Down(name))
             }
-            ElementState::Released => self.0.remove(&place).map(Change::Up),
+            ElementState::Released => self.names.remove(&place).map(Change::Up),
         }
     }
 
     /// All are up.
     pub fn let_go(&mut self) {
-        self.0.clear();
+        *self = Self::default();
     }
 
     /// True while a key of this name is down.
     pub fn is_down(&self, name: &str) -> bool {
-        self.0.values().any(|held| held == name)
+        self.names.values().any(|held| held == name)
     }
 }
 
@@ -88,4 +109,21 @@ pub fn name(key: &Key) -> Option<String> {
         Key::Named(NamedKey::Backspace) => "backspace".to_owned(),
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ElementState::{Pressed, Released};
+
+    #[test]
+    fn exact_a_key_that_was_down_before_the_window_had_it_does_nothing_until_it_comes_up() {
+        let mut held = Held::default();
+        let mut told = |state, made_up| held.anothers("w".into(), state, made_up);
+        assert!(told(Pressed, true) && told(Pressed, false), "made up, then its first repetition");
+        assert!(told(Released, false) && !told(Pressed, false) && !told(Released, false), "then it is a key as any other");
+        held.anothers("w".into(), Pressed, true);
+        held.let_go();
+        assert!(!held.anothers("w".into(), Pressed, false));
+    }
 }

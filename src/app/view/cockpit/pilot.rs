@@ -147,12 +147,14 @@ impl Seat {
                 }
             }
             if self.desk.welcome() {
+                self.lost = false;
                 let flies = if self.desk.flies() { "It flies." } else { "Keys fly until it is calibrated." };
                 // Nobody is left to hear it when the window is closed.
                 let _ = teller.send(format!("A controller is there. {} {flies}", self.desk.note()));
             }
             let (sticks, news) = self.sticks(now);
-            if let Some(news) = news {
+            // On the ground the page of the controller says it.
+            if let Some(news) = news.filter(|_| self.vehicle.is_some()) {
                 // Nobody is left to hear it when the window is closed.
                 let _ = teller.send(news);
             }

@@ -129,7 +129,10 @@ impl Cockpit {
         self.flow.page() == Page::Flight
     }
 
-    fn key(&mut self, event: &KeyEvent) {
+    fn key(&mut self, event: &KeyEvent, made_up: bool) {
+        if self.held.is_anothers(event, made_up) {
+            return;
+        }
         let change = self.held.take(event);
         if !self.flies() {
             self.key_on_page(event, change);
@@ -254,9 +257,7 @@ impl ApplicationHandler for Cockpit {
         match event {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::RedrawRequested => self.redraw(events),
-            // Keys that were down when the window came to the front were pressed for somebody else.
-            WindowEvent::KeyboardInput { event, is_synthetic: true, .. } if event.state == ElementState::Pressed => {}
-            WindowEvent::KeyboardInput { event, .. } => self.key(&event),
+            WindowEvent::KeyboardInput { event, is_synthetic, .. } => self.key(&event, is_synthetic),
             WindowEvent::Focused(false) => {
                 self.held.let_go();
                 self.hand_on(Ask::LetGo);

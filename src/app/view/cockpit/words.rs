@@ -85,12 +85,12 @@ pub fn compose(ui: &mut egui::Ui, shown: &[Shown], text: &Text, arrangement: Arr
     }
     if !lines.is_empty() {
         let font = egui::FontId::proportional(0.75 * size);
-        let (left, bottom, width) = arrangement.words();
-        let corner = area.min + egui::vec2(left as f32 * area.width(), bottom as f32 * area.height());
-        let place = corner + egui::vec2(0.6 * size, -0.6 * size);
-        let room = width as f32 * area.width() - 1.2 * size;
+        let stand = arrangement.words();
+        let corner = area.min + egui::vec2(stand.left as f32 * area.width(), stand.edge as f32 * area.height());
+        let room = stand.width as f32 * area.width() - 1.2 * size;
         let galley = painter.layout(lines.join("\n"), font, egui::Color32::from_gray(235), room);
-        let rect = egui::Rect::from_min_size(place - egui::vec2(0.0, galley.size().y), galley.size());
+        let down = if stand.hang { 0.6 * size } else { -0.6 * size - galley.size().y };
+        let rect = egui::Rect::from_min_size(corner + egui::vec2(0.6 * size, down), galley.size());
         painter.rect_filled(rect.expand(0.3 * size), 0.2 * size, egui::Color32::from_black_alpha(160));
         painter.galley(rect.min, galley, egui::Color32::WHITE);
     }
