@@ -14,6 +14,8 @@ pub const VEHICLE: &str = "vehicle.toml";
 pub const SESSION: &str = "session.json";
 /// What happened, one JSON object per line.
 pub const EVENTS: &str = "events.jsonl";
+/// The event in it that says that the simulator has begun anew.
+pub const SIMULATOR_RESTARTED: &str = "simulator_restarted";
 /// Scores.
 pub const ASSESSMENT: &str = "assessment.json";
 /// The page for people.

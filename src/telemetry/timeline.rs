@@ -112,7 +112,8 @@ pub struct Timeline {
     entries: Vec<Entry>,
     suspects: Vec<TruthEntry>,
     newest: Option<SimTime>,
-    epoch: usize,
+    /// Last truth times of the epochs before.
+    ended: Vec<SimTime>,
     /// System that sends the truth.
     system: Option<u8>,
     counts: LinkCounts,
@@ -140,7 +141,7 @@ impl Timeline {
             entries: Vec::new(),
             suspects: Vec::new(),
             newest: None,
-            epoch: 0,
+            ended: Vec::new(),
             system: None,
             counts: LinkCounts::default(),
         }
@@ -161,7 +162,13 @@ impl Timeline {
     /// Epochs so far: one more than the simulator's restarts.
     #[must_use]
     pub fn epochs(&self) -> usize {
-        self.epoch + 1
+        self.ended.len() + 1
+    }
+
+    /// How long the epochs before this one took together, each from its clock's zero to its last truth.
+    #[must_use]
+    pub fn passed(&self, epoch: usize) -> SimTime {
+        self.ended.iter().take(epoch).fold(SimTime::ZERO, |sum, last| sum + *last)
     }
 
     /// Reads all whole records of a log.
@@ -221,14 +228,14 @@ impl Timeline {
             self.entries.push(Entry {
                 sender: sample.sender,
                 order,
-                epoch: self.epoch,
+                epoch: self.ended.len(),
                 arrival: self.newest,
                 own_time: sample.own_time,
                 said: sample.said,
             });
             return Pushed::Kept(sample);
         };
-        let entry = TruthEntry { sender: sample.sender, order, epoch: self.epoch, truth };
+        let entry = TruthEntry { sender: sample.sender, order, epoch: self.ended.len(), truth };
         if self.newest.is_some_and(|newest| truth.time + RESTART_AFTER < newest) {
             self.suspects.push(entry);
             return if self.suspects.len() < RESTART_CONFIRM { Pushed::Kept(sample) } else { self.restart(sample) };
@@ -241,10 +248,10 @@ impl Timeline {
     }
 
     fn restart(&mut self, sample: Sample) -> Pushed {
-        self.epoch += 1;
+        self.ended.extend(self.newest);
         self.counts.restarts += 1;
         self.newest = self.suspects.iter().map(|entry| entry.truth.time).max();
-        let epoch = self.epoch;
+        let epoch = self.ended.len();
         self.truths.extend(self.suspects.drain(..).map(|entry| TruthEntry { epoch, ..entry }));
         Pushed::Restarted(sample)
     }
@@ -252,7 +259,7 @@ impl Timeline {
     /// The flight of one epoch, in the order of time.
     #[must_use]
     pub fn flight(&self, epoch: usize) -> Flight {
-        let mut flight = Flight { ended_by_restart: epoch < self.epoch, ..Flight::default() };
+        let mut flight = Flight { ended_by_restart: epoch < self.ended.len(), ..Flight::default() };
         let system = self.system;
         let mut kept: Vec<TruthEntry> =
             self.truths.iter().filter(|t| t.epoch == epoch && Some(t.sender.0) == system).copied().collect();

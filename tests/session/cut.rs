@@ -305,6 +305,8 @@ fn exact_a_simulator_started_anew_in_flight_ends_the_session_and_keeps_what_was_
     let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
     timeline.push_log(&tape.log(0));
     assert_eq!((timeline.epochs(), timeline.counts().restarts), (2, 1));
+    let flown_before = [0, 1].map(|epoch| timeline.passed(epoch).ms());
+    assert_eq!(flown_before, [0, i64::from(flown)]);
     let graded = grade(&tape, &one_task());
     assert_eq!(graded.assessment.end.reason, EndReason::Restart);
     assert_eq!(graded.frames.last().unwrap().time.ms() / 40, i64::from(flown) / 40);

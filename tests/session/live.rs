@@ -85,6 +85,20 @@ fn exact_stamps_are_session_start_plus_simulation_time() {
 }
 
 #[test]
+fn exact_stamps_go_on_rising_after_the_simulator_starts_anew() {
+    let mut monitor = monitor_of(one_task());
+    for seconds in [20.0, 2.0] {
+        let mut tape = Tape::new();
+        tape.hold(seconds);
+        tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    }
+    let (log, _) = written(&mut monitor);
+    let stamps: Vec<u64> = spandrel::telemetry::tlog::Reader::new(&log).map(|record| record.stamp_us).collect();
+    assert_eq!(stamps.last(), Some(&(START_US + 22_000_000)));
+    assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
+}
+
+#[test]
 fn exact_a_killed_monitor_goes_on_where_its_log_stops() {
     let tape = clean_flight();
     let half = tape.datagrams.len() / 2;

@@ -6,22 +6,20 @@ use super::super::session_folder::Stored;
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use crate::monitor::assessment::scored_epoch;
-use crate::monitor::folder::EVENTS;
+use crate::monitor::folder::{EVENTS, SIMULATOR_RESTARTED};
 use crate::monitor::measures::attention;
 use crate::scenario::Scenario;
 use crate::site::CameraPose;
 use crate::site::gates::Gates;
 use crate::telemetry::sample::{Header, truth_time};
-use crate::telemetry::{Flight, RESTART_AFTER, RESTART_CONFIRM, Timeline, tlog};
+use crate::telemetry::timeline::Pushed;
+use crate::telemetry::{Flight, Timeline, tlog};
 use crate::vehicle::{Camera, Vehicle};
 use crate::view::feed::Feed;
 use crate::view::live::Trace;
 use crate::view::scene::DronePose;
 use crate::view::stage::Moment;
 use std::path::{Path, PathBuf};
-
-/// The record's word for a simulator that has begun anew.
-const RESTARTED: &str = "\"simulator_restarted\"";
 
 /// A session folder that holds a flight.
 pub struct Recorded {
@@ -35,6 +33,8 @@ pub struct Recorded {
     before: usize,
     /// How long these took.
     passed: SimTime,
+    /// So many records of the log are theirs.
+    records_before: usize,
 }
 
 impl Recorded {
@@ -45,14 +45,16 @@ impl Recorded {
     pub fn read(folder: &Path) -> Result<Self, AppError> {
         let stored = Stored::read(folder)?;
         let mut timeline = Timeline::new(LocalPlane::new(stored.scenario.scenario.origin));
-        timeline.push_log(&stored.log);
+        let begun: Vec<usize> = tlog::Reader::new(&stored.log)
+            .enumerate()
+            .filter_map(|(k, record)| matches!(timeline.push(record.frame), Pushed::Restarted(_)).then_some(k))
+            .collect();
         let (before, flight) = scored_epoch(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
         if flight.truths.is_empty() {
             return Err(AppError::failed("the session holds no flight to draw"));
         }
-        let last = |epoch| timeline.flight(epoch).truths.last().map_or(SimTime::ZERO, |truth| truth.time);
-        let passed = (0..before).map(last).fold(SimTime::ZERO, |sum, time| sum + time);
-        Ok(Self { folder: folder.to_owned(), stored, flight, before, passed })
+        let (passed, records_before) = (timeline.passed(before), before.checked_sub(1).map_or(0, |k| begun[k]));
+        Ok(Self { folder: folder.to_owned(), stored, flight, before, passed, records_before })
     }
 
     /// A simulation time of the flight as the clock of the world had it, microseconds since 1970.
@@ -102,19 +104,17 @@ impl Recorded {
     pub fn heard(&self) -> Heard<'_> {
         // A session without its record of events is drawn without cues.
         let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
-        let mut lines = events.lines();
+        let mut events = events.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
         for _ in 0..self.before {
-            lines.find(|line| line.contains(RESTARTED));
+            events.find(|event| event["event"] == SIMULATOR_RESTARTED);
         }
-        let mut events: Vec<(SimTime, serde_json::Value)> = lines
-            .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
-            .filter_map(|event| Some((event["t_s"].as_f64().map(SimTime::from_s)?, event)))
-            .collect();
+        let mut events: Vec<(SimTime, serde_json::Value)> =
+            events.filter_map(|event| Some((event["t_s"].as_f64().map(SimTime::from_s)?, event))).collect();
         // Taken from the end; those of one time stay in their order.
         events.sort_by_key(|event| event.0);
         events.reverse();
-        let frames = tlog::Reader::new(&self.stored.log);
-        Heard { feed: Feed::default(), now: SimTime::ZERO, before: self.before, old: 0, frames, next: None, events }
+        let records = tlog::Reader::new(&self.stored.log).skip(self.records_before);
+        Heard { feed: Feed::default(), now: SimTime::ZERO, records, next: None, events }
     }
 }
 
@@ -122,33 +122,15 @@ impl Recorded {
 pub struct Heard<'a> {
     feed: Feed,
     now: SimTime,
-    before: usize,
-    old: usize,
-    frames: tlog::Reader<'a>,
+    records: std::iter::Skip<tlog::Reader<'a>>,
     next: Option<&'a [u8]>,
     events: Vec<(SimTime, serde_json::Value)>,
 }
 
 impl Heard<'_> {
-    /// A truth of a flight before: enough old ones in a row begin the next flight, as in [`Timeline`].
-    fn pass(&mut self, now: SimTime) {
-        if now + RESTART_AFTER >= self.now {
-            (self.now, self.old) = (self.now.max(now), 0);
-            return;
-        }
-        self.old += 1;
-        if self.old == RESTART_CONFIRM {
-            (self.before, self.old, self.now) = (self.before - 1, 0, now);
-        }
-    }
-
     /// What had been told by then: the telemetry's part, and the monitor's own cues and words from its record.
     pub fn until(&mut self, at: SimTime) -> &Feed {
-        while let Some(frame) = self.next.take().or_else(|| self.frames.next().map(|record| record.frame)) {
-            if self.before > 0 {
-                truth_time(frame).into_iter().for_each(|now| self.pass(now));
-                continue;
-            }
+        while let Some(frame) = self.next.take().or_else(|| self.records.next().map(|record| record.frame)) {
             let now = truth_time(frame).unwrap_or(self.now);
             if now > at {
                 self.next = Some(frame);
@@ -206,9 +188,106 @@ fn trace(flight: &Flight, at: SimTime) -> Trace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::session_folder::SessionFolder;
     use crate::base::frames::{Rotation, Vec3};
+    use crate::mav::codec::Encoder;
+    use crate::mav::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, MavMessage, MavModeFlag};
+    use crate::monitor::Record;
     use crate::telemetry::Truth;
     use crate::view::stage::Turn;
+    use serde_json::json;
+
+    const STARTED_US: u64 = 1_700_000_000_000_000;
+    /// Between two truths, ms: 50 Hz.
+    const STEP_MS: i64 = 20;
+
+    /// A session's records as a vehicle and a monitor would make them.
+    struct Tape {
+        folder: SessionFolder,
+        vehicle: Encoder,
+        other: Encoder,
+        scenario: Scenario,
+        newest: Option<SimTime>,
+    }
+
+    impl Tape {
+        fn hear(&mut self, frame: &[u8]) {
+            self.folder.record(Record::Telemetry(tlog::record(STARTED_US, frame)));
+        }
+
+        fn event(&mut self, value: &serde_json::Value) {
+            self.folder.record(Record::Event(format!("{value}\n")));
+        }
+
+        /// One truth, so high over the pad.
+        fn truth(&mut self, ms: i64, height_m: f64, other: bool) {
+            let pad = self.scenario.ground_team.pad_m;
+            let place = LocalPlane::new(self.scenario.origin).geo_from_enu(pad + Vec3::new(0.0, 0.0, height_m));
+            let truth = MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
+                time_usec: u64::try_from(1_000 * ms).unwrap(),
+                attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
+                lat: (place.latitude_deg * 1e7).round() as i32,
+                lon: (place.longitude_deg * 1e7).round() as i32,
+                alt: (place.altitude_m * 1e3).round() as i32,
+                ..Default::default()
+            });
+            let frame = if other { self.other.encode(&truth) } else { self.vehicle.encode(&truth) };
+            self.hear(&frame);
+        }
+
+        /// A flight whose clock begins at zero, in this mode of PX4's, which then says these words.
+        fn flight(&mut self, until_ms: i64, height_m: f64, mode: u32, words: &str) {
+            for ms in (0..=until_ms).step_by(STEP_MS as usize) {
+                self.truth(ms, height_m, false);
+                let again = self.newest.is_some() && ms == 2 * STEP_MS;
+                if again {
+                    self.event(&json!({ "t_s": 0.04, "event": SIMULATOR_RESTARTED }));
+                }
+                if ms == 100 {
+                    let beat = HEARTBEAT_DATA {
+                        custom_mode: mode << 16,
+                        base_mode: MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED,
+                        ..Default::default()
+                    };
+                    let frame = self.vehicle.encode(&MavMessage::HEARTBEAT(beat));
+                    self.hear(&frame);
+                    self.event(&json!({ "t_s": 0.1, "event": "cue", "cues": mode, "text": words }));
+                }
+            }
+            self.newest = Some(SimTime::from_ms(until_ms));
+        }
+    }
+
+    #[test]
+    fn exact_a_simulator_that_began_anew_shows_the_flight_that_counts_with_its_own_words_and_clock() {
+        let sessions = tempfile::tempdir().unwrap();
+        let shipped = |path: &str| format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
+        let scenario = files::scenario(&shipped("scenarios/two-bridges.toml")).unwrap();
+        let vehicle = files::vehicle(&shipped("vehicle-params/phantom2.toml")).unwrap();
+        let folder = SessionFolder::create(sessions.path(), "anna", STARTED_US, &scenario, &vehicle).unwrap();
+        let (vehicle, other) = (Encoder::new(1, 1), Encoder::new(2, 1));
+        let mut tape = Tape { folder, vehicle, other, scenario: scenario.scenario, newest: None };
+        // On the ground; three late truths of another system begin nothing.
+        tape.flight(30_000, 0.0, 2, "Crash: simulator_restarted");
+        (0..3).for_each(|k| tape.truth(STEP_MS * k, 0.0, true));
+        tape.flight(20_000, 10.0, 3, "Crash: the second");
+        tape.folder.flush().unwrap();
+
+        let recorded = Recorded::read(tape.folder.path()).unwrap();
+        assert_eq!(recorded.span(), (SimTime::ZERO, SimTime::from_ms(20_000)));
+        let second = SimTime::from_ms(1_000);
+        assert_eq!(recorded.unix_us(second), STARTED_US + 31_000_000);
+        assert!(recorded.moment(second).unwrap().drone.position_m.up() > 5.0 + tape.scenario.ground_team.pad_m.up());
+        let mut heard = recorded.heard();
+        let early = heard.until(SimTime::from_ms(40)).clone();
+        assert_eq!(
+            (early.mode(), early.cues(SimTime::from_ms(40), true), early.hit()),
+            ("no mode", 0, None),
+            "nothing of the first flight"
+        );
+        let later = heard.until(second);
+        assert_eq!((later.mode(), later.cues(second, true), later.hit()), ("Position", 3, Some("the second")));
+    }
 
     #[test]
     fn exact_a_recorded_camera_turned_as_its_samples_say() {

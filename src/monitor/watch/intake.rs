@@ -8,6 +8,7 @@ use crate::mav::dialect::MavSeverity;
 use crate::mav::note;
 use crate::monitor::assessment::{self, AssessError, Graded, Job};
 use crate::monitor::feedback::{Feedback, texts::Texts};
+use crate::monitor::folder::SIMULATOR_RESTARTED;
 use crate::monitor::measures::attention;
 use crate::monitor::measures::crash::may_touch_pad;
 use crate::monitor::session::{EndReason, Moment as EndMoment, lift_off_height_m};
@@ -21,7 +22,8 @@ impl Monitor {
     pub(super) fn stamp_us(&self, received: &Received) -> u64 {
         let own = crate::telemetry::sample::truth_time(&received.bytes);
         let now = own.map_or(self.now(), |own| own.max(self.now()));
-        let since = u64::try_from((self.stamp_base + now).us()).unwrap_or(0);
+        let passed = self.timeline.passed(self.timeline.epochs() - 1);
+        let since = u64::try_from((passed + now).us()).unwrap_or(0);
         self.config.started_unix_us.saturating_add(since)
     }
 
@@ -29,10 +31,7 @@ impl Monitor {
         let before = self.timeline.newest();
         match self.timeline.push(&received.bytes) {
             Pushed::Nothing => {}
-            Pushed::Restarted(sample) => {
-                self.stamp_base += before.unwrap_or(SimTime::ZERO);
-                self.restarted(sample);
-            }
+            Pushed::Restarted(sample) => self.restarted(sample),
             Pushed::Kept(sample) => self.note(sample, before),
         }
     }
@@ -47,7 +46,7 @@ impl Monitor {
     }
 
     fn restarted(&mut self, sample: Sample) {
-        self.event("simulator_restarted", json!({}));
+        self.event(SIMULATOR_RESTARTED, json!({}));
         if self.live.lift_off.is_some() {
             self.close();
             return;

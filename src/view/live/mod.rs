@@ -21,8 +21,8 @@ use crate::mav::station;
 use crate::scenario::Scenario;
 use crate::site::CameraPose;
 use crate::site::gates::Gates;
-use crate::telemetry::Truth;
 use crate::telemetry::sample::{self, Said, Sample};
+use crate::telemetry::{RESTART_AFTER, RESTART_CONFIRM, Truth};
 use crate::vehicle::{Camera, Vehicle};
 use clock::Playhead;
 use estimate::Estimate;
@@ -49,9 +49,6 @@ const FLIGHT: u32 = 264;
 const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
 /// A stream without a picture for so long has ended: a window that is hidden draws none.
 const VIDEO_LASTS: SimTime = SimTime::from_ms(3_000);
-/// A clock that goes back by more is a restarted simulator, once so many samples in a row say so.
-const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
-const RESTART_CONFIRM: u32 = 3;
 
 /// A flight as it is heard.
 #[derive(Debug, Clone)]
@@ -72,7 +69,7 @@ pub struct Live {
     next_rotors: Option<SimTime>,
     spoken: bool,
     estimate: Estimate,
-    backwards: u32,
+    backwards: usize,
     heard: Option<SimTime>,
     head: Playhead,
     state: State,
