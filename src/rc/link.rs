@@ -79,7 +79,7 @@ pub struct Link {
     pending: Vec<Pending>,
     aim: Option<(f32, SimTime)>,
     /// What came of asking for the streams is known, and told if it was nothing.
-    answered: bool,
+    streams_known: bool,
     pictures: u16,
 }
 
@@ -99,7 +99,7 @@ impl Default for Link {
             next_beat: SimTime::ZERO,
             pending: Vec::new(),
             aim: None,
-            answered: false,
+            streams_known: false,
             pictures: 0,
         }
     }
@@ -132,11 +132,11 @@ impl Link {
                     self.heard.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
                 }
                 Some(MavMessage::ILLUMINATOR_STATUS(status)) => {
-                    (self.came[0], self.answered) = (true, true);
+                    (self.came[0], self.streams_known) = (true, true);
                     self.heard.lamp = status.enable != 0;
                 }
                 Some(MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(status)) => {
-                    (self.came[1], self.answered) = (true, true);
+                    (self.came[1], self.streams_known) = (true, true);
                     let attitude = crate::base::frames::Rotation::<crate::base::frames::Frd, crate::base::frames::Ned>::from_wxyz(
                         status.q.map(f64::from),
                     );
@@ -161,7 +161,7 @@ impl Link {
         }
         if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
             let done = self.pending.remove(k);
-            let known = done.what == TELLING && std::mem::replace(&mut self.answered, true);
+            let known = done.what == TELLING && std::mem::replace(&mut self.streams_known, true);
             if result != MavResult::MAV_RESULT_ACCEPTED && !known {
                 if command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW {
                     self.aim = None;
@@ -279,7 +279,7 @@ impl Link {
             }
             if p.sent == TIMES {
                 // Asked for again and again: a vehicle that has answered once may stand still.
-                if p.what != TELLING || !std::mem::replace(&mut self.answered, true) {
+                if p.what != TELLING || !std::mem::replace(&mut self.streams_known, true) {
                     self.tell(p.what, "the vehicle does not answer");
                 }
                 return false;
@@ -481,7 +481,7 @@ mod tests {
     #[test]
     fn exact_a_command_is_said_until_it_is_answered() {
         let mut link = known();
-        link.answered = true;
+        link.streams_known = true;
         link.act(Action::Lamp, at(0.0));
         let streams = MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL;
         let wished = |m: &&MavMessage| matches!(m, MavMessage::COMMAND_LONG(c) if c.command != streams);

@@ -4,6 +4,7 @@ use super::letters::width_of;
 use super::tests::{ALL_CUES, hud};
 use super::*;
 use crate::base::frames::Vec3;
+use crate::view::arrange::{Arrangement, Which};
 
 /// A rectangle in the picture's measure: left, top, right, bottom, in heights.
 type Area = [f64; 4];
@@ -67,6 +68,15 @@ fn holds(outer: &Area, inner: &Area) -> bool {
         && outer[1] <= inner[1] + NOTHING
         && inner[2] <= outer[2] + NOTHING
         && inner[3] <= outer[3] + NOTHING
+}
+
+/// An area of a camera's picture in a window of that shape, shares of its width and height.
+fn in_window(area: &Area, lens: f64, window: f64) -> Area {
+    let [camera, _] = Arrangement::Camera.places();
+    assert_eq!(camera.which, Which::Camera);
+    let place = camera.fitted(lens, window);
+    let (x, y) = (|x: f64| place.left + place.width * x / lens, |y: f64| place.top + place.height * y);
+    [x(area[0]), y(area[1]), x(area[2]), y(area[3])]
 }
 
 /// The map is one picture: its paths cross, and their numbers stand on them.
@@ -173,23 +183,21 @@ fn prop_nothing_lies_over_anything_else_in_pictures_of_any_size() {
 
 #[test]
 fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
-    use crate::view::arrange::{Arrangement, Which};
     // Six lines of the window's type with their ground; from the picture's middle on a pilot aims.
     const WORDS: f64 = 0.2;
     let words = Arrangement::Camera.words();
-    let [camera, eyes] = Arrangement::Camera.places();
-    assert_eq!((camera.which, words.hang), (Which::Camera, true));
+    let [_, eyes] = Arrangement::Camera.places();
+    assert!(words.hang);
     assert!(words.left >= eyes.left + eyes.width && words.edge + WORDS < 0.48, "{words:?}");
+    let room = [words.left, words.edge, words.left + words.width, words.edge + WORDS];
     for (name, state) in states() {
-        for window in [4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
+        for window in [1.0, 4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
             for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
-                let place = camera.fitted(lens, window);
-                for block in blocks(layout(&state, lens), lens) {
-                    let (x, y) = (|x: f64| place.left + place.width * x / lens, |y: f64| place.top + place.height * y);
-                    let [left, top, right, bottom] = block.ground;
-                    let ground = [x(left), y(top), x(right), y(bottom)];
-                    let room = [words.left, words.edge, words.left + words.width, words.edge + WORDS];
-                    assert!(apart(&ground, &room), "{name}: {block:?} under the words, lens {lens}, window {window}");
+                // In a square window, where a wide picture begins lower, mode and link may be covered for a while; warnings stay free.
+                let counts = |block: &Block| window > 1.0 || block.ground[1] > 0.5;
+                for block in blocks(layout(&state, lens), lens).into_iter().filter(counts) {
+                    let covered = !apart(&in_window(&block.ground, lens, window), &room);
+                    assert!(!covered, "{name}: {block:?} under the words, lens {lens}, window {window}");
                 }
             }
         }
@@ -198,19 +206,15 @@ fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
 
 #[test]
 fn prop_the_small_view_hides_nothing_of_the_large_cameras_display() {
-    use crate::view::arrange::{Arrangement, Which};
     let all = Hud { cues: ALL_CUES, hit: Some("suspension bridge, tower leg".into()), zoom: 2.0, ..hud() };
-    let [camera, eyes] = Arrangement::Camera.places();
-    assert_eq!((camera.which, eyes.which), (Which::Camera, Which::Inspector));
+    let [_, eyes] = Arrangement::Camera.places();
+    assert_eq!(eyes.which, Which::Inspector);
+    let small = [eyes.left, eyes.top, eyes.left + eyes.width, eyes.top + eyes.height];
     for window in [4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
         for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
-            let place = camera.fitted(lens, window);
-            for block in blocks(layout(&all, lens), 1.0) {
-                let [left, top, right, bottom] = block.ground;
-                let (x, y) = (|x: f64| place.left + place.width * x, |y: f64| place.top + place.height * y);
-                let beside = x(right) <= eyes.left || x(left) >= eyes.left + eyes.width;
-                let apart = beside || y(bottom) <= eyes.top || y(top) >= eyes.top + eyes.height;
-                assert!(apart, "{block:?} under the small view, lens {lens}, window {window}");
+            for block in blocks(layout(&all, lens), lens) {
+                let covered = !apart(&in_window(&block.ground, lens, window), &small);
+                assert!(!covered, "{block:?} under the small view, lens {lens}, window {window}");
             }
         }
     }

@@ -114,6 +114,11 @@ impl Pilot {
     }
 }
 
+/// Tells the person. Nobody is left to hear it when the window is closed; then no more is asked either, which ends the thread.
+fn tell(teller: &Sender<String>, words: String) {
+    let _ = teller.send(words);
+}
+
 struct Seat {
     hub: Hub,
     socket: SocketId,
@@ -149,24 +154,18 @@ impl Seat {
             if self.desk.welcome() {
                 self.lost = false;
                 let flies = if self.desk.flies() { "It flies." } else { "Keys fly until it is calibrated." };
-                // Nobody is left to hear it when the window is closed.
-                let _ = teller.send(format!("A controller is there. {} {flies}", self.desk.note()));
+                tell(teller, format!("A controller is there. {} {flies}", self.desk.note()));
             }
             let (sticks, news) = self.sticks(now);
             // On the ground the page of the controller says it.
             if let Some(news) = news.filter(|_| self.vehicle.is_some()) {
-                // Nobody is left to hear it when the window is closed.
-                let _ = teller.send(news);
+                tell(teller, news);
             }
             match self.vehicle {
                 Some(vehicle) => {
                     self.link.set_sticks(sticks, now);
                     self.send(vehicle, now);
-                    while let Some(text) = self.link.poll_told() {
-                        if teller.send(text).is_err() {
-                            return;
-                        }
-                    }
+                    std::iter::from_fn(|| self.link.poll_told()).for_each(|text| tell(teller, text));
                 }
                 None => self.show(now),
             }
@@ -208,8 +207,7 @@ impl Seat {
                 (self.vehicle, self.link, self.touched) = (Some(vehicle), Link::default(), false);
                 self.stands = false;
                 if let Some(why) = self.desk.why_keys() {
-                    // Nobody is left to hear it when the window is closed.
-                    let _ = teller.send(format!("{why} Keys fly."));
+                    tell(teller, format!("{why} Keys fly."));
                 }
             }
             Ask::Stand(stands) => self.stands = stands,
