@@ -1,9 +1,15 @@
 //! Lists the shipped scenario and vehicle files, so that the program carries them and works from any folder. A new file needs no
 //! registration: it is found here.
 
+#[path = "build/params.rs"]
+mod params;
+
 use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs};
+
+/// The parameters that are stored and described, and act on nothing.
+const STORED: &str = "src/sitl/endpoint/params/stored";
 
 fn main() {
     let root = env::var("CARGO_MANIFEST_DIR").unwrap_or_default();
@@ -19,7 +25,16 @@ fn main() {
         }
         code.push_str("];\n");
     }
-    let out = Path::new(&env::var("OUT_DIR").unwrap_or_default()).join("shipped.rs");
+    write("shipped.rs", &code);
+    println!("cargo::rerun-if-changed={STORED}");
+    match params::tables(&Path::new(&root).join(STORED)) {
+        Ok(code) => write("stored_params.rs", &code),
+        Err(error) => println!("cargo::error={error}"),
+    }
+}
+
+fn write(name: &str, code: &str) {
+    let out = Path::new(&env::var("OUT_DIR").unwrap_or_default()).join(name);
     if let Err(error) = fs::write(&out, code) {
         println!("cargo::error=cannot write {}: {error}", out.display());
     }

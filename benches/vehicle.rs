@@ -45,7 +45,7 @@ impl Job {
     fn sim(&self, lockstep: bool) -> Sim {
         let (scenario, vehicle) = (Arc::clone(&self.scenario), Arc::clone(&self.vehicle));
         let mut sim = Sim::new(
-            SimConfig { scenario, vehicle, seed: self.seed, instance: 0, flavour: &px4::FLAVOUR },
+            SimConfig { scenario, vehicle, seed: self.seed, instance: 0, flavour: &px4::FLAVOUR, after_crash: None },
             Arc::clone(&self.site),
         );
         sim.open_link(PILOT, LinkKind::GroundStation, lockstep);

@@ -3,6 +3,7 @@
 //! Two wings that never import each other meet in shared things only: the MAVLink wire, the scenario and vehicle files, and the
 //! site built from them. [`sitl`] is the vehicle; [`monitor`] watches and scores. ARCHITECTURE.md is the map.
 
+#![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod app;

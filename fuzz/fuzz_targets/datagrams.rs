@@ -16,6 +16,7 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
         scenario: spandrel::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into())).expect("shipped"),
         vehicle: spandrel::vehicle::read("phantom2.toml", vehicle).expect("shipped"),
         trainee: "fuzz".into(),
+        purpose: None,
         started_unix_us: 0,
         system_id: 1,
         seed: None,

@@ -7,8 +7,8 @@ use spandrel::base::time::SimTime;
 use spandrel::mav::codec::Encoder;
 use spandrel::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
 use spandrel::site::Site;
-use spandrel::sitl::endpoint::flavour::px4;
 use spandrel::sitl::endpoint::files::job::{Action, Done, Entry, FileError};
+use spandrel::sitl::endpoint::flavour::px4;
 use spandrel::sitl::endpoint::{HANDLED, LinkId, LinkKind};
 use spandrel::sitl::sim::{Sim, SimConfig};
 use std::sync::{Arc, LazyLock};
@@ -21,7 +21,8 @@ static FLYING: LazyLock<Sim> = LazyLock::new(|| {
     let scenario = Arc::new(spandrel::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into())).expect("shipped"));
     let vehicle = Arc::new(spandrel::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
     let site = Arc::new(Site::build(&scenario, 1));
-    let mut sim = Sim::new(SimConfig { scenario, vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR }, site);
+    let mut sim =
+        Sim::new(SimConfig { scenario, vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR, after_crash: None }, site);
     sim.open_link(LINK, LinkKind::GroundStation, false);
     sim.handle_timeout(SimTime::from_ms(2_500));
     let mut encoder = Encoder::new(255, 190);
@@ -71,7 +72,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
                     Ok(Done::Entries(vec![Entry::Directory("d".repeat(300)), Entry::File(String::new(), u64::MAX)]))
                 }
                 Action::Size(_) => Ok(Done::Size(u32::MAX)),
-                Action::Checksum(_) => Ok(Done::Checksum(u32::MAX)),
+                Action::Checksum { .. } => Ok(Done::Checksum { sum: u32::MAX, bytes: 5 }),
                 _ => Err(FileError::Other),
             };
             sim.file_job_done(job.ticket, outcome);

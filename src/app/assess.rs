@@ -2,14 +2,16 @@
 
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
+use super::log_file::LogFile;
 use super::session_folder::Stored;
 use super::table;
 use crate::monitor::watch::build_site;
 use crate::monitor::{AssessError, Graded, assess_log, export};
 use crate::scenario::Scenario;
+use crate::telemetry::log_stream::Log;
 use crate::vehicle::Vehicle;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Score a stored flight again
 ///
@@ -55,7 +57,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 ///
 /// # Errors
 /// When there is nothing to score.
-pub fn grade(log: &[u8], scenario: &Scenario, vehicle: &Vehicle) -> Result<Graded, AppError> {
+pub fn grade(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<Graded, AppError> {
     assess_log(log, scenario, vehicle, build_site).map_err(|error| match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
             AppError::wrong(format!("{error}: score the log against the scenario that was flown"))
@@ -64,7 +66,7 @@ pub fn grade(log: &[u8], scenario: &Scenario, vehicle: &Vehicle) -> Result<Grade
     })
 }
 
-fn inputs(args: &Args) -> Result<(Scenario, Vehicle, Vec<u8>), AppError> {
+fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
     if args.flight.is_dir() {
         let stored = Stored::read(&args.flight)?;
         let scenario = match &args.scenario {
@@ -83,9 +85,5 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, Vec<u8>), AppError> {
             args.flight.display()
         )));
     };
-    Ok((files::scenario(scenario)?.scenario, files::vehicle(vehicle)?.vehicle, read_log(&args.flight)?))
-}
-
-fn read_log(path: &Path) -> Result<Vec<u8>, AppError> {
-    std::fs::read(path).map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", path.display())))
+    Ok((files::scenario(scenario)?.scenario, files::vehicle(vehicle)?.vehicle, LogFile::open(&args.flight)?))
 }

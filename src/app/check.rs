@@ -3,7 +3,7 @@
 use super::errors::{AppError, EXIT_CODES};
 use super::files::{self, Source};
 use crate::base::frames::{Enu, Vec3};
-use crate::base::toml::Problem;
+use crate::base::toml::{Problem, listed};
 use crate::scenario::{self, Scenario, Task};
 use crate::site::{Nearest, Site, defects};
 use crate::vehicle::{self, Vehicle};
@@ -12,10 +12,14 @@ use serde_json::json;
 /// Room that a path leaves around the aircraft's half width, m (issue 2, section 2).
 const MARGIN_M: f64 = 0.5;
 
+/// Seeds tried for a scenario without a seed of its own: one tells whether its tasks reach a bridge, three whether there is room (estimate).
+const SEEDS_TRIED: [u64; 3] = [1, 2, 3];
+
 /// Check scenario and vehicle files
 ///
 /// Reports everything that is wrong at once, each with file, line, key, value and allowed range. For a scenario it also builds the site
-/// and refuses a task whose reference path leaves the aircraft less room than half its width from tip to tip plus 0.5 m, and says where.
+/// and refuses a task whose reference path leaves the aircraft less room than half its width from tip to tip plus 0.5 m, and says where. It
+/// warns where fewer defects can be placed than the scenario asks for.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -31,7 +35,7 @@ pub struct Args {
     /// Aircraft that must fit along the paths: a file, or the name of a shipped one
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
-    /// Print {"problems": [{file, line, key, value, allowed, message}], "notes": [...]} on standard output
+    /// Print {"problems": [{file, line, key, value, allowed, message}], "warnings": [...], "notes": [...]} on standard output
     #[arg(long)]
     json: bool,
 }
@@ -39,6 +43,7 @@ pub struct Args {
 #[derive(Debug, Default)]
 struct Findings {
     problems: Vec<Problem>,
+    warnings: Vec<String>,
     notes: Vec<String>,
 }
 
@@ -55,20 +60,27 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             Err(error) => findings.problems.push(unreadable(file, &error)),
         }
     }
-    let (problems, notes) = (&findings.problems, &findings.notes);
+    let Findings { problems, warnings, notes } = &findings;
+    let (first, more) = listed(problems);
     if args.json {
-        println!("{:#}", json!({ "problems": problems, "notes": notes }));
+        println!("{:#}", json!({ "problems": first, "more_problems": more, "warnings": warnings, "notes": notes }));
     } else {
         notes.iter().for_each(|note| println!("note: {note}"));
+        warnings.iter().for_each(|warning| println!("warning: {warning}"));
         // A file that cannot be read has no line to name.
-        problems
-            .iter()
-            .for_each(|problem| if problem.line == 0 { println!("{}", problem.message) } else { println!("{problem}") });
+        first.iter().for_each(|problem| if problem.line == 0 { println!("{}", problem.message) } else { println!("{problem}") });
+        if more > 0 {
+            println!("and {more} more problems");
+        }
     }
     match problems.len() {
         0 if args.json => Ok(()),
         0 => {
-            println!("{} right", count(args.files.len(), "file"));
+            let files = count(args.files.len(), "file");
+            match warnings.len() {
+                0 => println!("{files} right"),
+                many => println!("{files} without errors, {}", count(many, "warning")),
+            }
             Ok(())
         }
         many => Err(AppError::wrong(format!("{} in {}", count(many, "problem"), count(args.files.len(), "file")))),
@@ -96,7 +108,10 @@ fn look(source: &Source, aircraft: &Vehicle, findings: &mut Findings) {
         return;
     }
     match scenario::read(&source.file, &source.text, &|name| source.sibling(name)) {
-        Ok(scenario) => findings.problems.extend(too_tight(source, &scenario, aircraft)),
+        Ok(scenario) => {
+            findings.problems.extend(too_tight(source, &scenario, aircraft));
+            findings.warnings.extend(too_few_defects(source, &scenario));
+        }
         Err(wrong) => findings.problems.extend(wrong.0),
     }
 }
@@ -159,6 +174,26 @@ fn too_tight(source: &Source, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Pr
     scenario.tasks.iter().enumerate().filter_map(tight).collect()
 }
 
+/// Fewer defects than asked for: the scenario's own seed is tried, else the first few.
+fn too_few_defects(source: &Source, scenario: &Scenario) -> Option<String> {
+    let wanted = scenario.defects.count;
+    if wanted == 0 || scenario.defects.placed.is_some() {
+        return None;
+    }
+    let seeds = scenario.seed.map_or_else(|| SEEDS_TRIED.to_vec(), |seed| vec![seed]);
+    let placed = seeds.iter().map(|seed| (Site::build(scenario, *seed).defects().len(), *seed));
+    let (least, seed) = placed.min()?;
+    let line = source.text.lines().position(|line| line.trim_start().starts_with("[defects]")).map_or(1, |k| k + 1);
+    (least < wanted).then(|| {
+        format!(
+            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other spot on a bridge can be \
+             photographed from within a task's threshold; fly the tasks nearer to the structure, widen defects.elements or \
+             defects.kinds, or ask for {least}",
+            source.file
+        )
+    })
+}
+
 fn none_placed(scenario: &Scenario) -> scenario::Defects {
     scenario::Defects { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
 }
@@ -200,6 +235,38 @@ mod tests {
             look(&files::any_source(name).unwrap(), &aircraft, &mut findings);
             assert_eq!(findings.problems, [], "{name}");
         }
+    }
+
+    #[test]
+    fn regress_fewer_defects_than_asked_for_are_a_warning() {
+        let aircraft = files::vehicle("phantom2").unwrap().vehicle;
+        let mut source = files::any_source("drill-straight-line").unwrap();
+        let found = |source: &Source| {
+            let mut findings = Findings::default();
+            look(source, &aircraft, &mut findings);
+            assert_eq!(findings.problems, []);
+            findings.warnings
+        };
+        assert_eq!(found(&source), Vec::<String>::new(), "no defects are asked for");
+        source.text = source.text.replace("[defects]\ncount = 0", "[defects]\ncount = 4");
+        let line = source.text.lines().position(|line| line == "[defects]").unwrap() + 1;
+        let warnings = found(&source);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(warnings[0].contains(&format!(":{line}: defects.count = 4, but only 0 could be placed")), "{warnings:?}");
+    }
+
+    #[test]
+    fn regress_only_near_names_are_suggested() {
+        let message = |key: &str| {
+            let mut source = files::any_source("drill-straight-line").unwrap();
+            source.text = source.text.replace("[defects]\n", &format!("[defects]\n{key} = 1\n"));
+            let wrong = scenario::read(&source.file, &source.text, &|name| source.sibling(name)).unwrap_err();
+            wrong.0.first().map(|problem| problem.message.clone()).unwrap()
+        };
+        assert_eq!(message("model"), "unknown key");
+        assert_eq!(message("wether"), "unknown key");
+        assert_eq!(message("kind"), "unknown key; did you mean kinds?");
+        assert_eq!(message("size_facter"), "unknown key; did you mean size_factor?");
     }
 
     #[test]

@@ -6,6 +6,7 @@ use super::records::{Place, from_lines};
 use crate::monitor::export::json_text;
 use crate::report::page::cohort as page;
 use crate::training::cohort::{Cohort, Selection, cohort, tables};
+use crate::training::record::{Incomplete, left_out_words};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -39,6 +40,9 @@ pub struct Args {
     /// Repetitions that are compared, among those who flew so often (1 to 100)
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
     repetitions: u8,
+    /// Count incomplete sessions as well; they are left out otherwise
+    #[arg(long)]
+    include_incomplete: bool,
     /// Everything as JSON here; '-' for standard output
     #[arg(long, value_name = "FILE")]
     json: Option<String>,
@@ -59,8 +63,19 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         Some(file) => from_lines(file)?,
         None => args.place.open()?.records(None)?,
     };
-    let selection = Selection { scenarios: args.scenario.clone(), repetitions: usize::from(args.repetitions) };
+    let selection = Selection {
+        scenarios: args.scenario.clone(),
+        repetitions: usize::from(args.repetitions),
+        incomplete: Incomplete::included(args.include_incomplete),
+    };
     let cohort = cohort(&records, &selection);
+    if cohort.sessions == 0
+        && let Some(words) = left_out_words(cohort.left_out)
+    {
+        return Err(AppError::wrong(format!(
+            "there is no complete session of the job: {words} (--include-incomplete counts them)"
+        )));
+    }
     if cohort.sessions == 0 {
         return Err(AppError::wrong("there is no session of the job in the records; spandrel records import takes sessions in"));
     }
@@ -80,8 +95,13 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
 }
 
-fn words(cohort: &Cohort) -> String {
-    let mut out = format!("{} trainees, {} sessions of {}\n\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
+/// Who flew what, and the first sessions in numbers.
+fn first_sessions(cohort: &Cohort) -> String {
+    let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
+    if let Some(words) = left_out_words(cohort.left_out) {
+        let _ = writeln!(out, "{words} (--include-incomplete counts them)");
+    }
+    out.push('\n');
     let _ = writeln!(out, "{:<12}{:>5}{:>9}{:>8}{:>8}{:>8}{:>8}", "first", "n", "mean", "sd", "min", "median", "max");
     for one in &cohort.distributions {
         let s = &one.summary;
@@ -96,6 +116,11 @@ fn words(cohort: &Cohort) -> String {
         cohort.crashes.total,
         if kinds.is_empty() { "none".into() } else { kinds.join(", ") }
     );
+    out
+}
+
+fn words(cohort: &Cohort) -> String {
+    let mut out = first_sessions(cohort);
     if !cohort.tests.is_empty() {
         let _ = writeln!(out, "\n{} people, {} repetitions", cohort.group.len(), cohort.repetitions);
         let _ = writeln!(

@@ -95,6 +95,7 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     let speed = args.speed.to_string();
     let mut out =
         ["--ports", "ephemeral", "--speed", &speed, "--monitor-port", &monitor, "--gcs", &pilot].map(str::to_owned).to_vec();
+    out.extend(["--after-crash", "scenario"].map(str::to_owned));
     out.extend(["--lockstep".to_owned(), pilot, "--lockstep".to_owned(), format!("127.0.0.1:{monitor}")]);
     for target in &args.gcs {
         if let args::Target::Address(address) = target {

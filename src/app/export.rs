@@ -60,6 +60,9 @@ pub struct Args {
     /// Aircraft that the plan keeps clear of things: a file, or the name of a shipped one; of a session its own
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2", requires = "plan")]
     vehicle: String,
+    /// Autopilot that the plan is for: it goes into the plan's firmwareType, which ground stations compare with the vehicle's
+    #[arg(long, value_name = "NAME", default_value = "px4", requires = "plan")]
+    flavour: args::Flavour,
     /// Geometry as binary glTF 2.0, metres, y up; '-' for standard output
     #[arg(long, value_name = "FILE")]
     glb: Option<String>,
@@ -135,8 +138,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             Some(vehicle) => vehicle,
             None => files::vehicle(&args.vehicle)?.vehicle,
         };
-        let map = Map { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO };
-        files::write(target, json_text(&flight_plan::plan(&map)).as_bytes())?;
+        let map = Map { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, keep_clear_m: None };
+        files::write(target, json_text(&flight_plan::plan(&map, args.flavour.spoken().autopilot)).as_bytes())?;
     }
     if let Some(target) = &args.glb {
         files::write(target, &gltf::glb(&site))?;
@@ -186,7 +189,7 @@ fn zipped(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
 fn recorded(stored: &Stored) -> Result<Vec<u8>, AppError> {
     let (scenario, vehicle) = (&stored.scenario.scenario, &stored.vehicle.vehicle);
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
-    timeline.push_log(&stored.log);
+    timeline.push_log(&stored.log).map_err(|error| AppError::failed(format!("the telemetry cannot be read: {error}")))?;
     let flight = scored_flight(&timeline, scenario, vehicle);
     let messages = recording::messages(&flight, scenario, vehicle);
     let Some(first) = messages.first() else {

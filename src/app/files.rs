@@ -133,13 +133,20 @@ pub fn read(path: &Path) -> Result<String, AppError> {
     })
 }
 
-/// Writes a result to a file, or to standard output for `-`.
+/// Writes a result to a file, or to standard output for `-`. A file is replaced as a whole: a full disk or a kill leaves the old one.
 ///
 /// # Errors
 /// When it cannot be written.
 pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
     use std::io::Write;
-    let done = if target == "-" { std::io::stdout().lock().write_all(bytes) } else { std::fs::write(target, bytes) };
+    let path = Path::new(target);
+    // A link is followed; a pipe or a device cannot be replaced.
+    let real = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let done = match target {
+        "-" => std::io::stdout().lock().write_all(bytes),
+        _ if real.exists() && !real.is_file() => std::fs::write(&real, bytes),
+        _ => return super::session_folder::replace(&real, bytes),
+    };
     done.map_err(|error| AppError::failed(format!("{target}: cannot be written: {error}")))
 }
 

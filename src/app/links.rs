@@ -13,7 +13,8 @@ use std::time::Duration;
 
 /// A learned peer that is silent this long is forgotten.
 const FORGET: Duration = Duration::from_secs(15);
-/// Peers that are learned at most: a flood of source addresses must not grow without bound.
+/// Peers that are learned at most on each port: a flood of source addresses neither grows without bound nor keeps the peers of another
+/// port off.
 const LEARNED_MAX: usize = 64;
 
 /// What happened to links.
@@ -27,6 +28,8 @@ pub enum Change {
         kind: LinkKind,
         /// It is asked to keep step.
         lockstep: bool,
+        /// Nobody called it: it is known by its source address alone, which anybody can forge.
+        learned: bool,
         /// What it carries, bytes a second, if that is limited.
         limit: Option<f64>,
     },
@@ -194,7 +197,8 @@ impl Links {
         self.by_peer.insert((socket, peer), link);
         let kind = self.kinds.get(&socket).copied().unwrap_or(LinkKind::GroundStation);
         let limit = self.limit.filter(|_| kind == LinkKind::GroundStation);
-        self.changes.push_back(Change::Opened { link, kind, lockstep: self.lockstep.contains(&peer), limit });
+        let lockstep = self.lockstep.contains(&peer);
+        self.changes.push_back(Change::Opened { link, kind, lockstep, learned: heard.is_some(), limit });
         link
     }
 
@@ -232,19 +236,31 @@ impl Links {
         };
         self.routes.insert(link, Route::Stream { stream, decoder: Decoder::new() });
         self.by_stream.insert(stream, link);
-        self.changes.push_back(Change::Opened { link, kind, lockstep: false, limit });
+        self.changes.push_back(Change::Opened { link, kind, lockstep: false, learned: false, limit });
+    }
+
+    /// A new peer, if what it sends is MAVLink and its port has room.
+    fn learn(&mut self, socket: SocketId, from: SocketAddr, bytes: &[u8], wall: Duration) -> Option<u32> {
+        if !is_mavlink(bytes) {
+            tracing::debug!("a datagram of the stranger {from} holds no MAVLink message");
+            self.bad_bytes += bytes.len() as u64;
+            return None;
+        }
+        let on_socket = |route: &&Route| matches!(route, Route::Learned { socket: other, .. } if *other == socket);
+        if self.routes.values().filter(on_socket).count() >= LEARNED_MAX {
+            tracing::debug!("{from} is not let in: {LEARNED_MAX} peers are connected to this port");
+            return None;
+        }
+        tracing::info!("{from} has dialled in");
+        Some(self.add(socket, from, Some(wall)))
     }
 
     fn take_datagram(&mut self, socket: SocketId, from: SocketAddr, bytes: Vec<u8>, wall: Duration) {
         let link = match self.by_peer.get(&(socket, from)) {
             Some(link) => *link,
-            None if self.by_peer.len() >= LEARNED_MAX => {
-                tracing::debug!("{from} is not let in: {LEARNED_MAX} peers are connected");
-                return;
-            }
             None => {
-                tracing::info!("{from} has dialled in");
-                self.add(socket, from, Some(wall))
+                let Some(link) = self.learn(socket, from, &bytes, wall) else { return };
+                link
             }
         };
         if let Some(Route::Learned { heard, .. }) = self.routes.get_mut(&link) {
@@ -254,10 +270,17 @@ impl Links {
     }
 }
 
+/// A datagram holds a message that we know, with a correct checksum.
+fn is_mavlink(bytes: &[u8]) -> bool {
+    Decoder::new().datagram(bytes).iter().any(|frame| frame.message.is_some())
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::ports::local;
     use super::*;
+    use crate::mav::codec::Encoder;
+    use crate::mav::station;
     use clap::Parser;
     use std::net::UdpSocket;
 
@@ -265,6 +288,10 @@ mod tests {
     struct Line {
         #[command(flatten)]
         ports: PortArgs,
+    }
+
+    fn hello() -> Vec<u8> {
+        Encoder::new(255, 190).encode(&station::heartbeat())
     }
 
     fn parse(words: &[&str]) -> PortArgs {
@@ -276,10 +303,16 @@ mod tests {
         let mut links = Links::open(&parse(&["--ports", "ephemeral"]), &[]).unwrap();
         let port = u16::try_from(links.bound["payload_port"].as_u64().unwrap()).unwrap();
         let sidecar = UdpSocket::bind(local(0)).unwrap();
-        sidecar.send_to(b"hello", local(port)).unwrap();
-        links.wait(Duration::from_secs(60));
-        assert_eq!(links.poll(), Some(Change::Opened { link: 1, kind: LinkKind::Payload, lockstep: false, limit: None }));
-        assert_eq!(links.poll(), Some(Change::Bytes { link: 1, bytes: b"hello".to_vec() }));
+        // What is no MAVLink makes nobody a peer.
+        sidecar.send_to(b"h", local(port)).unwrap();
+        sidecar.send_to(&hello(), local(port)).unwrap();
+        let (watch, limit) = (Stopwatch::start(), Duration::from_secs(60));
+        while links.changes.is_empty() && watch.elapsed() < limit {
+            links.wait(Duration::from_secs(1));
+        }
+        let opened = Change::Opened { link: 1, kind: LinkKind::Payload, lockstep: false, learned: true, limit: None };
+        assert_eq!((links.poll(), links.bad_bytes()), (Some(opened), 1));
+        assert_eq!(links.poll(), Some(Change::Bytes { link: 1, bytes: hello() }));
         links.send(1, b"welcome".to_vec());
         let mut heard = [0u8; 16];
         let (len, from) = sidecar.recv_from(&mut heard).unwrap();
@@ -292,7 +325,8 @@ mod tests {
         assert!(error.to_string().contains("--lockstep 127.0.0.1:9"));
         let args = parse(&["--ports", "ephemeral", "--gcs", "127.0.0.1:9"]);
         let mut links = Links::open(&args, &[local(9)]).unwrap();
-        assert_eq!(links.poll(), Some(Change::Opened { link: 1, kind: LinkKind::GroundStation, lockstep: true, limit: None }));
+        let opened = Change::Opened { link: 1, kind: LinkKind::GroundStation, lockstep: true, learned: false, limit: None };
+        assert_eq!(links.poll(), Some(opened));
     }
 
     /// Links with one peer that is called, and the socket for those who dial in.
@@ -305,7 +339,7 @@ mod tests {
 
     /// The link that speaks up at a time, and whether it is new.
     fn hear(links: &mut Links, socket: SocketId, port: u16, at_s: u64) -> Option<(u32, bool)> {
-        links.take(Arrival::Datagram { socket, from: local(port), bytes: vec![1] }, Duration::from_secs(at_s));
+        links.take(Arrival::Datagram { socket, from: local(port), bytes: hello() }, Duration::from_secs(at_s));
         let new = matches!(links.changes.front(), Some(Change::Opened { .. }));
         let changes = std::mem::take(&mut links.changes);
         changes.iter().find_map(|change| if let Change::Bytes { link, .. } = change { Some((*link, new)) } else { None })
@@ -330,11 +364,29 @@ mod tests {
     }
 
     #[test]
+    fn regress_a_flood_on_one_port_keeps_nobody_off_another_and_rubbish_takes_no_place() {
+        let mut links = Links::open(&parse(&["--ports", "ephemeral", "--gcs", "127.0.0.1:9"]), &[]).unwrap();
+        assert!(matches!(links.poll(), Some(Change::Opened { link: 1, .. })));
+        let of = |links: &Links, kind| *links.kinds.iter().find(|(_, other)| **other == kind).unwrap().0;
+        let (stations, sidecars) = (of(&links, LinkKind::GroundStation), of(&links, LinkKind::Payload));
+        for port in 10_000..10_000 + 2 * LEARNED_MAX as u16 {
+            links.take(Arrival::Datagram { socket: sidecars, from: local(port), bytes: vec![0xFD] }, Duration::from_secs(1));
+        }
+        assert_eq!((links.changes.len(), links.bad_bytes()), (0, 2 * LEARNED_MAX as u64));
+        assert_eq!(hear(&mut links, sidecars, 4_001, 1), Some((2, true)));
+        let taken = (10_000..11_000).filter_map(|port| hear(&mut links, stations, port, 1)).count();
+        assert_eq!(taken, LEARNED_MAX);
+        assert!(hear(&mut links, sidecars, 4_002, 1).is_some_and(|(_, new)| new));
+        assert_eq!(hear(&mut links, stations, 4_003, 1), None);
+    }
+
+    #[test]
     fn exact_a_flood_of_new_peers_is_bounded_and_keeps_nobody_out_for_ever() {
         let (mut links, socket) = called("127.0.0.1:9");
         assert_eq!(hear(&mut links, socket, 4_000, 1), Some((2, true)));
         let taken: usize = (10_000..60_000).filter_map(|port| hear(&mut links, socket, port, 2)).count();
-        assert_eq!((taken, links.routes.len(), links.by_peer.len()), (LEARNED_MAX - 2, LEARNED_MAX, LEARNED_MAX));
+        let all = LEARNED_MAX + 1;
+        assert_eq!((taken, links.routes.len(), links.by_peer.len()), (LEARNED_MAX - 1, all, all), "the one that is called, too");
         assert_eq!(hear(&mut links, socket, 4_000, 3), Some((2, false)), "who was there before is heard");
         assert_eq!(hear(&mut links, socket, 9, 3), Some((1, false)), "and so is who is called");
         assert_eq!(hear(&mut links, socket, 4_003, 3), None, "a stranger is not");

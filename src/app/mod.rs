@@ -1,6 +1,7 @@
 //! The shells: the only sockets, files, clocks, threads and processes. One file per subcommand; each turns arguments into a run of a
 //! sans-IO core. Results go to standard output, everything else to standard error.
 
+mod append_file;
 mod args;
 #[cfg(feature = "view")]
 pub mod aside;
@@ -14,9 +15,11 @@ mod demo;
 mod errors;
 mod export;
 mod files;
+mod flight_logs;
 mod heard;
 mod key;
 mod links;
+mod log_file;
 mod logging;
 pub mod mcap;
 mod monitor;

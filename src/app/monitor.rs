@@ -1,5 +1,6 @@
 //! `spandrel monitor`: sockets, clock and session folder around the sans-IO sidecar.
 
+use super::append_file::Refused;
 use super::args::{self, JobArgs, TraineeId};
 use super::clock::{self, Stopwatch};
 use super::errors::{AppError, EXIT_CODES};
@@ -12,6 +13,7 @@ use super::session_folder::{SessionFolder, Stored};
 use super::stop::Stop;
 use super::table;
 use crate::base::time::SimTime;
+use crate::mav::dialect::MavSeverity;
 use crate::monitor::watch::build_site;
 use crate::monitor::{AssessError, Graded, Monitor, MonitorConfig, export};
 use serde_json::json;
@@ -27,6 +29,8 @@ const WAIT: Duration = Duration::from_millis(50);
 const FLUSH_EVERY: Duration = Duration::from_millis(250);
 /// A vehicle that is silent this long may come back from another address.
 const SILENT: Duration = Duration::from_secs(3);
+/// While the disk refuses, the pilot is warned this often.
+const WARN_EVERY: Duration = Duration::from_secs(30);
 /// Datagrams taken before the answers go out.
 const BATCH: usize = 256;
 
@@ -34,7 +38,8 @@ const BATCH: usize = 256;
 ///
 /// Listens to the vehicle's MAVLink telemetry, shows what it sees to the pilot as status texts (off path, too close, speeding, crash,
 /// battery), writes the session folder and, when the session ends (landing near the ground team, empty battery, time limit, or a person
-/// or vehicle hit), the assessment. It never looks inside the simulator. A killed monitor goes on with --session DIR.
+/// or vehicle hit), the assessment. It never looks inside the simulator. A killed monitor goes on with --session DIR. While the disk is full
+/// it keeps telemetry in memory, warns the pilot, and tries again.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -107,22 +112,23 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         monitor,
         folder,
         resolved,
+        described: false,
         flushed: Duration::ZERO,
+        warned: None,
         watch,
     };
-    shell.describe()?;
+    shell.save_and_report();
     let mut progress = Progress::start("waiting for the vehicle");
     while shell.monitor.finished().is_none() {
         if stop.asked() || shell.monitor.refused().is_some() {
             shell.monitor.close();
         } else {
-            shell.turn()?;
+            shell.turn();
         }
         progress.tell(|| shell.where_it_stands());
     }
     progress.end();
-    shell.write_down()?;
-    shell.end(args.announce)
+    shell.end(args.announce, &stop)
 }
 
 /// What is started: a new session, or an old one taken up again.
@@ -164,7 +170,9 @@ impl Start {
                 let folder = SessionFolder::resume(path, stored)?;
                 let purpose = stored.purpose.clone();
                 let config = config(&stored.scenario, &stored.vehicle, &stored.trainee, purpose, stored.started_unix_us);
-                Ok((config.clone(), Monitor::resume(config, &stored.log), folder))
+                let monitor = Monitor::resume(config.clone(), &stored.log)
+                    .map_err(|error| AppError::failed(format!("{}: the telemetry cannot be read: {error}", path.display())))?;
+                Ok((config, monitor, folder))
             }
         }
     }
@@ -177,14 +185,19 @@ struct Shell {
     heard: Duration,
     monitor: Monitor,
     folder: SessionFolder,
+    /// `scenario.toml` holds the seed and the placed defects.
     resolved: bool,
+    /// `session.json` is up to date.
+    described: bool,
     flushed: Duration,
+    /// When the pilot was last warned of a disk that refuses; `None` while it takes everything.
+    warned: Option<Duration>,
     watch: Stopwatch,
 }
 
 impl Shell {
     /// Takes in what has come, lets the core answer, writes what is to be kept.
-    fn turn(&mut self) -> Result<(), AppError> {
+    fn turn(&mut self) {
         let mut wait = WAIT;
         for _ in 0..BATCH {
             let Some(arrival) = self.hub.next(wait) else { break };
@@ -193,13 +206,9 @@ impl Shell {
         }
         let wall = self.watch.elapsed();
         self.monitor.handle_timeout(SimTime::from_s(wall.as_secs_f64()));
+        self.keep();
+        self.save_when_due();
         self.send();
-        self.keep()?;
-        if wall.saturating_sub(self.flushed) >= FLUSH_EVERY {
-            self.flushed = wall;
-            self.folder.flush()?;
-        }
-        Ok(())
     }
 
     fn take(&mut self, arrival: &Arrival) {
@@ -209,6 +218,10 @@ impl Shell {
             let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.heard) < SILENT;
             if current_is_alive {
                 tracing::debug!("a datagram from the stranger {from} is left alone");
+                return;
+            }
+            if !self.monitor.is_from_vehicle(bytes) {
+                tracing::debug!("a datagram from {from} is not the vehicle's");
                 return;
             }
             tracing::info!("hearing {from}");
@@ -226,42 +239,102 @@ impl Shell {
         }
     }
 
-    fn keep(&mut self) -> Result<(), AppError> {
+    /// Hands the core's records to the folder.
+    fn keep(&mut self) {
         while let Some(record) = self.monitor.poll_record() {
             self.folder.record(record);
         }
+    }
+
+    fn save_when_due(&mut self) {
+        if self.watch.elapsed().saturating_sub(self.flushed) >= FLUSH_EVERY {
+            self.save_and_report();
+        }
+    }
+
+    fn save_and_report(&mut self) {
+        self.flushed = self.watch.elapsed();
+        let saved = self.save();
+        self.report_disk(saved.err());
+    }
+
+    /// Writes everything that is pending.
+    fn save(&mut self) -> Result<(), Refused> {
+        self.folder.flush()?;
         if !self.resolved
             && let (Some(seed), Some(survey)) = (self.monitor.seed(), self.monitor.survey())
         {
-            self.resolved = true;
             self.folder.resolve(seed, survey.defects())?;
-            self.describe()?;
+            self.resolved = true;
+            self.described = false;
+        }
+        if !self.described {
+            self.folder.describe(|scenario, vehicle, utc, starts| self.monitor.session_info(scenario, vehicle, utc, starts))?;
+            self.described = true;
         }
         Ok(())
     }
 
-    fn describe(&self) -> Result<(), AppError> {
-        self.folder.describe(|scenario, vehicle, utc, starts| self.monitor.session_info(scenario, vehicle, utc, starts))
+    /// Warns log and pilot when the disk begins to refuse, now and then while it does, and when it no longer does.
+    fn report_disk(&mut self, refused: Option<Refused>) {
+        let wall = self.watch.elapsed();
+        match refused {
+            None if self.warned.take().is_some() => {
+                tracing::info!("the disk takes the session again");
+                self.monitor.notify_pilot("Recording resumed", MavSeverity::MAV_SEVERITY_INFO);
+            }
+            Some(refused) if self.warned.is_none_or(|last| wall.saturating_sub(last) >= WARN_EVERY) => {
+                self.warned = Some(wall);
+                let (pending, dropped) = (self.folder.pending() / 1000, self.folder.dropped());
+                tracing::warn!("{refused}; {pending} kB wait in memory, {dropped} records are lost; trying again");
+                let words = if refused.is_full() { "Disk full: recording paused" } else { "Disk error: recording paused" };
+                self.monitor.notify_pilot(words, MavSeverity::MAV_SEVERITY_ERROR);
+            }
+            None | Some(_) => {}
+        }
     }
 
-    fn write_down(&mut self) -> Result<(), AppError> {
-        self.send();
-        self.keep()?;
-        self.folder.flush()?;
-        self.describe()
+    /// Writes the whole session; while the disk refuses, until somebody asks to stop.
+    fn complete(&mut self, json: Option<&str>, stop: &Stop) -> Result<(), AppError> {
+        loop {
+            self.keep();
+            self.described = false;
+            let saved = self.save().and_then(|()| json.map_or(Ok(()), |json| self.folder.assessment(json)));
+            match saved {
+                Err(refused) if stop.asked() => return Err(refused.into()),
+                saved => {
+                    let done = saved.is_ok();
+                    self.report_disk(saved.err());
+                    self.send();
+                    if done {
+                        return Ok(());
+                    }
+                }
+            }
+            // The vehicle goes on talking: its queue is emptied, and heartbeats go out.
+            self.turn();
+        }
     }
 
-    fn end(&self, announce: bool) -> Result<(), AppError> {
+    fn end(&mut self, announce: bool, stop: &Stop) -> Result<(), AppError> {
         if self.hub.dropped() > 0 {
             tracing::warn!("{} datagrams found the queue full", self.hub.dropped());
         }
-        let graded = self.outcome()?;
-        let json = export::json_text(&graded.assessment);
-        self.folder.assessment(&json)?;
+        let json = self.outcome().ok().map(|graded| export::json_text(&graded.assessment));
+        self.send();
+        self.complete(json.as_deref(), stop)?;
+        // The report reads the telemetry again: two copies of the flight would double the memory.
+        self.monitor.release_flight();
         // The scores stand; a page that cannot be written can be made later.
-        if let Err(error) = report::write(self.folder.path()) {
+        if json.is_some()
+            && let Err(error) = report::write(self.folder.path())
+        {
             tracing::warn!("no report was written: {error}");
         }
+        if let Err(refused) = self.folder.sync() {
+            tracing::warn!("{refused}; a power failure could damage the session");
+        }
+        let graded = self.outcome()?;
         if !announce {
             print!("{}", table::scores(&json!(graded.assessment)));
             table::places(self.folder.path());

@@ -96,6 +96,14 @@ impl Pace {
         due.min(reached + STEP)
     }
 
+    /// Runs at another speed from now on.
+    pub fn run_at(&mut self, speed: Speed, wall: Duration, reached: SimTime) {
+        if self.speed != speed {
+            self.speed = speed;
+            self.hold(wall, reached);
+        }
+    }
+
     /// Time stands still: what passes on the wall does not count, and no machine was too slow.
     pub fn hold(&mut self, wall: Duration, reached: SimTime) {
         (self.wall, self.sim) = (wall, reached);
@@ -115,6 +123,49 @@ impl Pace {
 
     fn due(&self, wall: Duration, times: f64) -> SimTime {
         self.sim + SimTime::from_s(wall.saturating_sub(self.wall).as_secs_f64() * times)
+    }
+}
+
+/// A peer that speaks but does not answer TIMESYNC is waited for so long, and served in real time afterwards.
+const FIRST_ANSWER: Duration = Duration::from_secs(3);
+
+/// How long time stands still for a peer's first answer: nothing of the flight has passed then, so that a peer that answers soon is in step from
+/// the first tick on.
+#[derive(Debug, Clone, Default)]
+pub struct FirstAnswer {
+    since: Option<Duration>,
+    heard: Option<Duration>,
+    knocked: Option<Duration>,
+}
+
+/// Action while the peer's first answer is outstanding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Owed {
+    /// Wait.
+    Wait,
+    /// Say again that the vehicle is there.
+    Knock,
+    /// Go on without it.
+    GoOn,
+}
+
+impl FirstAnswer {
+    /// What is to be done at wall time `wall`; `heard`: something has come from the peer.
+    pub fn owed(&mut self, heard: bool, wall: Duration, every: Duration) -> Owed {
+        let since = *self.since.get_or_insert(wall);
+        let over = |since: Duration, most: Duration| wall.saturating_sub(since) > most;
+        if heard {
+            self.heard.get_or_insert(wall);
+        }
+        if over(since, PATIENCE) || self.heard.is_some_and(|heard| over(heard, FIRST_ANSWER)) {
+            *self = Self::default();
+            return Owed::GoOn;
+        }
+        if over(self.knocked.unwrap_or(since), every) {
+            self.knocked = Some(wall);
+            return Owed::Knock;
+        }
+        Owed::Wait
     }
 }
 

@@ -6,7 +6,8 @@ use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::records::{Place, from_lines};
 use crate::monitor::export::json_text;
-use crate::training::plan::{Change, Plan, RULES, Rules, plan, read_rules};
+use crate::training::plan::{Change, Plan, RULES, Rules, plan_counting, read_rules};
+use crate::training::record::{Incomplete, left_out_words};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -34,6 +35,9 @@ pub struct Args {
     /// Other rules than the shipped ones
     #[arg(long, value_name = "FILE")]
     rules: Option<PathBuf>,
+    /// Plan by incomplete sessions as well; they are left out otherwise
+    #[arg(long)]
+    include_incomplete: bool,
     /// As JSON
     #[arg(long)]
     json: bool,
@@ -52,7 +56,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     records.retain(|record| record.trainee == trainee);
     records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
     let rules = rules(args.rules.as_deref())?;
-    let Some(plan) = plan(&records, &rules, clock::unix_us()) else {
+    let incomplete = Incomplete::included(args.include_incomplete);
+    let Some(plan) = plan_counting(records, incomplete, &rules, clock::unix_us()) else {
         return Err(AppError::wrong(format!(
             "there is no session of '{trainee}' in the records; spandrel records import takes them in"
         )));
@@ -79,6 +84,9 @@ fn words(plan: &Plan) -> String {
         for reason in &step.reasons {
             let _ = writeln!(out, "   {}", reason.words);
         }
+    }
+    if let Some(words) = left_out_words(plan.left_out) {
+        let _ = writeln!(out, "{words} (--include-incomplete counts them)");
     }
     if let Some(changes) = &plan.changes {
         let _ = writeln!(out, "Since {}:", changes.since);

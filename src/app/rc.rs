@@ -179,6 +179,9 @@ fn fly(pilot: &mut Pilot, hub: &mut Hub, socket: SocketId, vehicle: SocketAddr, 
     let (watch, mut link, mut heard) = (Stopwatch::start(), Link::default(), None);
     // A record begins when the vehicle is there.
     let (mut begin, mut told) = (None, false);
+    if let Pilot::Keyboard { board, .. } = pilot {
+        link.set_arm_key(&board.keys().label("arm"));
+    }
     while !stop.asked() {
         if let Some(Arrival::Datagram { from, bytes, .. }) = hub.next(WAIT)
             && from == vehicle

@@ -124,17 +124,17 @@ fn review(session: &Path) -> Result<Review, AppError> {
 
 fn reviewed(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
     let stored = Stored::read(session)?;
-    let about = About { pictures, ..about(session, &stored) };
+    let about = About { pictures, ..about(session, &stored)? };
     Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about).map_err(|error| match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::wrong(error.to_string()),
         _ => AppError::failed(error.to_string()),
     })
 }
 
-fn about(session: &Path, stored: &Stored) -> About {
+fn about(session: &Path, stored: &Stored) -> Result<About, AppError> {
     let name =
         std::path::absolute(session).ok().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
-    About {
+    Ok(About {
         trainee: stored.trainee.clone(),
         started_unix_us: stored.started_unix_us,
         purpose: stored.purpose.clone(),
@@ -142,9 +142,9 @@ fn about(session: &Path, stored: &Stored) -> About {
         folder: name.unwrap_or_default(),
         scenario_sha256: sha256_hex(stored.scenario.text.as_bytes()),
         vehicle_sha256: sha256_hex(stored.vehicle.text.as_bytes()),
-        telemetry_sha256: sha256_hex(&stored.log),
+        telemetry_sha256: stored.log.sha256()?,
         pictures: Vec::new(),
-    }
+    })
 }
 
 /// The photographs that the page can hold, by the number that ends their names; each as its copy, where there is one.

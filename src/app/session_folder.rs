@@ -1,13 +1,15 @@
 //! The session folder on disk: created once, appended to, flushed; a killed monitor finds its place again.
 
+use super::append_file::{AppendFile, Refused, sync_folder, whole_lines};
 use super::clock;
 use super::errors::AppError;
 use super::files::{self, ScenarioFile, VehicleFile};
-use crate::monitor::folder::{ASSESSMENT, EVENTS, SCENARIO, SESSION, SessionInfo, TELEMETRY, VEHICLE, sha256_hex};
+use super::log_file::LogFile;
+use crate::monitor::folder::{ASSESSMENT, EVENTS, REPORT, SCENARIO, SESSION, SessionInfo, TELEMETRY, VEHICLE, sha256_hex};
 use crate::monitor::{Record, export};
 use crate::scenario::{self, PlacedDefect};
 use crate::telemetry::tlog;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -17,10 +19,8 @@ use std::time::Duration;
 #[derive(Debug)]
 pub struct SessionFolder {
     path: PathBuf,
-    telemetry: File,
-    events: File,
-    pending: Vec<u8>,
-    pending_events: Vec<u8>,
+    telemetry: AppendFile,
+    events: AppendFile,
     scenario_toml: String,
     vehicle_toml: String,
     started_utc: String,
@@ -35,7 +35,7 @@ pub struct Stored {
     /// The aircraft.
     pub vehicle: VehicleFile,
     /// The telemetry.
-    pub log: Vec<u8>,
+    pub log: LogFile,
     /// Who flew.
     pub trainee: String,
     /// What for, where somebody chose.
@@ -69,27 +69,29 @@ impl SessionFolder {
             if let Some(folder) = file.parent() {
                 std::fs::create_dir_all(folder).map_err(|error| cannot(folder, &error))?;
             }
-            replace(&file, text.as_bytes())?;
+            replace_durably(&file, text.as_bytes())?;
         }
-        replace(&path.join(SCENARIO), scenario.text.as_bytes())?;
-        replace(&path.join(VEHICLE), vehicle.text.as_bytes())?;
+        replace_durably(&path.join(SCENARIO), scenario.text.as_bytes())?;
+        replace_durably(&path.join(VEHICLE), vehicle.text.as_bytes())?;
         Self::open(path, scenario.text.clone(), vehicle.text.clone(), readable, 1)
     }
 
     /// Opens a folder in which a monitor was killed; telemetry and events are cut to whole records and lines.
     ///
     /// # Errors
-    /// When it is no session folder or cannot be written.
+    /// When it is no session folder, another monitor records it, or it cannot be written.
     pub fn resume(path: &Path, stored: &Stored) -> Result<Self, AppError> {
         let (readable, _) = clock::utc(stored.started_unix_us);
         let (scenario, vehicle) = (stored.scenario.text.clone(), stored.vehicle.text.clone());
-        let folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
-        let whole = u64::try_from(tlog::whole_len(&stored.log)).unwrap_or(u64::MAX);
-        folder.telemetry.set_len(whole).map_err(|error| cannot(&path.join(TELEMETRY), &error))?;
+        let mut folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
+        // Another monitor may have ended between the reading and the lock.
+        if folder.telemetry.len() != stored.log.len() {
+            return Err(AppError::failed(format!("{}: the session grew while it was read: try again", path.display())));
+        }
+        folder.telemetry.cut(stored.log.whole_len()?)?;
         let events_path = path.join(EVENTS);
         let events = std::fs::read(&events_path).map_err(|error| cannot(&events_path, &error))?;
-        let lines = events.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
-        folder.events.set_len(u64::try_from(lines).unwrap_or(u64::MAX)).map_err(|error| cannot(&events_path, &error))?;
+        folder.events.cut(whole_lines(&events) as u64)?;
         Ok(folder)
     }
 
@@ -100,13 +102,10 @@ impl SessionFolder {
         started_utc: String,
         starts: u32,
     ) -> Result<Self, AppError> {
-        let append = |name: &str| {
-            let file = path.join(name);
-            OpenOptions::new().create(true).append(true).open(&file).map_err(|error| cannot(&file, &error))
-        };
-        let (telemetry, events) = (append(TELEMETRY)?, append(EVENTS)?);
-        let (pending, pending_events) = (Vec::new(), Vec::new());
-        Ok(Self { path, telemetry, events, pending, pending_events, scenario_toml, vehicle_toml, started_utc, starts })
+        let telemetry = AppendFile::open(path.join(TELEMETRY), tlog::whole_len)?;
+        telemetry.lock()?;
+        let events = AppendFile::open(path.join(EVENTS), whole_lines)?;
+        Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, starts })
     }
 
     /// Where it is.
@@ -117,52 +116,68 @@ impl SessionFolder {
     /// Takes a record; it reaches the disk with the next [`Self::flush`].
     pub fn record(&mut self, record: Record) {
         match record {
-            Record::Telemetry(bytes) => self.pending.extend(bytes),
-            Record::Event(line) => self.pending_events.extend(line.into_bytes()),
+            Record::Telemetry(bytes) => self.telemetry.push(&bytes),
+            Record::Event(line) => self.events.push(line.as_bytes()),
         }
     }
 
-    /// Writes what was taken.
+    /// Writes pending records.
     ///
     /// # Errors
-    /// When the disk refuses; nothing taken is lost, the next call tries again.
-    pub fn flush(&mut self) -> Result<(), AppError> {
-        for (file, pending, name) in
-            [(&mut self.telemetry, &mut self.pending, TELEMETRY), (&mut self.events, &mut self.pending_events, EVENTS)]
-        {
-            if !pending.is_empty() {
-                file.write_all(pending).map_err(|error| cannot(&self.path.join(name), &error))?;
-                pending.clear();
-            }
-        }
-        Ok(())
+    /// When the disk refuses; the files then hold whole records, and the next call tries again.
+    pub fn flush(&mut self) -> Result<(), Refused> {
+        let telemetry = self.telemetry.flush();
+        self.events.flush().and(telemetry)
+    }
+
+    /// Bytes that the disk has not taken yet.
+    pub fn pending(&self) -> usize {
+        self.telemetry.pending() + self.events.pending()
+    }
+
+    /// Records that were dropped because the disk refused for too long.
+    pub fn dropped(&self) -> u64 {
+        self.telemetry.dropped() + self.events.dropped()
+    }
+
+    /// Waits until the session is on the disk itself.
+    ///
+    /// # Errors
+    /// When the disk refuses.
+    pub fn sync(&self) -> Result<(), Refused> {
+        self.telemetry.sync()?;
+        self.events.sync()?;
+        sync_folder(&self.path, &[SCENARIO, VEHICLE, SESSION, ASSESSMENT, REPORT])?;
+        self.path.parent().map_or(Ok(()), |sessions| sync_folder(sessions, &[]))
     }
 
     /// Writes the seed and the placed defects into `scenario.toml`.
     ///
     /// # Errors
-    /// When the disk refuses.
-    pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), AppError> {
-        self.scenario_toml = scenario::resolve(&self.scenario_toml, seed, placed);
-        replace(&self.path.join(SCENARIO), self.scenario_toml.as_bytes())
+    /// When the disk refuses; the next call tries again.
+    pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), Refused> {
+        let resolved = scenario::resolve(&self.scenario_toml, seed, placed);
+        replace_durably(&self.path.join(SCENARIO), resolved.as_bytes())?;
+        self.scenario_toml = resolved;
+        Ok(())
     }
 
     /// Writes `session.json`.
     ///
     /// # Errors
     /// When the disk refuses.
-    pub fn describe(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), AppError> {
+    pub fn describe(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), Refused> {
         let (scenario, vehicle) = (self.scenario_toml.as_bytes(), self.vehicle_toml.as_bytes());
         let info = info(scenario, vehicle, self.started_utc.clone(), self.starts);
-        replace(&self.path.join(SESSION), export::json_text(&info).as_bytes())
+        replace_durably(&self.path.join(SESSION), export::json_text(&info).as_bytes())
     }
 
     /// Writes `assessment.json`.
     ///
     /// # Errors
     /// When the disk refuses.
-    pub fn assessment(&self, json: &str) -> Result<(), AppError> {
-        replace(&self.path.join(ASSESSMENT), json.as_bytes())
+    pub fn assessment(&self, json: &str) -> Result<(), Refused> {
+        replace_durably(&self.path.join(ASSESSMENT), json.as_bytes())
     }
 }
 
@@ -189,8 +204,11 @@ impl Stored {
         let session = described(&path.join(SESSION))?;
         let text = |key: &str| session.get(key).and_then(serde_json::Value::as_str).map(str::to_owned);
         let number = |key: &str| session.get(key).and_then(serde_json::Value::as_u64);
-        let log_path = path.join(TELEMETRY);
-        let log = std::fs::read(&log_path).map_err(|error| cannot_read(&log_path, &error))?;
+        let log = LogFile::open(&path.join(TELEMETRY))?;
+        let started_unix_us = match number("started_unix_us") {
+            Some(told) => Some(told),
+            None => log.session_start_us()?,
+        };
         let scenario = files::scenario(&path.join(SCENARIO).display().to_string())?;
         let vehicle_path = path.join(VEHICLE);
         Ok(Self {
@@ -200,7 +218,7 @@ impl Stored {
             },
             trainee: text("trainee").or_else(|| trainee_of(path, &scenario.scenario.name)).unwrap_or_default(),
             purpose: text("purpose"),
-            started_unix_us: number("started_unix_us").or_else(|| tlog::session_start_us(&log)).unwrap_or_default(),
+            started_unix_us: started_unix_us.unwrap_or_default(),
             spandrel_version: text("spandrel_version").unwrap_or_default(),
             starts: u32::try_from(number("monitor_starts").unwrap_or_default()).unwrap_or(u32::MAX - 1),
             scenario,
@@ -294,20 +312,34 @@ fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathB
 /// # Errors
 /// When the disk refuses.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
+    Ok(replaced(path, bytes, |_| Ok(()))?)
+}
+
+/// As [`replace`], and not even a power failure leaves half a file.
+///
+/// # Errors
+/// When the disk refuses.
+pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), Refused> {
+    replaced(path, bytes, File::sync_data)
+}
+
+fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), Refused> {
     // A name of its own: two who write the same file at once must not rename each other's half.
     static WRITTEN: AtomicU64 = AtomicU64::new(0);
     let mut beside = path.to_path_buf().into_os_string();
     beside.push(format!(".{}-{}.new", std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed)));
-    let done = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path));
-    done.map_err(|error| {
+    let write = || {
+        let mut file = File::create(&beside)?;
+        file.write_all(bytes)?;
+        settle(&file)?;
+        drop(file);
+        std::fs::rename(&beside, path)
+    };
+    write().map_err(|error| {
         // Nobody else would ever write over it.
         let _ = std::fs::remove_file(&beside);
-        cannot(path, &error)
+        Refused { path: path.to_path_buf(), error }
     })
-}
-
-fn cannot_read(path: &Path, error: &std::io::Error) -> AppError {
-    AppError::wrong(format!("{}: cannot be read: {error}", path.display()))
 }
 
 fn cannot(path: &Path, error: &std::io::Error) -> AppError {

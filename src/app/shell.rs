@@ -4,7 +4,7 @@ use super::clock::{self, Stopwatch};
 use super::errors::AppError;
 use super::heard::HeardFile;
 use super::links::{Change, Links};
-use super::pace::{Lateness, PATIENCE, Pace, Patience, Speed};
+use super::pace::{FirstAnswer, Lateness, Owed, PATIENCE, Pace, Patience, Speed};
 use super::params::ParamFile;
 use super::standstill::Standstill;
 use super::store::Store;
@@ -50,6 +50,8 @@ pub struct Shell {
     pace: Pace,
     watch: Stopwatch,
     patience: Patience,
+    first_answer: FirstAnswer,
+    speed: Speed,
     store: Option<Store>,
     params: Option<ParamFile>,
     heard: Option<HeardFile>,
@@ -92,6 +94,8 @@ impl Shell {
             pace,
             watch,
             patience: Patience::default(),
+            first_answer: FirstAnswer::default(),
+            speed,
             store,
             params,
             heard,
@@ -146,8 +150,10 @@ impl Shell {
         }
         let wall = self.watch.elapsed();
         if !self.core.waiting() {
+            let speed = if self.core.serves_in_real_time() { Speed::Times(1.0) } else { self.speed };
+            self.pace.run_at(speed, wall, self.core.now());
             let target = self.pace.target(wall, self.core.now()).min(end);
-            self.core.handle_timeout(target);
+            self.pass_time(target);
         }
         self.keep_files();
         self.keep_parameters();
@@ -161,10 +167,21 @@ impl Shell {
         self.rest()
     }
 
+    /// Runs the ticks up to a time, and what clients ask of files between them.
+    fn pass_time(&mut self, target: SimTime) {
+        loop {
+            self.core.handle_timeout(target);
+            if !self.core.has_file_job() {
+                return;
+            }
+            self.keep_files();
+        }
+    }
+
     /// Does what clients ask of files, and writes the log.
     fn keep_files(&mut self) {
         while let Some(job) = self.core.poll_file_job() {
-            let outcome = self.store.as_ref().map_or(Err(FileError::NotFound), |store| store.work(&job.action));
+            let outcome = self.store.as_mut().map_or(Err(FileError::NotFound), |store| store.work(&job.action));
             self.core.file_job_done(job.ticket, outcome);
         }
         while let Some(piece) = self.core.poll_log() {
@@ -205,8 +222,11 @@ impl Shell {
 
     fn apply(&mut self, change: Change) {
         match change {
-            Change::Opened { link, kind, lockstep, limit } => {
+            Change::Opened { link, kind, lockstep, learned, limit } => {
                 self.core.open_link(LinkId(link), kind, lockstep);
+                if learned {
+                    self.core.await_heartbeat(LinkId(link));
+                }
                 if let Some(bytes_s) = limit {
                     self.core.limit_link(LinkId(link), bytes_s);
                 }
@@ -219,6 +239,10 @@ impl Shell {
     /// Waits for the next tick, or for the peers that time waits for.
     fn rest(&mut self) -> Result<(), AppError> {
         let wall = self.watch.elapsed();
+        if let Some(heard) = self.core.first_answer() {
+            self.await_first_answer(heard, wall);
+            return Ok(());
+        }
         if self.core.waiting() {
             if self.patience.is_over(self.core.now(), wall) {
                 return Err(AppError::failed(format!(
@@ -235,6 +259,24 @@ impl Shell {
             self.links.wait(sleep.clamp(REST, LOOK));
         }
         Ok(())
+    }
+
+    /// Lockstep begins with a peer's first answer: it must find the vehicle to give one.
+    fn await_first_answer(&mut self, heard: bool, wall: Duration) {
+        self.pace.hold(wall, self.core.now());
+        match self.first_answer.owed(heard, wall, BEAT) {
+            Owed::Wait => {}
+            Owed::Knock => self.core.knock(),
+            Owed::GoOn => {
+                tracing::info!("a peer in lockstep has not answered TIMESYNC yet: it is served in real time until it does");
+                self.core.go_without_first_answers();
+                return;
+            }
+        }
+        while let Some(datagram) = self.core.poll_transmit() {
+            self.links.send(datagram.link.0, datagram.bytes);
+        }
+        self.links.wait(LOOK);
     }
 
     fn tell(&self, event: &SimEvent) {

@@ -15,6 +15,7 @@ use super::standstill::Standstill;
 use super::stop::Stop;
 use super::store::Store;
 use crate::base::time::SimTime;
+use crate::scenario::AfterCrash;
 use crate::site::{Site, gltf};
 use crate::sitl::endpoint::LinkKind;
 use crate::sitl::sim::{Sim, SimConfig};
@@ -46,23 +47,34 @@ pub struct Args {
     /// So many times real time (0.1 to 100), or max for as fast as the machine can
     #[arg(long, value_name = "X|max", default_value = "1")]
     speed: Speed,
-    /// Keep in step with this peer, which must be one of those called: every 20 ms of simulation time it gets TIMESYNC and is waited for;
-    /// may be repeated
+    /// Keep in step with this peer, which must be one of those called: every 20 ms of simulation time it gets TIMESYNC and is waited for.
+    /// Lockstep begins with its first answer: until then time stands still for up to 10 s, with heartbeats, and runs as the clock does afterwards. May be repeated
     #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
     lockstep: Vec<SocketAddr>,
     /// Whose interface the vehicle speaks; it flies the same in all of them
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
+    /// Whether the camera's component (100) says heartbeats: off for simple clients that take every heartbeat for the vehicle's (DroneKit,
+    /// mavpilot). It takes pictures all the same; the parameter SPAN_CAMERA does it in flight
+    #[arg(long, value_name = "on|off", default_value = "on")]
+    camera: Announced,
+    /// What a crash leads to: the vehicle stays where it fell, it goes back to its last safe hover, the flight ends, or what the scenario
+    /// says. Use scenario when a monitor scores the flight; train and demo do
+    #[arg(long, value_name = "RULE", default_value = "continue")]
+    after_crash: AfterCrashArg,
     #[command(flatten)]
     ports: PortArgs,
     /// Vehicles in this process, 1 to 50, side by side at the same site; they pass through each other. System ids and ports count up from
     /// --instance and from every port that is given
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
     instances: u8,
-    /// Folder that is served over MAVLink FTP; the flights' logs (ULog, and MCAP for Foxglove) are written to its folder log. With several vehicles each has a
-    /// folder in it, named by its system id [default: none is served or written]
+    /// Folder that is served over MAVLink FTP; the flights' logs (ULog, and MCAP for Foxglove) are written to its folder log, which clients can only read
+    /// and delete from; their own files may take 256 MiB. With several vehicles each has a folder in it, named by its system id [default: none is served or written]
     #[arg(long, value_name = "DIR")]
     files: Option<PathBuf>,
+    /// Space for flight logs in the folder of --files, MB; before a flight the oldest logs are deleted down to it
+    #[arg(long, value_name = "MB", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    log_space: u64,
     /// File that keeps the parameters beyond a run: read at the start when it is there, written after every change; the format is
     /// QGroundControl's .params. With several vehicles each has one of its own, ending in its system id [default: none is kept]
     #[arg(long, value_name = "FILE")]
@@ -99,6 +111,40 @@ fn seconds(text: &str) -> Result<SimTime, String> {
         Ok(SimTime::from_s(s))
     } else {
         Err(format!("'{text}' is out of range (allowed: 0 to 1000000 s)"))
+    }
+}
+
+/// Whether something shows itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Announced {
+    /// It does
+    On,
+    /// It does not
+    Off,
+}
+
+/// What a crash leads to, as named on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum AfterCrashArg {
+    /// The vehicle stays where it fell
+    Continue,
+    /// It goes back to its last safe hover
+    Respawn,
+    /// The flight ends
+    End,
+    /// What the scenario says
+    Scenario,
+}
+
+impl AfterCrashArg {
+    /// `None` for the scenario's own rule.
+    fn rule(self) -> Option<AfterCrash> {
+        match self {
+            Self::Continue => Some(AfterCrash::Continue),
+            Self::Respawn => Some(AfterCrash::Respawn),
+            Self::End => Some(AfterCrash::End),
+            Self::Scenario => None,
+        }
     }
 }
 
@@ -163,9 +209,13 @@ pub fn run(args: &Args) -> Result<(), AppError> {
                 seed,
                 instance,
                 flavour: args.flavour.spoken(),
+                after_crash: args.after_crash.rule(),
             };
             let mut shell = Shell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())?;
             shell.obey(still.clone());
+            if args.camera == Announced::Off {
+                shell.core.silence_camera();
+            }
             Ok(shell)
         })
         .collect::<Result<_, AppError>>()?;
@@ -217,7 +267,7 @@ impl Door {
         let ports = args.ports.of(more);
         let instance = ports.instance;
         let folder = |root: &PathBuf| if args.instances == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
-        let store = args.files.as_ref().map(folder).map(|folder| Store::open(&folder)).transpose()?;
+        let store = args.files.as_ref().map(folder).map(|folder| Store::open(&folder, args.log_space * 1_000_000)).transpose()?;
         let params =
             args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { numbered(path, instance + 1) });
         let heard = args.signing_key.as_ref().map(|key| HeardFile::of(key, instance + 1));

@@ -2,6 +2,8 @@
 
 use super::report;
 use crate::monitor::folder::REPORT;
+use crate::monitor::score::completion::{self, Completion, TaskState};
+use serde::Deserialize;
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -19,6 +21,15 @@ pub fn places(session: &Path) {
 pub fn scores(assessment: &Value) -> String {
     let mut out = String::new();
     let scores = &assessment["scores"];
+    let completion = Completion::deserialize(&assessment["completion"]).ok();
+    let complete = completion.is_none_or(|completion| completion.complete);
+    if let Some(completion) = completion {
+        let _ = writeln!(out, "{}", completion.headline());
+    }
+    if !complete {
+        verdict(&mut out, &assessment["certification"]);
+        let _ = writeln!(out, "\nfor the part that was flown:");
+    }
     let _ = writeln!(out, "{:<14}{:>8}{:>11}", "score", "raw", "of 100");
     for name in ["conformity", "efficiency", "safety", "accuracy"] {
         let _ = match (number(&scores[name]["raw"]), number(&scores[name]["pct"])) {
@@ -26,8 +37,9 @@ pub fn scores(assessment: &Value) -> String {
             _ => writeln!(out, "{name:<14}{:>19}", "not applicable"),
         };
     }
-    if let (Some(overall), Some(most)) = (number(&scores["overall"]), number(&scores["overall_max"])) {
+    if complete && let (Some(overall), Some(most)) = (number(&scores["overall"]), number(&scores["overall_max"])) {
         let _ = writeln!(out, "{:<14}{:>8}{overall:>11.2}  of {most:.0}", "overall", "");
+        verdict(&mut out, &assessment["certification"]);
     }
     tasks(&mut out, assessment);
     crashes(&mut out, &assessment["crashes"]);
@@ -36,12 +48,22 @@ pub fn scores(assessment: &Value) -> String {
     out
 }
 
+fn verdict(out: &mut String, certification: &Value) {
+    if let Some(passed) = certification["passed"].as_bool() {
+        let unmet = Vec::<String>::deserialize(&certification["unmet"]).unwrap_or_default();
+        let _ = writeln!(out, "{}", completion::verdict(passed, &unmet));
+    }
+}
+
 fn tasks(out: &mut String, assessment: &Value) {
+    let done_share = number(&assessment["completion"]["done_share"]).unwrap_or_default();
     for task in assessment["tasks"].as_array().into_iter().flatten() {
         let id = task["id"].as_u64().unwrap_or_default();
+        let state = TaskState::deserialize(&task["state"]).ok().zip(number(&task["covered"]));
+        let state = state.map_or(String::new(), |(state, covered)| format!("{}, ", state.words(covered, done_share)));
         let _ = match (task["attempted"].as_bool(), number(&task["on_path"]), number(&task["speeding"])) {
             (Some(true), Some(on_path), Some(speeding)) => {
-                writeln!(out, "task {id}        on path {:.1} %, speeding loss {speeding:.3}", 100.0 * on_path)
+                writeln!(out, "task {id}        {state}on path {:.1} % of the time, speeding loss {speeding:.3}", 100.0 * on_path)
             }
             _ => writeln!(out, "task {id}        not attempted"),
         };
@@ -94,26 +116,47 @@ mod tests {
     #[test]
     fn exact_the_table_shows_every_number_rounded() {
         let assessment = json!({
+            "completion": {"complete": true, "tasks_done": 2, "tasks": 2, "path_share": 0.914, "landed_at_home": true, "done_share": 0.8},
+            "certification": {"passed": false, "unmet": ["12 % battery at landing, 20 % needed"]},
             "scores": {"conformity": {"raw": 62.126, "pct": 81.0625}, "efficiency": {"raw": 100.0, "pct": 100.0},
                 "safety": {"raw": -9.0, "pct": 91.0}, "accuracy": null, "overall": 272.0625, "overall_max": 300.0},
-            "tasks": [{"id": 1, "attempted": true, "on_path": 0.875, "speeding": 0.25}, {"id": 2, "attempted": false}],
+            "tasks": [{"id": 1, "attempted": true, "state": "done", "covered": 0.93, "on_path": 0.875, "speeding": 0.25}],
             "crashes": {"other": 3, "person": 0, "vehicle": 0, "by_task": {"1": 2, "outside": 1, "2": 0}},
             "snapshots": {"taken": 5, "hits": 3, "defects_found": 4, "defects_placed": 10},
             "end": {"reason": "landed", "frames": 22500, "seconds": 750.0}, "telemetry": {"missing_frames": 0}
         });
         let expected = "\
+Complete: 2 of 2 tasks, 91 % of the path
 score              raw     of 100
 conformity       62.13      81.06
 efficiency      100.00     100.00
 safety           -9.00      91.00
 accuracy           not applicable
 overall                    272.06  of 300
-task 1        on path 87.5 %, speeding loss 0.250
-task 2        not attempted
+Not certified: 12 % battery at landing, 20 % needed
+task 1        done, 93 % of its path, on path 87.5 % of the time, speeding loss 0.250
 crashes       3 with structures or ground, 0 with persons, 0 with vehicles (task 1: 2, outside: 1)
 snapshots     5 taken, 3 of them hits; 4 of 10 defects found
 end           landed after 12 min 30 s of flight, 0 frames missing
 ";
         assert_eq!(scores(&assessment), expected);
+    }
+
+    #[test]
+    fn regress_an_incomplete_attempt_leads_with_what_was_not_done_and_has_no_sum() {
+        let score = |pct: f64| json!({"raw": pct, "pct": pct});
+        let assessment = json!({
+            "completion": {"complete": false, "tasks_done": 0, "tasks": 2, "path_share": 0.31, "landed_at_home": true, "done_share": 0.8},
+            "certification": {"passed": false, "unmet": ["task 1 not done: 64 % of its path, 80 % needed", "task 2 not attempted"]},
+            "scores": {"conformity": score(50.0), "efficiency": score(100.0), "safety": score(100.0), "accuracy": null,
+                "overall": 250.0, "overall_max": 300.0},
+            "tasks": [{"id": 1, "attempted": true, "state": "part", "covered": 0.64, "on_path": 0.5, "speeding": 0.0},
+                {"id": 2, "attempted": false, "state": "not_attempted", "covered": 0.0}],
+        });
+        let text = scores(&assessment);
+        let start = "Incomplete: 0 of 2 tasks, 31 % of the path\n\
+            Not certified: task 1 not done: 64 % of its path, 80 % needed (and 1 more)\n\nfor the part that was flown:\n";
+        assert!(text.starts_with(start), "{text}");
+        assert!(!text.contains("overall") && !text.contains("of 300") && text.contains("part, 64 % of its path"), "{text}");
     }
 }

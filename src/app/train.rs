@@ -4,6 +4,7 @@ mod course;
 mod flight;
 mod offers;
 mod photographs;
+mod prompt;
 mod questions;
 mod window;
 
@@ -71,6 +72,9 @@ pub struct Args {
     /// Without the window
     #[arg(long)]
     no_view: bool,
+    /// Quit when the session is scored; without it the vehicle stays connected until you quit
+    #[arg(long, conflicts_with = "choose")]
+    once: bool,
     /// Without sound in the window
     #[arg(long)]
     no_sound: bool,
@@ -163,7 +167,7 @@ fn how_to_connect(
   session folder   {}
   web pages        {}
 {}
-Take off, do the tasks, land on the pad; the scores follow. Ctrl-C ends the session early.
+Take off, do the tasks, land on the pad; the scores follow, and the vehicle stays connected. Ctrl-C ends the session early.
 ",
         port("gcs_port"),
         port("tcp_port"),

@@ -1,6 +1,7 @@
 //! Frames in the type. A [`Vec3`] carries the frame it is expressed in; a [`Rotation`] carries from which frame into which.
 //!
 //! * [`Ned`]: local tangent plane at the scenario origin, axes north, east, down. Flight and MAVLink live here.
+//! * [`LocalNed`]: MAVLink's local frame, the same axes as [`Ned`] about the place where the vehicle's estimator was initialized.
 //! * [`Enu`]: the same plane and origin, axes east, north, up. Site, scenario and assessment live here.
 //! * [`Frd`]: body, axes forward, right, down, origin at the centre of mass.
 //!
@@ -15,6 +16,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// Local tangent plane: x north, y east, z down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ned;
+/// MAVLink's local frame: axes of [`Ned`], origin where the vehicle's estimator was initialized.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LocalNed;
 /// Local tangent plane: x east, y north, z up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Enu;

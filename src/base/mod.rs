@@ -6,6 +6,7 @@ pub mod foxglove;
 pub mod frames;
 pub mod geodesy;
 pub mod math;
+pub mod numbers;
 pub mod random;
 pub mod time;
 pub mod toml;

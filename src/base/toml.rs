@@ -37,19 +37,30 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Everything wrong in a file, one problem a line.
+/// Problems that are listed one by one; of the others the number is reported. A page or terminal holds some 50.
+const LISTED_MOST: usize = 50;
+
+/// The first problems of a list, and how many follow.
+#[must_use]
+pub fn listed(problems: &[Problem]) -> (&[Problem], usize) {
+    let count = problems.len().min(LISTED_MOST);
+    (&problems[..count], problems.len() - count)
+}
+
+/// Everything wrong in a file; as text one problem a line, and after the first 50 how many more there are.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Problems(pub Vec<Problem>);
 
 impl fmt::Display for Problems {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, problem) in self.0.iter().enumerate() {
+        let (first, more) = listed(&self.0);
+        for (k, problem) in first.iter().enumerate() {
             if k > 0 {
                 writeln!(f)?;
             }
             write!(f, "{problem}")?;
         }
-        Ok(())
+        if more > 0 { write!(f, "\nand {more} more problems") } else { Ok(()) }
     }
 }
 
@@ -381,7 +392,8 @@ impl<'a> Reader<'a> {
                 continue;
             }
             let line = self.line_of(item).unwrap_or(section.line);
-            let known = section.seen.iter().min_by_key(|s| difference(s, key));
+            let near = |s: &&&str| is_slip(s, key);
+            let known = section.seen.iter().filter(near).min_by_key(|s| difference(s, key));
             let message = known.map_or("unknown key".to_string(), |k| format!("unknown key; did you mean {k}?"));
             let allowed = section.seen.join(", ");
             self.problem(line, &section.full(key), &shown(item), &allowed, &message);
@@ -428,6 +440,11 @@ fn shown(item: &Item) -> String {
     const LONGEST: usize = 60;
     let text: String = item.to_string().trim().replace('\n', " ").chars().take(LONGEST + 1).collect();
     if text.chars().count() > LONGEST { format!("{}…", text.chars().take(LONGEST).collect::<String>()) } else { text }
+}
+
+/// Two keys that differ by a slip of the pen: at most two edits in five characters.
+fn is_slip(known: &str, key: &str) -> bool {
+    5 * difference(known, key) <= 2 * known.chars().count().max(key.chars().count())
 }
 
 /// Levenshtein distance, for suggestions.

@@ -184,6 +184,18 @@ fn known(message_id: u32) -> bool {
     MavMessage::default_message_from_id(message_id).is_some()
 }
 
+/// What an encoder makes a frame of.
+pub trait Framed {
+    /// The whole frame.
+    fn frame(&self, encoder: &mut Encoder) -> Vec<u8>;
+}
+
+impl Framed for MavMessage {
+    fn frame(&self, encoder: &mut Encoder) -> Vec<u8> {
+        encoder.encode(self)
+    }
+}
+
 /// Writes frames of one sender, numbering them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Encoder {
@@ -214,11 +226,16 @@ impl Encoder {
     /// One MAVLink 2 frame from a raw payload, for numbers that the dialect's types cannot hold (an acknowledgement of an unknown
     /// command). Trailing zeros are cut as the protocol asks.
     pub fn encode_payload(&mut self, message_id: u32, payload: &[u8]) -> Vec<u8> {
+        self.encode_foreign(message_id, MavMessage::extra_crc(message_id), payload)
+    }
+
+    /// The same for a message of another dialect, whose checksum seed is given.
+    pub fn encode_foreign(&mut self, message_id: u32, crc_extra: u8, payload: &[u8]) -> Vec<u8> {
         let used = payload.iter().rposition(|b| *b != 0).map_or(1, |last| last + 1).min(255).min(payload.len());
         let id = message_id.to_le_bytes();
         let mut out = vec![STX_V2, used as u8, 0, 0, self.sequence, self.system_id, self.component_id, id[0], id[1], id[2]];
         out.extend_from_slice(&payload[..used]);
-        let crc = mavlink::calculate_crc(&out[1..], MavMessage::extra_crc(message_id));
+        let crc = mavlink::calculate_crc(&out[1..], crc_extra);
         out.extend(crc.to_le_bytes());
         self.sequence = self.sequence.wrapping_add(1);
         out

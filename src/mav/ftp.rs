@@ -187,9 +187,9 @@ impl Packet {
 /// not inverted at the end, as PX4 and MAVSDK have it.
 #[must_use]
 pub fn checksum(sum: u32, bytes: &[u8]) -> u32 {
-    bytes.iter().fold(sum, |sum, byte| {
-        (0..8).fold(sum ^ u32::from(*byte), |sum, _| if sum & 1 == 0 { sum >> 1 } else { (sum >> 1) ^ 0xEDB8_8320 })
-    })
+    let mut crc = crc32fast::Hasher::new_with_initial(!sum);
+    crc.update(bytes);
+    !crc.finalize()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The common language, sans-IO: framing and codec, unit doors, router, signing. Knows base only.
 
+pub mod ardupilotmega;
 pub mod codec;
 pub mod ftp;
 pub mod note;

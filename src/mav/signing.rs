@@ -19,6 +19,11 @@ const SIGNATURE: usize = 13;
 const RADIO_STATUS: u32 = 109;
 /// A stream that speaks for the first time may be this far behind, in timestamp units (one minute).
 const SLACK: u64 = 6_000_000;
+/// A frame may be this far ahead of a clock that is set, in timestamp units (one day: a clock in the wrong time zone passes). What is
+/// further ahead would make every honest frame too old, now and after every restart.
+const AHEAD_MAX: u64 = 8_640_000_000;
+/// 2024-01-01T00:00:00Z; a clock that shows less has not been set.
+const CLOCK_SET: u64 = 28_401_840_000_000;
 /// Streams (system, component, link id) whose newest timestamp is kept.
 const STREAMS_MAX: usize = 512;
 /// 2015-01-01T00:00:00Z in Unix microseconds, from when timestamps count.
@@ -55,8 +60,11 @@ pub fn stamp(unix_us: u64) -> u64 {
     unix_us.saturating_sub(EPOCH_UNIX_US) / 10
 }
 
+/// The largest timestamp of 48 bits.
+const STAMP_MAX: u64 = (1 << 48) - 1;
+
 fn is_stamp(stamp: &u64) -> bool {
-    *stamp < 1 << 48
+    *stamp <= STAMP_MAX
 }
 
 /// What a frame is worth.
@@ -70,6 +78,8 @@ pub enum Verdict {
     Forged,
     /// Signed with our key, but heard before, or too old.
     Replayed,
+    /// Signed with our key, but further in the future than a clock may be wrong.
+    Ahead,
 }
 
 /// Signs and verifies for one end of one link.
@@ -79,6 +89,8 @@ pub struct Signing {
     link_id: u8,
     /// Newest timestamp sent or heard.
     newest: u64,
+    /// Newest timestamp of our own clock.
+    clock: u64,
     heard: BTreeMap<(u8, u8, u8), u64>,
 }
 
@@ -86,7 +98,7 @@ impl Signing {
     /// Begins with a timestamp that must not lie before the last one used with this key.
     #[must_use]
     pub fn new(key: Key, link_id: u8, stamp: u64) -> Self {
-        Self { key, link_id, newest: stamp, heard: BTreeMap::new() }
+        Self { key, link_id, newest: stamp, clock: stamp, heard: BTreeMap::new() }
     }
 
     /// Signs a whole MAVLink 2 frame of the dialect; every call has a newer timestamp. What is signed already, or is no such frame, is
@@ -117,16 +129,26 @@ impl Signing {
         self.newest
     }
 
+    /// What a new stream is compared with: our clock, if it is set, or else the newest that was sent or heard.
+    fn present(&self) -> u64 {
+        if self.clock >= CLOCK_SET { self.clock } else { self.newest }
+    }
+
+    /// The newest timestamp that is believed.
+    fn latest(&self) -> u64 {
+        if self.clock >= CLOCK_SET { self.clock + AHEAD_MAX } else { STAMP_MAX }
+    }
+
     /// What the next start with this key must know, so that nothing heard until now is taken once more: the newest timestamp, then system,
-    /// component, link id and newest timestamp of each stream whose frames would otherwise still be new enough. One line each.
+    /// component, link id and newest timestamp of each stream. One line each.
     #[must_use]
     pub fn memory(&self) -> String {
-        let streams = self.heard.iter().filter(|(_, last)| **last + SLACK >= self.newest);
-        let lines = streams.map(|((system, component, link), last)| format!("{system} {component} {link} {last}\n"));
+        let lines = self.heard.iter().map(|((system, component, link), last)| format!("{system} {component} {link} {last}\n"));
         std::iter::once(format!("{}\n", self.newest)).chain(lines).collect()
     }
 
-    /// Takes up such a memory.
+    /// Takes up such a memory, but for timestamps that are further ahead than a clock may be wrong: they were never honest, and with them
+    /// nothing that is would be taken.
     ///
     /// # Errors
     /// The number of the first line that is no such line, from 1; then nothing is taken up.
@@ -140,8 +162,9 @@ impl Signing {
         let newest = lines.next().and_then(|line| line.parse().ok()).filter(is_stamp).ok_or(1usize)?;
         let streams = lines.enumerate().map(|(k, line)| stream(line).ok_or(k + 2));
         let heard = streams.take(STREAMS_MAX).collect::<Result<BTreeMap<_, _>, _>>()?;
-        self.newest = self.newest.max(newest);
-        self.heard.extend(heard);
+        let latest = self.latest();
+        self.newest = self.newest.max(Some(newest).filter(|newest| *newest <= latest).unwrap_or(0));
+        self.heard.extend(heard.into_iter().filter(|(_, last)| *last <= latest));
         Ok(())
     }
 
@@ -151,6 +174,7 @@ impl Signing {
         if bytes.first() != Some(&STX) || bytes.get(FLAGS).is_none_or(|flags| flags & SIGNED == 0) || bytes.len() < SIGNATURE {
             return Verdict::Unsigned;
         }
+        self.clock = self.clock.max(stamp);
         self.newest = self.newest.max(stamp);
         let (signed, signature) = bytes.split_at(bytes.len() - 6);
         let (body, tail) = signed.split_at(signed.len() - 7);
@@ -158,14 +182,18 @@ impl Signing {
             return Verdict::Forged;
         }
         let stamp = tail[1..].iter().rev().fold(0, |stamp, byte| (stamp << 8) | u64::from(*byte));
+        if stamp > self.latest() {
+            return Verdict::Ahead;
+        }
+        let present = self.present();
         let stream = (frame.system_id, frame.component_id, tail[0]);
         if self.heard.len() >= STREAMS_MAX {
             // Frames of these are too old for a new stream as well: nothing is taken twice.
-            self.heard.retain(|_, last| *last + SLACK >= self.newest);
+            self.heard.retain(|_, last| *last + SLACK >= present);
         }
         let new = match self.heard.get(&stream) {
             Some(last) => stamp > *last,
-            None => stamp + SLACK >= self.newest && self.heard.len() < STREAMS_MAX,
+            None => stamp + SLACK >= present && self.heard.len() < STREAMS_MAX,
         };
         if !new {
             return Verdict::Replayed;
@@ -295,6 +323,30 @@ mod tests {
         let mut set_back = Signing::new(Key::of_passphrase("bridge"), 0, 5);
         set_back.recall(&again.memory()).unwrap();
         assert!(set_back.newest() >= soon);
+    }
+
+    /// One frame with a clock gone wrong, or kept by somebody who once had the key, made every other too old, and through the memory for ever.
+    #[test]
+    fn regress_a_frame_from_the_far_future_is_refused_and_leaves_nothing_behind() {
+        let (mut ours, mut theirs) = pair();
+        let far = |stamp: u64| read(&Signing::new(Key::of_passphrase("bridge"), 9, stamp - 1).sign(frame(7), stamp));
+        for stamp in [NOW + AHEAD_MAX + 1, STAMP_MAX] {
+            assert_eq!(theirs.verify(&far(stamp), NOW), Verdict::Ahead);
+        }
+        assert_eq!((theirs.newest(), theirs.heard.len()), (NOW, 0));
+        assert_eq!(theirs.verify(&far(NOW + AHEAD_MAX), NOW), Verdict::Good, "a clock a day ahead");
+        let honest = read(&ours.sign(frame(1), NOW));
+        assert_eq!(theirs.verify(&honest, NOW), Verdict::Good, "beside it, one that is right");
+        // A memory that has been poisoned before: it heals.
+        let mut again = Signing::new(Key::of_passphrase("bridge"), 0, NOW);
+        again.recall(&format!("{STAMP_MAX}\n7 1 9 {STAMP_MAX}\n1 1 3 {NOW}\n")).unwrap();
+        assert_eq!((again.newest(), again.heard.len()), (NOW, 1));
+        let next = read(&ours.sign(frame(1), NOW));
+        assert_eq!(again.verify(&next, NOW), Verdict::Good);
+        assert_eq!(again.verify(&next, NOW), Verdict::Replayed);
+        // A machine whose clock was never set believes what it hears.
+        let mut clockless = Signing::new(Key::of_passphrase("bridge"), 0, 5);
+        assert_eq!(clockless.verify(&honest, 5), Verdict::Good);
     }
 
     #[test]

@@ -1,16 +1,19 @@
 //! The assessment: the names of its parts are the names in `assessment.json`, which other tools read.
 
 use super::measures::attention::{self, Snapshot, Survey};
+use super::measures::coverage::{self, PathCoverage};
 use super::measures::crash::{self, Crash};
 use super::measures::on_path::{OnPath, Paths};
 use super::measures::on_speed;
 use super::score::accuracy::Counts;
 use super::score::certification::{self, Certification, Evidence};
+use super::score::completion::{Completion, TaskState};
 use super::score::conformity::TaskShares;
 use super::score::{Score, conformity, efficiency, safety};
 use super::session::{EndReason, Session, lift_off_height_m};
 use crate::base::geodesy::LocalPlane;
 use crate::scenario::Scenario;
+use crate::telemetry::log_stream::Log;
 use crate::telemetry::{Contact, Flight, Frame, Hand, Timeline};
 use crate::vehicle::Vehicle;
 use serde::Serialize;
@@ -57,6 +60,15 @@ pub enum AssessError {
     /// No seed anywhere.
     #[error("no seed: the telemetry holds no `seed` message, and neither scenario nor command line names one")]
     NoSeed,
+    /// The telemetry cannot be read.
+    #[error("the telemetry cannot be read: {0}")]
+    Unreadable(String),
+}
+
+impl From<std::io::Error> for AssessError {
+    fn from(error: std::io::Error) -> Self {
+        Self::Unreadable(error.to_string())
+    }
 }
 
 /// Both profiles of one session.
@@ -66,6 +78,8 @@ pub struct Assessment {
     pub profile: &'static str,
     /// The four scores and their sum.
     pub scores: Scores,
+    /// How much of the job was done.
+    pub completion: Completion,
     /// Tasks in file order.
     pub tasks: Vec<TaskResult>,
     /// Crashes.
@@ -117,6 +131,10 @@ pub struct TaskResult {
     pub id: u32,
     /// Its path was entered; false is the flag `not_attempted`.
     pub attempted: bool,
+    /// Done, part or not attempted.
+    pub state: TaskState,
+    /// Share of its path that was flown, 0 to 1.
+    pub covered: f64,
     /// First on-path frame.
     pub first_frame: Option<u32>,
     /// Last on-path frame.
@@ -220,11 +238,20 @@ pub fn assess(flight: &Flight, job: &Job<'_>) -> Result<(Assessment, Vec<Frame>)
         placed: job.survey.defects().len(),
     };
     let shares = shares(scenario, &session, &on_path);
+    let covered = coverage::coverage(&paths, &on_path);
+    let done_share = scenario.scoring.task_done_share;
+    let attempted = on_path.windows.iter().map(Option::is_some);
+    let states: Vec<TaskState> =
+        attempted.zip(&covered).map(|(attempted, covered)| TaskState::of(attempted, covered.share, done_share)).collect();
+    let completion = Completion::of(&states, &covered, session.reason == EndReason::Landed, done_share);
     let evidence = Evidence {
         scenario,
         paths: &paths,
         session: &session,
         on_path: &on_path,
+        covered: &covered,
+        states: &states,
+        completion,
         crashes: &crashes,
         counts,
         defects: job.survey.defects(),
@@ -235,11 +262,12 @@ pub fn assess(flight: &Flight, job: &Job<'_>) -> Result<(Assessment, Vec<Frame>)
     let assessment = Assessment {
         profile: "paper",
         scores: scores(scenario, &shares, &end, &crashes, counts),
-        tasks: tasks(scenario, &on_path, &shares),
+        completion,
+        tasks: tasks(scenario, &on_path, &shares, (&states, &covered)),
         crashes: crash_counts(scenario, &crashes),
         snapshots: snapshot_counts(scenario, counts, pictures),
         end,
-        telemetry: coverage(&session.frames),
+        telemetry: telemetry_coverage(&session.frames),
         flown_by: flown_by(flight, &session.frames),
         certification,
     };
@@ -249,15 +277,15 @@ pub fn assess(flight: &Flight, job: &Job<'_>) -> Result<(Assessment, Vec<Frame>)
 /// Scores a telemetry log.
 ///
 /// # Errors
-/// When the log is of another scenario or seed, or holds no session.
+/// When the log cannot be read, is of another scenario or seed, or holds no session.
 pub fn assess_log(
-    log: &[u8],
+    log: &(impl Log + ?Sized),
     scenario: &Scenario,
     vehicle: &Vehicle,
     build: impl FnOnce(&Scenario, u64) -> std::sync::Arc<dyn Survey>,
 ) -> Result<Graded, AssessError> {
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
-    timeline.push_log(log);
+    timeline.push_log(log)?;
     let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
     let survey = attention::gated(build(scenario, seed), &flight);
     let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: survey.as_ref() })?;
@@ -362,20 +390,27 @@ pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &End, crashes: &[
     Scores { conformity, efficiency, safety, accuracy, overall, overall_max }
 }
 
-fn tasks(scenario: &Scenario, on_path: &OnPath, shares: &[TaskShares]) -> Vec<TaskResult> {
+fn tasks(
+    scenario: &Scenario,
+    on_path: &OnPath,
+    shares: &[TaskShares],
+    (states, covered): (&[TaskState], &[PathCoverage]),
+) -> Vec<TaskResult> {
     let number = |i: usize| u32::try_from(i + 1).unwrap_or(u32::MAX);
-    let one = |((task, window), share): ((&crate::scenario::Task, &Option<_>), &TaskShares)| {
-        let window: Option<super::measures::on_path::Window> = *window;
+    let one = |(t, task): (usize, &crate::scenario::Task)| {
+        let window = on_path.windows[t];
         TaskResult {
             id: task.id,
             attempted: window.is_some(),
+            state: states[t],
+            covered: covered[t].share,
             first_frame: window.map(|w| number(w.first)),
             last_frame: window.map(|w| number(w.last)),
-            on_path: share.on_path,
-            speeding: share.speeding,
+            on_path: shares[t].on_path,
+            speeding: shares[t].speeding,
         }
     };
-    scenario.tasks.iter().zip(&on_path.windows).zip(shares).map(one).collect()
+    scenario.tasks.iter().enumerate().map(one).collect()
 }
 
 fn crash_counts(scenario: &Scenario, crashes: &[Crash]) -> CrashCounts {
@@ -424,7 +459,7 @@ fn flown_by(flight: &Flight, frames: &[Frame]) -> Vec<Stretch> {
     stretches
 }
 
-fn coverage(frames: &[Frame]) -> Coverage {
+fn telemetry_coverage(frames: &[Frame]) -> Coverage {
     let gap = |frame: &Frame| frame.missing || frame.interpolated;
     let starts = frames.iter().enumerate().filter(|(i, frame)| gap(frame) && (*i == 0 || !gap(&frames[i - 1]))).count();
     let missing = frames.iter().filter(|frame| frame.missing).count();

@@ -132,7 +132,7 @@ impl Pilot {
     }
 
     fn map<'a>(config: &'a PilotConfig, site: &'a crate::site::Site, at: SimTime) -> Map<'a> {
-        Map { scenario: &config.scenario, site, vehicle: &config.vehicle, at }
+        Map { scenario: &config.scenario, site, vehicle: &config.vehicle, at, keep_clear_m: None }
     }
 
     /// Plans the next leg when there is none, or a way back to the present one.

@@ -6,6 +6,7 @@ use super::track::Leg;
 use crate::base::frames::{Enu, Vec3};
 use crate::base::geodesy::{Geo, LocalPlane};
 use crate::base::math;
+use crate::mav::dialect::{MavAutopilot, MavType};
 use serde_json::{Value, json};
 
 /// Waypoints of a task are at most this far apart, and a turn or a new line of sight gets one of its own, m, rad.
@@ -14,7 +15,12 @@ const TRANSIT_STRIDE_M: f64 = 12.0;
 const TURN_RAD: f64 = 0.15;
 /// A waypoint counts as reached within, m: less than the narrowest threshold of a shipped task by what the flight may stray (estimate).
 const TASK_ACCEPT_M: f64 = 0.8;
-const TRANSIT_ACCEPT_M: f64 = 2.0;
+const TRANSIT_ACCEPT_M: f64 = 1.2;
+/// No leg of the plan is faster than this share of the job's speed limit: gusts and the estimate's error stay under it (estimate).
+const SPEED_SHARE: f64 = 0.9;
+/// Transits keep this much more clearance than the job's distance for "too close", m (estimate: the receiver's slow error reaches 1 m, and
+/// corners are rounded).
+const CLEAR_BY_M: f64 = 2.0;
 /// The gimbal is told when its pitch changes by more than this, degrees.
 const GIMBAL_STEP_DEG: f64 = 3.0;
 /// A picture every so many seconds in a task (estimate: one for each few metres of path).
@@ -41,6 +47,7 @@ struct Writer {
     pad_up_m: f64,
     items: Vec<Value>,
     speed_m_s: f64,
+    fastest_m_s: f64,
     pitch_deg: f64,
 }
 
@@ -78,6 +85,7 @@ impl Writer {
     }
 
     fn fly_at(&mut self, speed_m_s: f64) {
+        let speed_m_s = speed_m_s.min(self.fastest_m_s);
         if (self.speed_m_s - speed_m_s).abs() > 0.05 {
             self.speed_m_s = speed_m_s;
             self.act(CHANGE_SPEED, [1.0, speed_m_s, -1.0, 0.0, 0.0, 0.0, 0.0]);
@@ -133,14 +141,17 @@ fn turns(leg: &Leg, k: usize) -> bool {
     bent || matches!((leg.look[k - 1], leg.look[k]), (Some(before), Some(now)) if angle(before, now) > TURN_RAD)
 }
 
-/// The plan file: take-off, every task in order with pictures, return. Heights count from the pad, where home will be.
+/// The plan file: take-off, every task in order with pictures, return. Heights count from the pad, where home will be. `firmware` is the
+/// autopilot that it is for.
 #[must_use]
-pub fn plan(map: &Map) -> Value {
+pub fn plan(map: &Map, firmware: MavAutopilot) -> Value {
     let scenario = map.scenario;
+    let map = &Map { keep_clear_m: Some(scenario.feedback.too_close_m + CLEAR_BY_M), ..*map };
     let pad = scenario.ground_team.pad_m;
     let plane = LocalPlane::new(scenario.origin);
     let home = plane.geo_from_enu(pad);
-    let mut w = Writer { plane, pad_up_m: pad.up(), items: Vec::new(), speed_m_s: 0.0, pitch_deg: f64::INFINITY };
+    let fastest_m_s = SPEED_SHARE * scenario.scoring.speed_limit_m_s;
+    let mut w = Writer { plane, pad_up_m: pad.up(), items: Vec::new(), speed_m_s: 0.0, fastest_m_s, pitch_deg: f64::INFINITY };
     let mut here = over_pad(scenario);
     let [lat, lon, height] = w.place(here).map(Some);
     w.item(TAKEOFF, RELATIVE, [Some(0.0), Some(0.0), Some(0.0), None, lat, lon, height]);
@@ -162,10 +173,10 @@ pub fn plan(map: &Map) -> Value {
     }
     w.leg(&map.leg(Job::Home, here));
     w.item(RETURN, NO_PLACE, [Some(0.0); 7]);
-    file(w.items, home)
+    file(w.items, home, firmware, fastest_m_s)
 }
 
-fn file(items: Vec<Value>, home: Geo) -> Value {
+fn file(items: Vec<Value>, home: Geo, firmware: MavAutopilot, speed_m_s: f64) -> Value {
     json!({
         "fileType": "Plan",
         "version": 1,
@@ -174,12 +185,11 @@ fn file(items: Vec<Value>, home: Geo) -> Value {
         "rallyPoints": { "points": [], "version": 2 },
         "mission": {
             "version": 2,
-            // MAV_AUTOPILOT_PX4 and MAV_TYPE_QUADROTOR.
-            "firmwareType": 12,
-            "vehicleType": 2,
+            "firmwareType": firmware as u8,
+            "vehicleType": MavType::MAV_TYPE_QUADROTOR as u8,
             "globalPlanAltitudeMode": 1,
-            "cruiseSpeed": 5,
-            "hoverSpeed": 5,
+            "cruiseSpeed": speed_m_s,
+            "hoverSpeed": speed_m_s,
             "plannedHomePosition": [home.latitude_deg, home.longitude_deg, home.altitude_m],
             "items": items,
         },

@@ -54,6 +54,8 @@ pub struct Map<'a> {
     pub vehicle: &'a Vehicle,
     /// When.
     pub at: SimTime,
+    /// Clearance that transits keep, m, but where a path's end lies nearer to things; `None`: this pilot's own.
+    pub keep_clear_m: Option<f64>,
 }
 
 impl Map<'_> {
@@ -64,7 +66,7 @@ impl Map<'_> {
 
     fn way(&self, from: Vec3<Enu>, to: Vec3<Enu>) -> Vec<Vec3<Enu>> {
         let ceiling = from.up().max(to.up()) + 60.0;
-        plan::route(self.site, from, to, self.clearance_m(), ceiling, self.at)
+        plan::route(self.site, (from, to), self.clearance_m(), self.keep_clear_m, ceiling, self.at)
     }
 
     /// The way as part of a leg: fast in the open, careful past things.

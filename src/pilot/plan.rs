@@ -10,6 +10,13 @@ use std::collections::{BTreeMap, BinaryHeap};
 const CELL_M: f64 = 2.0;
 /// Clearance that a person likes to keep, m (practice: 3 to 5 m, domain.md 3e).
 const COMFORT_M: f64 = 4.0;
+/// Around an end that lies nearer to things than the way should, the way keeps what the end has, m (estimate: the reach of a task's own
+/// distance for "too close").
+const CRAMPED_M: f64 = 8.0;
+/// Near such an end the way may come closer to things than the end by this, m (estimate: stand-offs are rounded).
+const END_SLACK_M: f64 = 0.1;
+/// What is asked for in turn, as shares of the clearance to keep beyond the least one.
+const SHARES: [f64; 3] = [1.0, 0.7, 0.4];
 /// Room around the two ends for the search, m.
 const MARGIN_M: f64 = 40.0;
 /// Cells looked at before giving up; the two-bridge site needs about a tenth.
@@ -17,22 +24,46 @@ const MAX_EXPANSIONS: usize = 400_000;
 
 type Cell = [i32; 3];
 
-/// A flyable polyline from `from` to `to`, both included, that keeps `clearance_m` where it can; a straight line when no way
+/// A flyable polyline from `from` to `to`, both included, that keeps `clearance_m` where it can, and `keep_m` (if given) but near an end
+/// that lies nearer to things itself, from traffic at any time too. Where no way keeps that much, it keeps less; a straight line when no way
 /// is found.
 #[must_use]
-pub fn route(site: &Site, from: Vec3<Enu>, to: Vec3<Enu>, clearance_m: f64, ceiling_up_m: f64, at: SimTime) -> Vec<Vec3<Enu>> {
-    let space = Space { site, clearance_m, at, origin: from, to, ceiling_up_m };
-    if space.line_is_free(from, to, COMFORT_M) {
-        return vec![from, to];
-    }
-    let cells = search(&space).unwrap_or_default();
+pub fn route(
+    site: &Site,
+    (from, to): (Vec3<Enu>, Vec3<Enu>),
+    clearance_m: f64,
+    keep_m: Option<f64>,
+    ceiling_up_m: f64,
+    at: SimTime,
+) -> Vec<Vec3<Enu>> {
+    let mut space = Space { site, clearance_m, at, origin: from, to, ceiling_up_m, keep: None };
+    let found = match keep_m {
+        Some(keep_m) => SHARES.into_iter().find_map(|share| {
+            space.keep = Some(space.kept(clearance_m + share * (keep_m - clearance_m).max(0.0)));
+            space.line_is_free(from, to, COMFORT_M).then(Vec::new).or_else(|| search(&space))
+        }),
+        None => None,
+    };
+    let found = found.or_else(|| {
+        space.keep = None;
+        if space.line_is_free(from, to, COMFORT_M) { Some(Vec::new()) } else { search(&space) }
+    });
+    let cells = found.unwrap_or_default();
     let mut points = vec![from];
     points.extend(cells.iter().map(|c| space.centre(*c)));
     points.push(to);
     pull_straight(&space, &points)
 }
 
+/// A clearance that holds but near cramped ends.
+struct Keep {
+    keep_m: f64,
+    /// What holds near origin and goal, m.
+    ends_m: [f64; 2],
+}
+
 struct Space<'a> {
+    keep: Option<Keep>,
     site: &'a Site,
     clearance_m: f64,
     at: SimTime,
@@ -46,8 +77,27 @@ impl Space<'_> {
         self.origin + Vec3::new(f64::from(cell[0]), f64::from(cell[1]), f64::from(cell[2])) * CELL_M
     }
 
+    /// The clearance to keep, and what its ends allow.
+    fn kept(&self, keep_m: f64) -> Keep {
+        let still = |end| self.site.nearest(end, keep_m, self.at).map_or(keep_m, |near| near.distance_m);
+        Keep { keep_m, ends_m: [self.origin, self.to].map(|end| (still(end) - END_SLACK_M).max(self.clearance_m)) }
+    }
+
     fn clearance(&self, p: Vec3<Enu>) -> f64 {
-        self.site.nearest(p, COMFORT_M, self.at).map_or(COMFORT_M, |near| near.distance_m)
+        let Some(keep) = &self.keep else {
+            return self.site.nearest(p, COMFORT_M, self.at).map_or(COMFORT_M, |near| near.distance_m);
+        };
+        let reach_m = keep.keep_m.max(COMFORT_M);
+        let still = self.site.nearest(p, reach_m, self.at).map_or(reach_m, |near| near.distance_m);
+        self.site.traffic().nearest_ever_m(p, still).unwrap_or(still)
+    }
+
+    /// Clearance that this place must have, m.
+    fn required(&self, p: Vec3<Enu>) -> f64 {
+        let Some(keep) = &self.keep else { return self.clearance_m };
+        let near = [self.origin, self.to].map(|end| (p - end).norm() < CRAMPED_M);
+        let ends = keep.ends_m.into_iter().zip(near).filter_map(|(end_m, near)| near.then_some(end_m));
+        ends.fold(keep.keep_m, f64::min).max(self.clearance_m)
     }
 
     fn inside(&self, p: Vec3<Enu>) -> bool {
@@ -69,7 +119,8 @@ impl Space<'_> {
             let p = a.lerp(b, k as f64 / steps as f64);
             // Near the two ends the line may start or finish as near to things as they are.
             let near_end = (p - a).norm().min((p - b).norm()) < COMFORT_M;
-            self.clearance(p) >= if near_end { self.clearance_m.min(clearance_m) } else { clearance_m }
+            let least = if near_end { self.clearance_m.min(clearance_m) } else { clearance_m };
+            self.clearance(p) >= if self.keep.is_some() { self.required(p) } else { least }
         })
     }
 }
@@ -109,7 +160,7 @@ fn step_cost(space: &Space, from: Cell, to: Cell, goal: Cell) -> Option<f64> {
         return None;
     }
     let clearance = space.clearance(p);
-    if clearance < space.clearance_m && to != goal {
+    if clearance < space.required(p) && to != goal {
         return None;
     }
     let closeness = (COMFORT_M - clearance).max(0.0) / COMFORT_M;

@@ -81,6 +81,7 @@ pub struct Link {
     /// What came of asking for the streams is known, and told if it was nothing.
     streams_known: bool,
     pictures: u16,
+    arm_hint: String,
 }
 
 impl Default for Link {
@@ -101,6 +102,7 @@ impl Default for Link {
             aim: None,
             streams_known: false,
             pictures: 0,
+            arm_hint: String::new(),
         }
     }
 }
@@ -161,6 +163,10 @@ impl Link {
         }
         if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
             let done = self.pending.remove(k);
+            if command == MavCmd::MAV_CMD_COMPONENT_ARM_DISARM && result == MavResult::MAV_RESULT_ACCEPTED {
+                // The next heartbeat may be a second away.
+                self.heard.armed = done.command.param1 == 1.0;
+            }
             let known = done.what == TELLING && std::mem::replace(&mut self.streams_known, true);
             if result != MavResult::MAV_RESULT_ACCEPTED && !known {
                 if command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW {
@@ -176,11 +182,25 @@ impl Link {
         let Some(system) = self.heard.system else {
             return self.tell(action.name(), "no vehicle has been heard yet");
         };
+        if action == Action::TakeOff && !self.heard.armed && !self.is_arming() {
+            self.told.push_back(format!("Arm the motors first{}", self.arm_hint));
+            return;
+        }
         let (component, command, params) = self.wish(action, now);
         let command = station::command(system, component, command, params);
         // A newer wish of the same kind takes the place of an older one.
         self.pending.retain(|p| p.command.command != command.command);
         self.pending.push(Pending { what: action.name(), command, sent: 0, next: now });
+    }
+
+    /// Motors have been asked for and the vehicle has not answered yet.
+    fn is_arming(&self) -> bool {
+        self.pending.iter().any(|p| p.what == Action::Arm.name())
+    }
+
+    /// Where the motors are armed, such as a key's name, for whoever asks for a take-off without them.
+    pub fn set_arm_key(&mut self, key: &str) {
+        self.arm_hint = format!(" (key {key})");
     }
 
     /// What the buttons depend on is asked for once there is a vehicle, and again when it does not come.
@@ -397,6 +417,31 @@ mod tests {
         stands.receive(&Encoder::new(1, 1).encode(&gimbal));
         sent(&mut stands, 0.0, 60.0);
         assert!(told(&mut stands).is_empty(), "time stands still: nothing is wrong");
+    }
+
+    #[test]
+    fn regress_a_take_off_with_the_motors_off_says_what_is_missing() {
+        let take_offs = |messages: &[MavMessage]| {
+            let is = |m: &&MavMessage| matches!(m, MavMessage::COMMAND_LONG(c) if c.command == MavCmd::MAV_CMD_NAV_TAKEOFF);
+            messages.iter().filter(is).count()
+        };
+        let mut link = known();
+        link.heard.armed = false;
+        link.set_arm_key("M");
+        link.act(Action::TakeOff, at(0.0));
+        assert_eq!(link.poll_told().as_deref(), Some("Arm the motors first (key M)"));
+        assert_eq!(take_offs(&sent(&mut link, 0.0, 0.1)), 0, "nothing is asked of the vehicle");
+        // Both keys in a row: the take-off waits for no heartbeat.
+        link.act(Action::Arm, at(0.1));
+        link.act(Action::TakeOff, at(0.1));
+        assert_eq!((take_offs(&sent(&mut link, 0.1, 0.2)), link.poll_told()), (1, None));
+        let mut armed = known();
+        armed.heard.armed = false;
+        armed.act(Action::Arm, at(0.0));
+        sent(&mut armed, 0.0, 0.1);
+        answer(&mut armed, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, MavResult::MAV_RESULT_ACCEPTED);
+        armed.act(Action::TakeOff, at(0.1));
+        assert_eq!((take_offs(&sent(&mut armed, 0.1, 0.2)), armed.poll_told()), (1, None));
     }
 
     #[test]

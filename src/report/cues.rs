@@ -6,7 +6,8 @@ use crate::base::time::SimTime;
 use crate::monitor::feedback::cue;
 use crate::monitor::watch::build_site;
 use crate::monitor::{Monitor, MonitorConfig, Record};
-use crate::telemetry::tlog;
+use crate::telemetry::log_stream::Log;
+use std::ops::ControlFlow;
 
 /// A stick that moves this far from where it was when the cue came is an answer, full travel = 1 (estimate: beyond any hand's tremor, below
 /// any correction).
@@ -61,14 +62,16 @@ pub struct Said {
     pub notes: Vec<(f64, String)>,
 }
 
-/// Plays a log to the sidecar and listens.
-#[must_use]
-pub fn said(log: &[u8], scene: &Scene<'_>, track: &[Step]) -> Said {
-    let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return Said::default() };
+/// Plays a log to the monitor and collects its feedback.
+///
+/// # Errors
+/// When the log cannot be read.
+pub fn said(log: &(impl Log + ?Sized), scene: &Scene<'_>, track: &[Step]) -> std::io::Result<Said> {
+    let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return Ok(Said::default()) };
     let end_s = (last.time - first.time).s();
     let mut said = Said::default();
     let mut open: [Option<f64>; KINDS.len()] = [None; KINDS.len()];
-    for (time_s, event) in events(log, scene) {
+    for (time_s, event) in events(log, scene)? {
         let t_s = time_s - first.time.s();
         if let Some(note) = event["text"].as_str().filter(|_| event["event"] == "note") {
             said.notes.push((t_s, note.to_owned()));
@@ -97,11 +100,11 @@ pub fn said(log: &[u8], scene: &Scene<'_>, track: &[Step]) -> Said {
         said.episodes.extend(since.map(|from_s| episode(kind, (from_s, end_s), scene, track)));
     }
     said.episodes.sort_by(|a, b| a.from_s.total_cmp(&b.from_s).then(a.kind.cmp(&b.kind)));
-    said
+    Ok(said)
 }
 
 /// The sidecar's events with their simulation times, s.
-fn events(log: &[u8], scene: &Scene<'_>) -> Vec<(f64, serde_json::Value)> {
+fn events(log: &(impl Log + ?Sized), scene: &Scene<'_>) -> std::io::Result<Vec<(f64, serde_json::Value)>> {
     let mut monitor = Monitor::new(MonitorConfig {
         scenario: scene.scenario.clone(),
         vehicle: scene.vehicle.clone(),
@@ -113,7 +116,7 @@ fn events(log: &[u8], scene: &Scene<'_>) -> Vec<(f64, serde_json::Value)> {
         build: build_site,
     });
     let mut events = Vec::new();
-    for record in tlog::Reader::new(log) {
+    log.each(&mut |record| {
         monitor.handle_datagram(record.frame);
         while monitor.poll_transmit().is_some() {}
         while let Some(record) = monitor.poll_record() {
@@ -124,11 +127,9 @@ fn events(log: &[u8], scene: &Scene<'_>) -> Vec<(f64, serde_json::Value)> {
                 events.push((t_s, event));
             }
         }
-        if monitor.finished().is_some() {
-            break;
-        }
-    }
-    events
+        if monitor.finished().is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    Ok(events)
 }
 
 fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &Scene<'_>, track: &[Step]) -> Episode {

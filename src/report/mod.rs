@@ -26,6 +26,7 @@ use crate::monitor::measures::on_path::{OnPath, Paths};
 use crate::monitor::{AssessError, Graded, Job, assess};
 use crate::scenario::Scenario;
 use crate::site::Site;
+use crate::telemetry::log_stream::Log;
 use crate::telemetry::timeline::LinkCounts;
 use crate::telemetry::{Flight, Frame, Timeline};
 use crate::training::plan::{self, RULES, Step, read_rules};
@@ -105,10 +106,10 @@ impl Review {
     /// Reads a session's telemetry again.
     ///
     /// # Errors
-    /// When the log is of another scenario or seed, or holds no session.
-    pub fn of(log: &[u8], scenario: &Scenario, vehicle: &Vehicle, about: About) -> Result<Self, AssessError> {
+    /// When the log cannot be read, is of another scenario or seed, or holds no session.
+    pub fn of(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle, about: About) -> Result<Self, AssessError> {
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
-        timeline.push_log(log);
+        timeline.push_log(log)?;
         let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
         let site = Site::build(scenario, seed).with_gates(attention::gates(&flight));
         let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: &site })?;
@@ -119,9 +120,9 @@ impl Review {
         let pictures = pictures::judged(&scene, &assessment, &track);
         let coverage = coverage::covered(&scene, &pictures);
         let (crashes, tasks) = (crash::crashes(&frames, &on_path), track::tasks(&scene, &on_path, &track));
-        let (feedback, defects) = (cues::said(log, &scene, &track), defects::fates(&scene, &assessment));
+        let (feedback, defects) = (cues::said(log, &scene, &track)?, defects::fates(&scene, &assessment));
         let graded = Graded { assessment, frames, seed };
-        let next = next(&about, scenario, vehicle, &graded, &site);
+        let next = next(&about, scenario, vehicle, &graded, (&site, &defects));
         let Graded { assessment, frames, .. } = graded;
         Ok(Self {
             crashes,
@@ -153,14 +154,20 @@ impl Review {
 }
 
 /// What the shipped rules say of one session; nothing when they cannot be read, which a test excludes.
-fn next(about: &About, scenario: &Scenario, vehicle: &Vehicle, graded: &Graded, site: &Site) -> Vec<Step> {
+fn next(
+    about: &About,
+    scenario: &Scenario,
+    vehicle: &Vehicle,
+    graded: &Graded,
+    (site, fates): (&Site, &[defects::Fate]),
+) -> Vec<Step> {
     let hashes = Hashes {
         scenario: about.scenario_sha256.clone(),
         vehicle: about.vehicle_sha256.clone(),
         telemetry: about.telemetry_sha256.clone(),
         answers: String::new(),
     };
-    let record = record(&Source {
+    let mut record = record(&Source {
         id: &about.folder,
         trainee: &about.trainee,
         purpose: about.purpose.as_deref(),
@@ -173,6 +180,10 @@ fn next(about: &About, scenario: &Scenario, vehicle: &Vehicle, graded: &Graded, 
         placed: site.defects(),
         answers: None,
     });
+    for defect in &mut record.defects {
+        let fate = fates.iter().find(|fate| fate.defect.id == defect.id);
+        defect.in_view_s = fate.and_then(|fate| fate.chance.as_ref()).map(|chance| chance.in_view_s);
+    }
     let rules = read_rules("rules.toml", RULES).ok();
     rules.and_then(|rules| plan::plan(&[record], &rules, about.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)
 }

@@ -3,8 +3,10 @@
 
 use super::Review;
 use super::words;
+use crate::monitor::Assessment;
+use crate::monitor::score::completion::verdict;
 use maud::{DOCTYPE, PreEscaped, html};
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// Script that talks to the system; reads what to say from the page.
 const SCRIPT: &str = include_str!("assets/scorm.js");
@@ -47,16 +49,27 @@ fn title(review: &Review) -> String {
     format!("{}, {}", review.scenario.title, review.about.started_utc)
 }
 
-fn index(review: &Review) -> String {
-    let scores = &review.assessment.scores;
+/// What the system gets, and the same in words. An incomplete session has no score: a sum over a part of the job would look like one.
+fn result(assessment: &Assessment) -> (Value, String) {
+    let (scores, certification) = (&assessment.scores, &assessment.certification);
+    let time = span(assessment.end.seconds);
+    if !assessment.completion.complete {
+        let result = json!({ "cmi.core.lesson_status": "incomplete", "cmi.core.session_time": time });
+        return (result, assessment.completion.headline());
+    }
     let pct = if scores.overall_max > 0.0 { 100.0 * scores.overall / scores.overall_max } else { 0.0 };
     let result = json!({
         "cmi.core.score.min": "0",
         "cmi.core.score.max": "100",
         "cmi.core.score.raw": format!("{pct:.2}"),
-        "cmi.core.lesson_status": if review.assessment.certification.passed { "passed" } else { "failed" },
-        "cmi.core.session_time": span(review.assessment.end.seconds),
+        "cmi.core.lesson_status": if certification.passed { "passed" } else { "failed" },
+        "cmi.core.session_time": time,
     });
+    (result, format!("{} of 100. {}", words::number(pct, 0), verdict(certification.passed, &certification.unmet)))
+}
+
+fn index(review: &Review) -> String {
+    let (result, words) = result(&review.assessment);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -67,7 +80,7 @@ fn index(review: &Review) -> String {
                 style { "body{margin:0;font:16px system-ui,sans-serif}p{margin:.5rem 1rem}iframe{border:0;width:100%;height:calc(100vh - 3rem)}" }
             }
             body data-result=(result) {
-                p role="status" id="told" { (words::number(pct, 0)) " of 100. " }
+                p role="status" id="told" { (words) ". " }
                 iframe src="report.html" title="Report of the session" {}
                 script src="scorm.js" {}
             }

@@ -376,4 +376,6 @@ pub struct Scoring {
     pub exact_path: bool,
     /// Clearance below which the certification profile counts exposure, m.
     pub clearance_m: f64,
+    /// Share of its path from which on a task is done, 0 to 1.
+    pub task_done_share: f64,
 }

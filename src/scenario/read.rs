@@ -345,6 +345,7 @@ fn scoring(r: &mut Reader, root: &mut Section) -> Scoring {
         time_max_s: 60.0 * time_max_min,
         beta: n("beta", (0.0, f64::INFINITY), 1.0),
         clearance_m: n("clearance_m", (0.1, 20.0), 2.0),
+        task_done_share: n("task_done_pct", (1.0, 100.0), 80.0) / 100.0,
         exact_path: r.flag(&mut s, "exact_path", false),
     };
     for (least, value, key, than) in [

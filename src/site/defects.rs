@@ -11,7 +11,7 @@ use crate::base::frames::{Enu, Vec3};
 use crate::base::math;
 use crate::base::random::RandomStream;
 use crate::scenario::bridges::Member;
-use crate::scenario::{Defects, PlacedDefect, Task};
+use crate::scenario::{Defects, PlacedDefect, Task, TaskKind};
 use crate::vehicle::{Camera, Lamp};
 
 /// The camera for which every placed defect is photographable: coarser than those shipped (3000 px over 100 degrees; estimate
@@ -39,6 +39,8 @@ pub const CLEARANCE_M: f64 = 0.8;
 const APPROACH: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
 /// Half angle of the cone about the path's look direction in which faces are sought, rad (estimate: pan and tilt of a sweep).
 const SEARCH_CONE_RAD: f64 = 0.9;
+/// Upward.
+const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Farthest face that is sought, m (estimate; thin lines fail the judgement long before).
 const SEARCH_REACH_M: f64 = 20.0;
 /// Bare surface that must surround a defect, m: keeps defects off joints and edges.
@@ -90,13 +92,13 @@ pub struct Ground<'a> {
 }
 
 /// The defects of a session: those of a resolved file, else drawn from the seed. Fewer than asked come back only where the
-/// settings leave no photographable place (no task at a bridge, say, or kinds that no element in reach may carry).
+/// settings leave no photographable place (no bridge within reach of a task, say, or kinds that no element in reach may carry).
 #[must_use]
 pub fn place(settings: &Defects, ground: &Ground, seed: u64) -> Vec<PlacedDefect> {
     if let Some(placed) = &settings.placed {
         return placed.clone();
     }
-    let tasks: Vec<&Task> = ground.tasks.iter().filter(|t| t.bridge.is_some() && !t.path_m.is_empty()).collect();
+    let tasks: Vec<&Task> = ground.tasks.iter().filter(|t| !t.path_m.is_empty()).collect();
     let mut stream = RandomStream::new(seed, "site.defects");
     let mut defects: Vec<PlacedDefect> = Vec::new();
     if tasks.is_empty() {
@@ -125,8 +127,13 @@ fn try_once(
     stream: &mut RandomStream,
 ) -> Option<PlacedDefect> {
     let n = stream.below(task.path_m.len());
-    let axis = task.look.get(n).copied().unwrap_or(Vec3::new(0.0, 0.0, 1.0));
-    let direction = in_cone(axis, SEARCH_CONE_RAD, stream);
+    let direction = match task.kind {
+        // A free path says where it leads, not where the structure is.
+        TaskKind::Free => in_cone(UP, math::PI, stream),
+        TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle => {
+            in_cone(task.look.get(n).copied().unwrap_or(UP), SEARCH_CONE_RAD, stream)
+        }
+    };
     let kind_draw = stream.uniform();
     let condition_state = if stream.uniform() < 0.5 { 2 } else { 3 };
     let roll = stream.range(0.0, math::PI);
@@ -253,7 +260,6 @@ mod tests {
     use super::super::boxes::OrientedBox;
     use super::super::{ObjectId, RayHit};
     use super::*;
-    use crate::scenario::TaskKind;
     use crate::scenario::bridges::Solid;
 
     const SEEDS: u64 = 50;

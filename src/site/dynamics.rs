@@ -146,6 +146,7 @@ mod tests {
             time_max_s: 1500.0,
             beta: 1.0,
             exact_path: false,
+            task_done_share: 0.8,
             clearance_m: 1.5,
         };
         (rules, feedback, scoring)

@@ -6,6 +6,7 @@ use super::light::Cast;
 use super::{CameraPose, DefectView};
 use crate::base::frames::{Enu, Vec3};
 use crate::base::math;
+use crate::base::numbers::{beside_limit, limit};
 use crate::scenario::PlacedDefect;
 use crate::vehicle::{Camera, Lamp};
 
@@ -115,13 +116,25 @@ impl DefectView {
     #[must_use]
     pub fn reasons(&self) -> Vec<String> {
         let lamp = if self.lamp_on { "lamp on" } else { "lamp off" };
+        let (incidence_deg, incidence_max_deg) = (self.incidence_rad.to_degrees(), INCIDENCE_MAX_RAD.to_degrees());
+        // The light needed is shown as a whole number unless the measured light lies between that and the real limit.
+        let whole = self.needed_lux.round();
+        let needed_lux = if self.illuminance_lux < whole { whole } else { self.needed_lux };
         let words = [
             "not in the central 80 % of the image".to_owned(),
             "hidden behind something".to_owned(),
-            format!("too oblique: {:.0} deg, limit 60 deg", self.incidence_rad.to_degrees()),
-            format!("too small: {:.1} px, at least {EXTENT_MIN_PX} px", self.extent_px),
-            format!("line too thin: {:.2} px, at least {LINE_WIDTH_MIN_PX} px", self.width_px),
-            format!("too dark: {lamp}, {:.0} lx of {:.0} lx needed", self.illuminance_lux, self.needed_lux),
+            format!(
+                "too oblique: {} deg, limit {} deg",
+                beside_limit(incidence_deg, incidence_max_deg, 0),
+                limit(incidence_max_deg)
+            ),
+            format!("too small: {} px, at least {EXTENT_MIN_PX} px", beside_limit(self.extent_px, EXTENT_MIN_PX, 1)),
+            format!("line too thin: {} px, at least {LINE_WIDTH_MIN_PX} px", beside_limit(self.width_px, LINE_WIDTH_MIN_PX, 2)),
+            format!(
+                "too dark: {lamp}, {} lx of {} lx needed",
+                beside_limit(self.illuminance_lux, needed_lux, 0),
+                limit(needed_lux)
+            ),
         ];
         words.into_iter().zip(self.conditions()).filter_map(|(word, holds)| (!holds).then_some(word)).collect()
     }

@@ -29,6 +29,11 @@ const TRUCK: &[Part] =
 const PERSON: &[Part] = &[Part { along_m: 0.0, up_m: 0.875, half_m: [0.15, 0.25, 0.875] }];
 
 impl Kind {
+    /// All kinds.
+    pub(super) const ALL: [Self; 3] = [Self::Car, Self::Truck, Self::Pedestrian];
+    /// The longest reach of a kind and half its length, m.
+    pub(super) const LARGEST_REACH_M: f64 = 6.3 + 5.0;
+
     fn parts(self) -> &'static [Part] {
         match self {
             Self::Car => CAR,

@@ -27,6 +27,20 @@ impl Track {
         Placed { position_m, forward, velocity_m_s: forward * self.speed_m_s }
     }
 
+    /// Arc length of the place that is nearest to a point, m; up to `beyond_m` off the ends.
+    pub(super) fn beside_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
+        let last = self.points_m.len() - 2;
+        let place = |k: usize| {
+            let (line, to) = (self.points_m[k + 1] - self.points_m[k], point_m - self.points_m[k]);
+            let length = line.norm().max(1e-9);
+            let low = if k == 0 { -beyond_m } else { 0.0 };
+            let high = if k == last { length + beyond_m } else { length };
+            let along = (to.dot(line) / length).clamp(low, high);
+            ((to - line * (along / length)).norm(), self.arc_m[k] + along)
+        };
+        (0..=last).map(place).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, arc)| arc)
+    }
+
     pub(super) fn distance_m(&self, point_m: Vec3<Enu>) -> f64 {
         let squared = self.points_m.windows(2).map(|w| {
             let (line, to) = (w[1] - w[0], point_m - w[0]);

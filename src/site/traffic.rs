@@ -162,6 +162,27 @@ impl TrafficPlan {
         best
     }
 
+    /// Least distance within `max_m` that anything on the decks may ever come to a point, m: every lane carries all vehicles of the plan, or all
+    /// who walk.
+    #[must_use]
+    pub fn nearest_ever_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
+        let mut least: Option<f64> = None;
+        let tracks = self.tracks.iter().filter(|track| track.count > 0);
+        for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + Kind::LARGEST_REACH_M) {
+            let surface = self.movers[track.first].kind.surface();
+            for kind in Kind::ALL.into_iter().filter(|kind| kind.surface() == surface && self.has(*kind)) {
+                let placed = track.at(track.beside_m(position_m, kind.half_length_m()));
+                let distance_m = boxes(kind, placed).map(|solid| solid.nearest(position_m).0).fold(max_m, f64::min);
+                least = Some(distance_m).filter(|d| *d < least.unwrap_or(max_m)).or(least);
+            }
+        }
+        least
+    }
+
+    fn has(&self, kind: Kind) -> bool {
+        self.movers.iter().any(|mover| mover.kind == kind)
+    }
+
     /// First traffic or crew that a ray hits within `max_m`.
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit> {

@@ -1,7 +1,7 @@
-//! The moving air: mean profile over water, weather changes, 1-cosine gusts and Dryden turbulence (MIL-F-8785C, low altitude).
+//! The moving air: mean profile over water and ground, weather changes, 1-cosine gusts and Dryden turbulence (MIL-F-8785C, low altitude).
 //!
 //! Turbulence is driven along the vehicle's flight, so it has a state; the state is plain data and part of a snapshot. Not
-//! modelled: shelter, wakes and speed-up near the structures (the mean profile is that of open water everywhere).
+//! modelled: shelter, wakes and speed-up near the structures (the mean profile is that of open water, below 20 ft over land that of grass).
 
 use super::turbulence::{Dryden, FirstOrder, SecondOrder};
 use crate::base::frames::{Ned, Vec3};
@@ -15,8 +15,12 @@ pub const SAMPLE_RATE_HZ: i64 = 100;
 const SAMPLE_PERIOD: SimTime = SimTime::from_ms(1000 / SAMPLE_RATE_HZ);
 /// Roughness length of open water, m (domain.md 4b; the usual order for calm to moderate sea).
 const WATER_ROUGHNESS_M: f64 = 0.0003;
+/// Roughness length of open ground with grass, m (WMO guide to instruments, class 3: 0.03 m).
+const GROUND_ROUGHNESS_M: f64 = 0.03;
 /// Height of the reference wind, 20 ft in m.
 const REFERENCE_HEIGHT_M: f64 = 6.096;
+/// Turbulence falls off with the mean wind below this height, where MIL-F-8785C ends (10 ft), m (estimate: constant intensity).
+const LOWEST_TURBULENCE_M: f64 = 3.048;
 /// The profile is held below this height, m (estimate: wave height).
 const LOWEST_HEIGHT_M: f64 = 0.5;
 /// Slowest drift of the turbulence past the vehicle, m/s (estimate; keeps the time scale finite in still air).
@@ -40,6 +44,7 @@ pub struct WindField {
     along: FirstOrder,
     across: SecondOrder,
     vertical: SecondOrder,
+    over_ground: bool,
     next: SimTime,
     previous_m_s: Vec3<Ned>,
     current_m_s: Vec3<Ned>,
@@ -59,6 +64,7 @@ impl WindField {
             along,
             across,
             vertical,
+            over_ground: false,
             next: SimTime::ZERO,
             previous_m_s: Vec3::zero(),
             current_m_s: Vec3::zero(),
@@ -68,7 +74,7 @@ impl WindField {
         field
     }
 
-    /// Brings the air up to `now` for a vehicle at `height_m` over the water that moves at `velocity_m_s` over ground. Does
+    /// Brings the air up to `now` for a vehicle at `height_m` over the water or ground below that moves at `velocity_m_s` over ground. Does
     /// work only [`SAMPLE_RATE_HZ`] times a second of simulation time. The `paper` model has still air (and a force instead).
     pub fn update(&mut self, now: SimTime, height_m: f64, velocity_m_s: Vec3<Ned>) {
         if self.wind.model == WindModel::Paper {
@@ -80,6 +86,11 @@ impl WindField {
             self.current_m_s = sample;
             self.next += SAMPLE_PERIOD;
         }
+    }
+
+    /// Sets what lies below the vehicle from here on: ground, which slows the air near it, or water.
+    pub fn set_over_ground(&mut self, over_ground: bool) {
+        self.over_ground = over_ground;
     }
 
     /// The weather changes from `at` on within `over`: speed at 20 ft, m/s, and where it comes from, degrees. Only the physical wind does.
@@ -114,9 +125,15 @@ impl WindField {
     #[must_use]
     pub fn mean_velocity(&self, at: SimTime, height_m: f64) -> Vec3<Ned> {
         let mean = mean_at(&self.wind, at);
-        blowing_to(mean.from_rad) * (mean.speed_m_s * profile(height_m))
+        blowing_to(mean.from_rad) * (mean.speed_m_s * self.profile(height_m))
             + gusts_at(&self.wind, at)
             + Vec3::new(0.0, 0.0, -self.wind.up_m_s)
+    }
+
+    /// Speed at a height over the surface below as a multiple of the speed at 20 ft.
+    fn profile(&self, height_m: f64) -> f64 {
+        let water = profile(height_m);
+        if self.over_ground { water.min(log_profile(height_m, GROUND_ROUGHNESS_M)) } else { water }
     }
 
     fn sample(&mut self, at: SimTime, height_m: f64, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
@@ -134,8 +151,9 @@ impl WindField {
         let w = self.vertical.step(travelled_m / dryden.length_vertical_m, &mut self.stream);
         let along = blowing_to(mean.from_rad);
         let across = Vec3::new(-along.east(), along.north(), 0.0);
-        let horizontal = dryden.sigma_horizontal_m_s * self.wind.turbulence;
-        let vertical = dryden.sigma_vertical_m_s * self.wind.turbulence;
+        let near_surface = (self.profile(height_m) / self.profile(LOWEST_TURBULENCE_M)).min(1.0);
+        let horizontal = dryden.sigma_horizontal_m_s * self.wind.turbulence * near_surface;
+        let vertical = dryden.sigma_vertical_m_s * self.wind.turbulence * near_surface;
         mean_velocity + along * (u * horizontal) + across * (v * horizontal) + Vec3::new(0.0, 0.0, w * vertical)
     }
 }
@@ -149,7 +167,11 @@ fn blowing_to(from_rad: f64) -> Vec3<Ned> {
 /// Logarithmic profile over water: speed at a height as a multiple of the speed at 20 ft.
 #[must_use]
 pub fn profile(height_m: f64) -> f64 {
-    math::ln(height_m.max(LOWEST_HEIGHT_M) / WATER_ROUGHNESS_M) / math::ln(REFERENCE_HEIGHT_M / WATER_ROUGHNESS_M)
+    log_profile(height_m, WATER_ROUGHNESS_M)
+}
+
+fn log_profile(height_m: f64, roughness_m: f64) -> f64 {
+    math::ln(height_m.max(LOWEST_HEIGHT_M) / roughness_m) / math::ln(REFERENCE_HEIGHT_M / roughness_m)
 }
 
 /// The mean at an instant: each change moves speed and direction linearly (direction the shorter way round).
@@ -253,6 +275,21 @@ mod tests {
         assert!((at_reference(&w) - Vec3::new(0.0, -4.917, 0.0)).norm() < 1e-12);
         w.up_m_s = 1.0;
         assert!((at_reference(&w).down() + 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn exact_ground_slows_the_air_below_the_reference_height_alone() {
+        let mut w = wind();
+        w.turbulence = 0.0;
+        let speed = |over_ground: bool, height_m: f64| {
+            let mut field = WindField::new(&w, 1);
+            field.set_over_ground(over_ground);
+            field.mean_velocity(SimTime::ZERO, height_m).norm() / 4.917
+        };
+        // ln(1/0.03)/ln(6.096/0.03), by hand; and the two profiles meet at 20 ft.
+        assert!((speed(true, 1.0) - 0.6598).abs() < 1e-3, "{}", speed(true, 1.0));
+        assert!((speed(true, REFERENCE_HEIGHT_M) - 1.0).abs() < 1e-12);
+        assert_eq!(speed(true, 20.0), speed(false, 20.0));
     }
 
     #[test]

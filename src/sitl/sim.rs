@@ -12,7 +12,7 @@ use super::backend::Backend;
 use super::endpoint::flavour::Flavour;
 use super::endpoint::params::{Pack, Thresholds, World};
 use super::endpoint::view::{Scoring, View};
-use super::endpoint::{Endpoint, LinkId, LinkKind, Transmit};
+use super::endpoint::{Endpoint, LinkId, LinkKind, Step, Transmit};
 use super::faults::Faults;
 use super::log::Recorder;
 use super::physics::{self, Actuators, Air, Model};
@@ -20,11 +20,12 @@ use super::sensors::{Readings, Sensors};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::{Schedule, SimTime};
 use crate::mav::dialect::MavSeverity;
-use crate::scenario::Scenario;
+use crate::scenario::{AfterCrash, Scenario};
 use crate::site::Site;
 use crate::site::gates::Gates;
 use crate::site::wind::WindField;
 use crate::vehicle::Vehicle;
+use doors::FileWork;
 use inbox::Inbox;
 use radio::Radio;
 use sha2::{Digest, Sha256};
@@ -51,6 +52,14 @@ pub struct SimConfig {
     pub instance: u8,
     /// Whose interface is spoken.
     pub flavour: &'static Flavour,
+    /// What a crash leads to; `None`: what the scenario says.
+    pub after_crash: Option<AfterCrash>,
+}
+
+impl SimConfig {
+    fn after_crash(&self) -> AfterCrash {
+        self.after_crash.unwrap_or(self.scenario.rules.after_crash)
+    }
 }
 
 /// Something worth a log line.
@@ -88,6 +97,8 @@ pub struct Sim {
     endpoint: Endpoint,
     wind: WindField,
     now: SimTime,
+    /// When the autopilot's software started.
+    booted: SimTime,
     readings: Readings,
     actuators: Actuators,
     scoring: Scoring,
@@ -98,6 +109,8 @@ pub struct Sim {
     air: Air,
     safe: (Vec3<Ned>, f64),
     crashed_since: Option<SimTime>,
+    /// The running contact began, or went on, with a crash's speed.
+    hit_hard: bool,
     touched_at: SimTime,
     standing_up_m: f64,
     lifted: bool,
@@ -108,6 +121,7 @@ pub struct Sim {
     inbox: Inbox,
     radio: Radio,
     faults: Faults,
+    file_work: FileWork,
     world: World,
     /// When traffic was stopped and let go.
     gates: Gates,
@@ -123,6 +137,7 @@ macro_rules! view {
     ($sim:expr, $estimate:expr, $status:expr, $fence_enabled:expr) => {
         View {
             now: $sim.now,
+            booted: $sim.booted,
             start_unix_s: $sim.config.scenario.light.start_unix_s,
             vehicle: &$sim.config.vehicle,
             plane: $sim.site.plane(),
@@ -137,6 +152,7 @@ macro_rules! view {
             scoring: &$sim.scoring,
             sticks: $sim.endpoint.sticks($sim.now),
             pulses_us: $sim.endpoint.pulses_us($sim.now),
+            aux_us: $sim.endpoint.aux_us(),
             to: LinkKind::GroundStation,
             gimbal: $sim.endpoint.payload.gimbal,
             lamp: $sim.endpoint.payload.lamp,
@@ -167,6 +183,8 @@ impl Sim {
             cells: vehicle.battery.cells,
             capacity_mah: 1000.0 * vehicle.battery.capacity_ah,
             thresholds: Thresholds { low_pct: rules.low_battery_pct, critical_pct: rules.critical_battery_pct },
+            returns_when_low: rules.low_battery_return,
+            frame: autopilot.airframe_envelope(),
         };
         let mut endpoint = Endpoint::new(config.instance + 1, pack, config.flavour);
         endpoint.prepare(&mut autopilot);
@@ -178,6 +196,7 @@ impl Sim {
             endpoint,
             wind: WindField::new(&scenario.wind, seed),
             now: SimTime::ZERO,
+            booted: SimTime::ZERO,
             readings: Readings::default(),
             actuators: Actuators::default(),
             scoring: Scoring {
@@ -193,6 +212,7 @@ impl Sim {
             air: Air::STILL,
             safe: (start, yaw),
             crashed_since: None,
+            hit_hard: false,
             touched_at: SimTime::ZERO,
             standing_up_m: -start.down(),
             lifted: false,
@@ -203,6 +223,7 @@ impl Sim {
             inbox: Inbox::default(),
             radio: Radio::new(seed),
             faults: Faults::new(seed),
+            file_work: FileWork::default(),
             heeded: 0,
             world: World { wind: None, loss: 0.0, delay: SimTime::ZERO, open: true },
             gates: Gates::default(),
@@ -218,6 +239,11 @@ impl Sim {
     pub fn open_link(&mut self, link: LinkId, kind: LinkKind, lockstep: bool) {
         self.endpoint.open(link, kind, lockstep, self.now);
         self.keep_pace();
+    }
+
+    /// Nothing but answers goes out on a link until a heartbeat has come over it.
+    pub fn await_heartbeat(&mut self, link: LinkId) {
+        self.endpoint.await_heartbeat(link);
     }
 
     /// A link carries no more than so many bytes a second.
@@ -242,7 +268,7 @@ impl Sim {
 
     /// Clients in step live in simulation time; without any, clients live in their own.
     fn keep_pace(&mut self) {
-        let in_step = self.endpoint.in_step().next().is_some();
+        let in_step = self.endpoint.stepped().next().is_some();
         let pace = if in_step { 1.0 } else { self.pace };
         let Backend::Builtin(autopilot) = &mut self.backend;
         self.endpoint.set_pace(pace, autopilot);
@@ -286,6 +312,7 @@ impl Sim {
             return;
         }
         self.inbox.push(link, bytes);
+        self.endpoint.note_heard(link);
         if !self.waiting.is_empty() {
             self.look_for_answers(link, bytes);
         }
@@ -295,6 +322,7 @@ impl Sim {
         let Some(token) = self.waiting.get(&link) else { return };
         if self.endpoint.answers(link, bytes).contains(token) {
             self.waiting.remove(&link);
+            self.endpoint.join(link);
         }
     }
 
@@ -302,6 +330,37 @@ impl Sim {
     #[must_use]
     pub fn waiting(&self) -> bool {
         !self.waiting.is_empty()
+    }
+
+    /// Whether time waits for a peer that has never answered, and if so, whether anything has come from it.
+    #[must_use]
+    pub fn first_answer(&self) -> Option<bool> {
+        let owing = |(link, step, heard): (LinkId, Step, bool)| {
+            (step == Step::Awaited && self.waiting.contains_key(&link)).then_some(heard)
+        };
+        self.endpoint.stepped().filter_map(owing).reduce(|a, b| a && b)
+    }
+
+    /// Shows peers that have never answered that the vehicle is there: heartbeats, and the question again. Nothing else changes.
+    pub fn knock(&mut self) {
+        self.stand_still(false);
+        self.endpoint.ask_step(self.now);
+    }
+
+    /// Waits no longer for first answers: lockstep begins with them.
+    pub fn go_without_first_answers(&mut self) {
+        let owing: Vec<LinkId> = self.waiting.keys().copied().collect();
+        for link in owing {
+            self.endpoint.serve_in_real_time(link);
+        }
+        let kept: Vec<LinkId> = self.endpoint.in_step().collect();
+        self.waiting.retain(|link, _| kept.contains(link));
+    }
+
+    /// A peer that is to be kept in step has not answered yet: time runs with the wall's until it does.
+    #[must_use]
+    pub fn serves_in_real_time(&self) -> bool {
+        self.endpoint.stepped().any(|(_, step, _)| step == Step::Late)
     }
 
     /// When the next tick is due.
@@ -332,13 +391,14 @@ impl Sim {
         self.digest.clone().finalize().into()
     }
 
-    /// Runs the ticks that are due up to `until`, or up to where peers in step must be asked.
+    /// Runs the ticks that are due up to `until`, up to where peers in step must be asked, or up to where a client has asked for work on
+    /// files ([`Sim::poll_file_job`]): it is done before the next tick, so that the answer has its place in simulation time.
     pub fn handle_timeout(&mut self, until: SimTime) {
         if self.waiting() {
             return;
         }
         self.take_inbox();
-        while self.now + STEP <= until {
+        while self.now + STEP <= until && !self.has_file_job() {
             self.tick();
             if self.now.ns() % LOCKSTEP.ns() == 0 && self.ask_peers() {
                 return;
@@ -349,12 +409,9 @@ impl Sim {
 
     /// True when there is somebody to wait for.
     fn ask_peers(&mut self) -> bool {
-        self.waiting = self.endpoint.in_step().map(|link| (link, self.now.ns())).collect();
-        if self.waiting.is_empty() {
-            return false;
-        }
         self.endpoint.ask_step(self.now);
-        true
+        self.waiting = self.endpoint.in_step().map(|link| (link, self.now.ns())).collect();
+        !self.waiting.is_empty()
     }
 
     /// What has arrived acts now, as far as this tick's share of each link goes.
@@ -363,8 +420,8 @@ impl Sim {
             self.inbox.push(link, &bytes);
         }
         for (link, bytes) in self.inbox.take(self.now) {
-            self.digest.update(&bytes);
             self.read(link, &bytes);
+            self.digest.update(self.endpoint.take_acted());
         }
     }
 
@@ -382,6 +439,7 @@ impl Sim {
     fn restart_autopilot(&mut self) {
         let Backend::Builtin(autopilot) = &mut self.backend;
         **autopilot = fresh_autopilot(&self.config);
+        self.booted = self.now;
         let (estimate, status) = (*autopilot.estimate(), autopilot.status().clone());
         let view = view!(self, &estimate, &status, autopilot.tuning.fence_enabled);
         self.endpoint.boot(&view, autopilot);
@@ -416,5 +474,7 @@ impl Sim {
 
 fn fresh_autopilot(config: &SimConfig) -> Autopilot {
     let scenario = &config.scenario;
-    Autopilot::new(&config.vehicle, &scenario.rules, scenario.origin, Autopilot::tuning_for(&scenario.rules))
+    let mut tuning = Autopilot::tuning_for(&scenario.rules);
+    tuning.start_unix_s = scenario.light.start_unix_s;
+    Autopilot::new(&config.vehicle, &scenario.rules, scenario.origin, tuning)
 }

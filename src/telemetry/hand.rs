@@ -49,12 +49,12 @@ impl Hand {
         }
     }
 
-    /// ArduCopter's numbers: 3 auto, 4 and 20 guided, 6 RTL, 7 circle, 9 land, 17 brake, 21 smart RTL, 27 auto RTL.
+    /// ArduCopter's numbers: 3 auto, 4 and 20 guided, 6 RTL, 7 circle, 9 land, 17 brake, 21 smart RTL, 23 follow, 27 auto RTL.
     fn of_copter(custom_mode: u32) -> Self {
         match custom_mode {
             3 => Self::Mission,
             4 | 20 => Self::Script,
-            6 | 7 | 9 | 17 | 21 | 27 => Self::Autopilot,
+            6 | 7 | 9 | 17 | 21 | 23 | 27 => Self::Autopilot,
             _ => Self::Pilot,
         }
     }

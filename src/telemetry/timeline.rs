@@ -5,11 +5,13 @@
 //! goes back is a restarted simulator: a new epoch begins, and the old one stays.
 
 use super::hand::Hand;
+use super::log_stream::Log;
 use super::sample::{self, Contact, Header, Said, Sample, Truth};
 use super::signal::Signal;
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
 use serde::Serialize;
+use std::ops::ControlFlow;
 
 /// A truth sample this much older than the newest is no mere reordering.
 pub const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
@@ -23,6 +25,15 @@ const NUMBER_WITHIN: SimTime = SimTime::from_ms(500);
 const LATE_WITHIN: i64 = 64;
 /// Component id of the monitor itself.
 const MONITOR_COMPONENT: u8 = 191;
+/// Clocks of 32-bit milliseconds start again after so long: 49.7 days.
+const CLOCK_MS: i64 = 1 << 32;
+
+/// A time of 32-bit milliseconds as the clock of `near` has it: the one of its repetitions that lies nearest, none before zero.
+fn unwrapped(own: SimTime, near: SimTime) -> SimTime {
+    let rounds = (near.ms() - own.ms() + CLOCK_MS / 2).div_euclid(CLOCK_MS);
+    // A clock at the end of its range saturates.
+    SimTime::from_ms((own.ms() + CLOCK_MS * rounds.max(0)).min(i64::MAX / 1_000_000))
+}
 
 /// What the link did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -153,6 +164,12 @@ impl Timeline {
         self.newest
     }
 
+    /// The system whose flight this is, once a truth has come: nothing that others send belongs to it.
+    #[must_use]
+    pub fn system(&self) -> Option<u8> {
+        self.system
+    }
+
     /// Counts of the link so far.
     #[must_use]
     pub fn counts(&self) -> LinkCounts {
@@ -172,10 +189,14 @@ impl Timeline {
     }
 
     /// Reads all whole records of a log.
-    pub fn push_log(&mut self, bytes: &[u8]) {
-        for record in super::tlog::Reader::new(bytes) {
+    ///
+    /// # Errors
+    /// When the log cannot be read.
+    pub fn push_log(&mut self, log: &(impl Log + ?Sized)) -> std::io::Result<()> {
+        log.each(&mut |record| {
             self.push(record.frame);
-        }
+            ControlFlow::Continue(())
+        })
     }
 
     /// Takes one whole frame.
@@ -225,6 +246,8 @@ impl Timeline {
 
     fn keep(&mut self, sample: Sample, order: i64) -> Pushed {
         let Said::Truth(truth) = sample.said else {
+            let own_time = sample.own_time.map(|own| self.newest.map_or(own, |newest| unwrapped(own, newest)));
+            let sample = Sample { own_time, ..sample };
             self.entries.push(Entry {
                 sender: sample.sender,
                 order,

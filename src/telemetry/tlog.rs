@@ -56,18 +56,23 @@ impl<'a> Reader<'a> {
     }
 
     fn record_at(&self, at: usize) -> Option<(Record<'a>, usize)> {
-        let stamp = self.bytes.get(at..at + STAMP_BYTES)?;
-        let rest = &self.bytes[at + STAMP_BYTES..];
-        let header = Header::peek(rest)?;
-        let frame = rest.get(..header.total)?;
-        let stamp_us = stamp.iter().fold(0u64, |sum, byte| sum << 8 | u64::from(*byte));
-        Some((Record { stamp_us, frame }, at + STAMP_BYTES + header.total))
+        record_at(self.bytes, at)
     }
 
     /// Where the next record starts: here, or after damage at the next place whose frame carries a right checksum.
     fn resynchronise(&self) -> Option<usize> {
         (self.at + 1..self.bytes.len()).find(|at| self.record_at(*at).is_some_and(|(record, _)| Header::verified(record.frame)))
     }
+}
+
+/// The record that starts at `at`, and where it ends.
+pub(super) fn record_at(bytes: &[u8], at: usize) -> Option<(Record<'_>, usize)> {
+    let stamp = bytes.get(at..at + STAMP_BYTES)?;
+    let rest = &bytes[at + STAMP_BYTES..];
+    let header = Header::peek(rest)?;
+    let frame = rest.get(..header.total)?;
+    let stamp_us = stamp.iter().fold(0u64, |sum, byte| sum << 8 | u64::from(*byte));
+    Some((Record { stamp_us, frame }, at + STAMP_BYTES + header.total))
 }
 
 impl<'a> Iterator for Reader<'a> {
@@ -101,12 +106,23 @@ pub fn whole_len(bytes: &[u8]) -> usize {
     reader.end_of_whole()
 }
 
-/// Unix time of simulation time zero, µs, from a log's first records; `None` for an empty log.
+/// Unix time of a log's beginning, µs; `None` for an empty log.
 #[must_use]
 pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
-    let first = Reader::new(bytes).next()?;
-    let since_start = super::sample::truth_time(first.frame).map_or(0, |time| u64::try_from(time.us()).unwrap_or(0));
-    Some(first.stamp_us.saturating_sub(since_start))
+    Reader::new(bytes).next().map(|first| first.stamp_us)
+}
+
+/// Unix time of simulation time zero, µs: the stamp of a log's first truth less the truth's own time; `None` for a log without one.
+#[must_use]
+pub fn simulation_zero_us(bytes: &[u8]) -> Option<u64> {
+    Reader::new(bytes).find_map(|record| zero_us(&record))
+}
+
+/// Unix time of simulation time zero, µs, by one record: its stamp less the truth's own time; `None` unless it is a truth.
+#[must_use]
+pub fn zero_us(record: &Record<'_>) -> Option<u64> {
+    let time = super::sample::truth_time(record.frame)?;
+    Some(record.stamp_us.saturating_sub(u64::try_from(time.us()).unwrap_or(0)))
 }
 
 #[cfg(test)]

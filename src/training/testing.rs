@@ -2,6 +2,7 @@
 
 use super::questionnaire::{Answers, Item};
 use super::record::{Crashes, DefectRecord, FORMAT, Record, Scores, TaskRecord};
+use crate::monitor::score::completion::{Completion, TaskState};
 
 /// The paper's job flown without a fault, with all 24 answers "agree".
 pub fn faultless(trainee: &str, number: usize) -> Record {
@@ -30,6 +31,14 @@ pub fn faultless(trainee: &str, number: usize) -> Record {
             overall: 400.0,
             overall_max: 400.0,
         },
+        completion: Some(Completion {
+            complete: true,
+            tasks_done: 4,
+            tasks: 4,
+            path_share: 1.0,
+            landed_at_home: true,
+            done_share: 0.8,
+        }),
         tasks: ["slab_side", "arch_bottom", "interlayer", "pier_circle"]
             .into_iter()
             .zip(1..)
@@ -45,8 +54,24 @@ pub fn faultless(trainee: &str, number: usize) -> Record {
         battery_at_end_pct: 55.5,
         covered: 1.0,
         certified: true,
+        unmet: Vec::new(),
         answers: Some(answers),
     }
+}
+
+/// The same, but only the first task was flown, and to 60 % of its path; then the attempt was ended.
+pub fn broken_off(trainee: &str, number: usize) -> Record {
+    let mut record = faultless(trainee, number);
+    record.completion =
+        Some(Completion { complete: false, tasks_done: 0, tasks: 4, path_share: 0.15, landed_at_home: false, done_share: 0.8 });
+    (record.tasks[0].state, record.tasks[0].covered) = (Some(TaskState::Part), Some(0.6));
+    for task in &mut record.tasks[1..] {
+        (task.state, task.covered, task.attempted) = (Some(TaskState::NotAttempted), Some(0.0), false);
+    }
+    record.end_reason = "abort".into();
+    record.certified = false;
+    record.unmet = vec!["task 1 not done: 60 % of its path, 80 % needed".into(), "not landed at home".into()];
+    record
 }
 
 fn task(kind: &str, id: u32) -> TaskRecord {
@@ -55,6 +80,8 @@ fn task(kind: &str, id: u32) -> TaskRecord {
         name: format!("The {kind}"),
         kind: kind.to_owned(),
         attempted: true,
+        state: Some(TaskState::Done),
+        covered: Some(1.0),
         seconds: 100.0,
         on_path: 1.0,
         speeding: 0.0,
@@ -79,5 +106,6 @@ fn defect(id: u32) -> DefectRecord {
         task: Some(1 + id % 4),
         found: true,
         lacked: Vec::new(),
+        in_view_s: None,
     }
 }

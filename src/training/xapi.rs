@@ -3,6 +3,7 @@
 
 use super::record::{Record, TaskRecord};
 use crate::base::calendar::utc;
+use crate::monitor::score::completion::TaskState;
 use serde_json::{Value, json};
 use uuid::Uuid;
 
@@ -12,6 +13,10 @@ pub const VERSION: &str = "1.0.3";
 pub const HOME: &str = "https://spandrel.invalid/trainees";
 /// Statements' ids are names below this one (RFC 9562, version 5): any UUID of our own.
 const NAMES: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
+/// Extension of a session's result: how much of the job was done.
+const COMPLETION: &str = "urn:spandrel:completion";
+/// Extension of a task's result: share of its path that was flown.
+const COVERED: &str = "urn:spandrel:covered";
 /// Verbs of ADL's vocabulary.
 const VERBS: &str = "http://adlnet.gov/expapi/verbs/";
 
@@ -42,20 +47,33 @@ pub fn statements(record: &Record, home: &str) -> Vec<Value> {
 }
 
 fn flight(record: &Record, home: &str) -> Value {
-    let result = json!({
-        "score": score(record.scores.overall, record.scores.overall_max),
-        "completion": record.end_reason == "landed",
-        "success": record.certified,
+    let complete = record.is_complete();
+    let mut result = json!({
+        "completion": complete,
+        "success": complete && record.certified,
         "duration": format!("PT{:.2}S", record.seconds),
+        "response": if complete { record.verdict() } else { record.headline() },
     });
-    statement(record, home, "", ("completed", &record.scenario), result)
+    // The sum says something of the whole job alone.
+    if complete {
+        result["score"] = score(record.scores.overall, record.scores.overall_max);
+    }
+    if let Some(completion) = &record.completion {
+        result["extensions"] = json!({ COMPLETION: completion });
+    }
+    let verb = if complete { "completed" } else { "attempted" };
+    statement(record, home, "", (verb, &record.scenario), result)
 }
 
 fn of_task(record: &Record, home: &str, task: &TaskRecord) -> Value {
-    let result = json!({
+    let mut result = json!({
         "score": score(100.0 * task.on_path, 100.0),
         "duration": format!("PT{:.2}S", task.seconds),
     });
+    if let Some((state, covered)) = task.state.zip(task.covered) {
+        result["completion"] = json!(state == TaskState::Done);
+        result["extensions"] = json!({ COVERED: covered });
+    }
     statement(record, home, &format!("tasks/{}", task.id), ("attempted", &task.name), result)
 }
 
@@ -106,7 +124,7 @@ pub fn lines(statements: &[Value]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::training::testing::faultless;
+    use crate::training::testing::{broken_off, faultless};
     use std::collections::BTreeSet;
 
     #[test]
@@ -122,6 +140,19 @@ mod tests {
         let mut bare = record;
         (bare.scores.accuracy, bare.answers) = (None, None);
         assert_eq!(statements(&bare, HOME).len(), 1 + 3 + 4);
+    }
+
+    #[test]
+    fn regress_an_incomplete_session_is_not_completed_and_has_no_sum() {
+        let all = statements(&broken_off("anna", 1), HOME);
+        let flight = &all[0];
+        assert!(flight["verb"]["id"].as_str().is_some_and(|verb| verb.ends_with("/attempted")), "{flight}");
+        assert_eq!((&flight["result"]["completion"], &flight["result"]["success"]), (&json!(false), &json!(false)));
+        assert_eq!(flight["result"]["score"], Value::Null);
+        assert_eq!(flight["result"]["response"], "Incomplete: 0 of 4 tasks, 15 % of the path");
+        assert_eq!(flight["result"]["extensions"][COMPLETION]["path_share"], 0.15);
+        let task = all.iter().find(|one| one["object"]["id"].as_str().is_some_and(|id| id.ends_with("/tasks/1"))).unwrap();
+        assert_eq!((&task["result"]["completion"], &task["result"]["extensions"][COVERED]), (&json!(false), &json!(0.6)));
     }
 
     #[test]

@@ -112,6 +112,9 @@ fn drag(r: &mut Reader, root: &mut Section) -> Drag {
     drag
 }
 
+/// Feet that a body stands on.
+const LEAST_FEET: usize = 3;
+
 fn hull(r: &mut Reader, root: &mut Section) -> Hull {
     let mut s = r.section(root, "hull");
     let hull = Hull {
@@ -122,6 +125,13 @@ fn hull(r: &mut Reader, root: &mut Section) -> Hull {
         restitution: r.number(&mut s, "restitution", (0.0, 0.95), None),
         friction: r.number(&mut s, "friction", (0.0, 2.0), None),
     };
+    // A ball does not stand: wind rolls it.
+    let cage_m = 0.5 * hull.tip_to_tip_m;
+    let carrying = hull.feet_m.iter().filter(|foot| foot.down() >= cage_m).count();
+    if hull.caged && carrying < LEAST_FEET {
+        let allowed = format!("at least {LEAST_FEET} feet {cage_m} m or more below the center");
+        r.complain(&s, "feet_m", "", &allowed, "the aircraft would stand on its round cage and roll");
+    }
     r.finish(&s);
     hull
 }

@@ -126,6 +126,8 @@ pub fn mode_name(copter: bool, custom_mode: u32) -> String {
             16 => "PosHold",
             17 => "Brake",
             21 => "Smart RTL",
+            23 => "Follow",
+            27 => "Auto RTL",
             _ => "",
         }
     } else {
@@ -139,6 +141,7 @@ pub fn mode_name(copter: bool, custom_mode: u32) -> String {
             [_, _, 4, 4] => "Mission",
             [_, _, 4, 5] => "Return",
             [_, _, 4, 6] => "Land",
+            [_, _, 4, 8] => "Follow",
             [_, _, 4, _] => "Auto",
             [_, _, 5, _] => "Acro",
             [_, _, 6, _] => "Offboard",

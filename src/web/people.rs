@@ -8,7 +8,7 @@ use crate::report::page::progress::on_job;
 use crate::report::words;
 use crate::training::cohort::by_job;
 use crate::training::plan::{Change, Plan};
-use crate::training::record::{Listed, Record};
+use crate::training::record::{Incomplete, Listed, Record, left_out_words};
 use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
 use maud::{Markup, html};
 
@@ -50,6 +50,8 @@ pub struct About<'a> {
     pub listed: &'a [Listed],
     /// What to fly next.
     pub plan: Option<&'a Plan>,
+    /// Whether incomplete sessions count in progress and plan.
+    pub incomplete: Incomplete,
 }
 
 /// One trainee.
@@ -58,7 +60,7 @@ pub fn one(visitor: &Visitor, about: &About<'_>) -> Markup {
     let name = &about.person.pseudonym;
     let body = html! {
         @if let Some(plan) = about.plan { (section("plan", "What to fly next", &next(plan))) }
-        @if !about.records.is_empty() { (section("progress", "Progress", &progress(about.records))) }
+        @if !about.records.is_empty() { (section("progress", "Progress", &progress(name, about.records, about.incomplete))) }
         (section("sessions", "Sessions", &html! {
             @if about.listed.is_empty() { p.calm { "No session yet." } }
             @else { (lines(visitor, &format!("{} sessions, the newest first", about.listed.len()), about.listed)) }
@@ -81,6 +83,7 @@ fn next(plan: &Plan) -> Markup {
                 li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
             }
         }
+        @if let Some(words) = left_out_words(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
             h3 { "What changed" }
             p.note { "Since " a href={ "/sessions/" (changes.since) } { "the session before on the same job" } "." }
@@ -94,9 +97,16 @@ fn next(plan: &Plan) -> Markup {
 }
 
 /// Each job by itself: practice on one says nothing of another.
-fn progress(records: &[Record]) -> Markup {
+fn progress(name: &str, records: &[Record], incomplete: Incomplete) -> Markup {
+    let unfinished = records.iter().filter(|record| !record.is_complete()).count();
     html! {
-        @for job in by_job(records) {
+        @if unfinished > 0 { p {
+            @match incomplete {
+                Incomplete::LeaveOut => a href={ "/trainees/" (name) "?incomplete=1" } { "Include incomplete sessions" },
+                Incomplete::Include => a href={ "/trainees/" (name) } { "Leave out incomplete sessions" },
+            }
+        } }
+        @for job in by_job(records, incomplete) {
             @let times = job.progress.repetitions.len();
             h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (times) @if times == 1 { " session" } @else { " sessions" } }
             (on_job(&job))
@@ -147,7 +157,7 @@ mod tests {
     use super::super::frame::tests::{EVIL, administrator, check};
     use super::*;
     use crate::training::plan::{RULES, plan, read_rules};
-    use crate::training::testing::faultless;
+    use crate::training::testing::{broken_off, faultless};
     use crate::training::trainee::Role;
 
     #[test]
@@ -156,7 +166,8 @@ mod tests {
         records[0].scenario = EVIL.into();
         let person = Trainee { age_band: Some(EVIL.into()), ..Trainee::new(EVIL) };
         let plan = plan(&records, &read_rules("rules.toml", RULES).unwrap(), records[2].started_unix_us);
-        let about = About { person: &person, records: &records, listed: &[], plan: plan.as_ref() };
+        let about =
+            About { person: &person, records: &records, listed: &[], plan: plan.as_ref(), incomplete: Incomplete::LeaveOut };
         let text = one(&administrator(), &about).into_string();
         check(&text);
         assert!(text.contains("Erase for ever") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
@@ -166,6 +177,16 @@ mod tests {
             "each job by itself"
         );
         assert!(text.contains(", 1 session<") && text.contains(", 2 sessions<"), "{text}");
+        let unfinished = vec![faultless("anna", 1), broken_off("anna", 2)];
+        let text = |incomplete: Incomplete| {
+            one(&administrator(), &About { records: &unfinished, plan: None, incomplete, ..about }).into_string()
+        };
+        let (without, with) = (text(Incomplete::LeaveOut), text(Incomplete::Include));
+        assert!(
+            without.contains("1 incomplete session left out") && without.contains("Include incomplete sessions"),
+            "{without}"
+        );
+        assert!(with.contains(", 2 sessions<") && !with.contains("left out.") && with.contains("Leave out"), "{with}");
         let instructor = Visitor { role: Role::Instructor, ..administrator() };
         assert!(!one(&instructor, &about).into_string().contains("Erase for ever"));
         check(&list(&administrator(), &[person]).into_string());

@@ -62,8 +62,15 @@ pub fn list(visitor: &Visitor, listing: &Listing<'_>) -> Markup {
 pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
     let all = visitor.meets(Needs::Instructor);
     // What a phone shows without being moved comes first: when, who, how well.
-    let mut heads =
-        vec![("Started", false), ("Trainee", false), ("Overall", true), ("Scenario", false), ("Purpose", false), ("End", false)];
+    let mut heads = vec![
+        ("Started", false),
+        ("Trainee", false),
+        ("Overall", true),
+        ("Certified", false),
+        ("Scenario", false),
+        ("Purpose", false),
+        ("End", false),
+    ];
     if !all {
         heads.remove(1);
     }
@@ -75,7 +82,9 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
                 tr {
                     th scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
                     @if all { td { a href={ "/trainees/" (one.trainee) } { (one.trainee) } } }
-                    td.number { (words::number(one.overall, 1)) " of " (words::number(one.overall_max, 0)) }
+                    @if one.is_complete() { td.number { (words::number(one.overall, 1)) " of " (words::number(one.overall_max, 0)) } }
+                    @else { td { (one.headline()) } }
+                    td { (one.verdict()) }
                     td { (one.scenario) }
                     td { (one.purpose.as_deref().unwrap_or("–")) }
                     td { (one.end_reason.replace('_', " ")) }
@@ -149,10 +158,13 @@ pub fn named(record: &Record) -> [(&'static str, Option<f64>); 4] {
 fn scores(record: &Record) -> Markup {
     let spokes: Vec<Spoke> = named(record).into_iter().map(|(name, value)| Spoke { name, values: vec![value] }).collect();
     html! {
+        p { b { (record.headline()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below are for the part that was flown." } }
         div.split {
             figure { figcaption { "The four scores, 0 in the middle, 100 at the rim" } (radar(&spokes, "Kiviat diagram of the four scores")) }
             div.cards {
-                div.card { h3 { "Overall" } p.figure { (words::number(record.scores.overall, 0)) span.of { " of " (words::number(record.scores.overall_max, 0)) } } }
+                @if record.is_complete() {
+                    div.card { h3 { "Overall" } p.figure { (words::number(record.scores.overall, 0)) span.of { " of " (words::number(record.scores.overall_max, 0)) } } }
+                }
                 @for (name, value) in named(record) {
                     div.card { h3 { (name) } p.figure { @if let Some(value) = value { (words::number(value, 0)) } @else { "n/a" } } }
                 }
@@ -173,11 +185,12 @@ fn tasks(record: &Record) -> Markup {
             figure { figcaption { "Share of each task's time on the path" } (shares(&rows, "On the path by task")) }
             (table(
                 "Each task in numbers",
-                &[("Task", false), ("On path, %", true), ("Too fast, s", true), ("Crashes", true), ("Defects found", true)],
+                &[("Task", false), ("Path flown", false), ("On path, %", true), ("Too fast, s", true), ("Crashes", true), ("Defects found", true)],
                 &html! {
                     @for task in &record.tasks {
                         tr {
                             th scope="row" { (task.id) " · " (task.name) }
+                            td { (flown(record, task)) }
                             td.number { (words::number(100.0 * task.on_path, 0)) }
                             td.number { (words::number(task.speeding_s, 1)) }
                             td.number { (task.crashes.total()) }
@@ -189,6 +202,12 @@ fn tasks(record: &Record) -> Markup {
         }
         @if record.crashes_outside.total() > 0 { p.note { (record.crashes_outside.total()) " crashes outside all tasks." } }
     }
+}
+
+/// How far a task got, in words.
+fn flown(record: &Record, task: &TaskRecord) -> String {
+    let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
+    task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.words(covered, done_share))
 }
 
 fn defects(record: &Record) -> Markup {
@@ -223,7 +242,7 @@ fn compare(record: &Record, others: &[Listed]) -> Markup {
                 input type="hidden" name="first" value=(record.id);
                 label { "Other session "
                     select name="second" {
-                        @for one in others { option value=(one.id) { (minute(one.started_unix_us)) ", " (one.scenario) ", " (words::number(one.overall, 0)) } }
+                        @for one in others { option value=(one.id) { (minute(one.started_unix_us)) ", " (one.scenario) ", " @if one.is_complete() { (words::number(one.overall, 0)) } @else { "incomplete" } } }
                     }
                 }
                 button type="submit" { "Compare" }
@@ -236,7 +255,7 @@ fn compare(record: &Record, others: &[Listed]) -> Markup {
 mod tests {
     use super::super::frame::tests::{EVIL, administrator, check};
     use super::*;
-    use crate::training::testing::faultless;
+    use crate::training::testing::{broken_off, faultless};
 
     #[test]
     fn exact_a_sessions_page_escapes_whatever_the_record_says() {
@@ -245,6 +264,8 @@ mod tests {
         record.defects[0].lacked = vec![EVIL.into()];
         record.defects[0].found = false;
         record.end_reason = EVIL.into();
+        record.unmet = vec![EVIL.into()];
+        record.certified = false;
         let other = Listed {
             id: "x".into(),
             trainee: EVIL.into(),
@@ -254,11 +275,28 @@ mod tests {
             overall_max: 400.0,
             end_reason: EVIL.into(),
             purpose: Some(EVIL.into()),
+            completion: None,
+            certified: false,
+            unmet: vec![EVIL.into()],
         };
         let others = [other];
         check(&session(&administrator(), &record, &Beside { folder: true, others: &others }).into_string());
         let listing = Listing { lines: &others, trainee: Some(EVIL), page: 1, last: 9, count: 401 };
         check(&list(&administrator(), &listing).into_string());
+    }
+
+    #[test]
+    fn regress_an_incomplete_session_shows_how_much_was_flown_and_no_sum() {
+        let record = broken_off("anna", 1);
+        let text = session(&administrator(), &record, &Beside { folder: true, others: &[] }).into_string();
+        assert!(text.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{text}");
+        assert!(text.contains("Not certified: task 1 not done: 60 % of its path, 80 % needed (and 1 more)"), "{text}");
+        assert!(text.contains("for the part that was flown") && !text.contains("<h3>Overall</h3>"), "{text}");
+        assert!(
+            session(&administrator(), &faultless("anna", 1), &Beside { folder: true, others: &[] })
+                .into_string()
+                .contains("<h3>Overall</h3>")
+        );
     }
 
     #[test]

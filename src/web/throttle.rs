@@ -1,10 +1,16 @@
-//! Failed logins: after a few for one name from one address, or many from one address, the next try has to wait.
+//! Failed logins: after a few for one name from one address, or many from one address, each further try waits longer, up to a minute. A longer
+//! lock would let anyone behind the same address keep the owner of a name out; a minute leaves a guesser some 60 tries an hour against
+//! passwords that `login::check` accepts.
 
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
 /// Failures that are remembered for so long, µs.
 const WINDOW_US: u64 = 15 * 60_000_000;
+/// First wait beyond the limit, µs; each further failure doubles it. Estimate: long enough to notice, short enough for a typing error.
+const FIRST_WAIT_US: u64 = 4_000_000;
+/// Longest wait, µs.
+const LONGEST_WAIT_US: u64 = 60_000_000;
 /// Failures in that time for one name from one address.
 const OF_NAME: usize = 5;
 /// Failures in that time from one address, whatever the names.
@@ -21,14 +27,13 @@ impl Throttle {
     #[must_use]
     pub fn wait_us(&self, from: IpAddr, name: &str, now_us: u64) -> Option<u64> {
         let failures = self.0.get(&network(from))?;
-        let recent = |wanted: &dyn Fn(&str) -> bool| -> Vec<u64> {
-            failures.iter().filter(|(at, who)| now_us.saturating_sub(*at) < WINDOW_US && wanted(who)).map(|(at, _)| *at).collect()
+        let recent: Vec<&(u64, String)> = failures.iter().filter(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US).collect();
+        let left = |times: Vec<u64>, most: usize| {
+            let waits_until = times.last()?.saturating_add(wait_after(times.len().checked_sub(most)?));
+            waits_until.checked_sub(now_us).filter(|left| *left > 0)
         };
-        let frees = |times: Vec<u64>, most: usize| {
-            // It may be tried again once fewer than `most` are left in the window.
-            times.len().checked_sub(most).map(|k| times[k] + WINDOW_US - now_us)
-        };
-        frees(recent(&|who| who == name), OF_NAME).max(frees(recent(&|_| true), OF_ADDRESS))
+        let of_name = recent.iter().filter(|(_, who)| *who == kept(name)).map(|(at, _)| *at).collect();
+        left(of_name, OF_NAME).max(left(recent.iter().map(|(at, _)| *at).collect(), OF_ADDRESS))
     }
 
     /// Notes a failure.
@@ -38,14 +43,14 @@ impl Throttle {
         }
         let failures = self.0.entry(network(from)).or_default();
         failures.retain(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US);
-        // Names are the attacker's to choose; only their beginning is kept.
-        failures.push((now_us, name.chars().take(64).collect()));
+        failures.push((now_us, kept(name)));
     }
 
     /// A login that went well clears its name.
     pub fn went_well(&mut self, from: IpAddr, name: &str) {
         if let Some(failures) = self.0.get_mut(&network(from)) {
-            failures.retain(|(_, who)| who != name);
+            let name = kept(name);
+            failures.retain(|(_, who)| *who != name);
         }
     }
 
@@ -58,6 +63,20 @@ impl Throttle {
             self.0.remove(&oldest);
         }
     }
+}
+
+/// The wait after so many failures beyond the limit, µs.
+fn wait_after(beyond: usize) -> u64 {
+    let doublings = u32::try_from(beyond).unwrap_or(u32::MAX);
+    FIRST_WAIT_US
+        .checked_shl(doublings)
+        .filter(|wait| *wait >= FIRST_WAIT_US)
+        .map_or(LONGEST_WAIT_US, |wait| wait.min(LONGEST_WAIT_US))
+}
+
+/// An attacker chooses the names; only their beginning is kept.
+fn kept(name: &str) -> String {
+    name.chars().take(64).collect()
 }
 
 /// One subscriber of IPv6 has a whole /64 of addresses.
@@ -77,18 +96,37 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_sixth_try_waits_until_the_first_failure_is_old() {
+    fn regress_five_failures_cost_seconds_and_never_more_than_a_minute() {
         let mut throttle = Throttle::default();
         for k in 0..5 {
             assert_eq!(throttle.wait_us(here(), "anna", k), None);
             throttle.failed(here(), "anna", k);
         }
-        assert_eq!(throttle.wait_us(here(), "anna", 10), Some(WINDOW_US - 10));
+        assert_eq!(throttle.wait_us(here(), "anna", 4), Some(FIRST_WAIT_US));
         assert_eq!(throttle.wait_us(here(), "ben", 10), None, "another name");
-        assert_eq!(throttle.wait_us([10, 0, 0, 1].into(), "anna", 10), None, "anna herself, elsewhere");
-        assert_eq!(throttle.wait_us(here(), "anna", WINDOW_US), None);
+        assert_eq!(throttle.wait_us([10, 0, 0, 1].into(), "anna", 10), None, "the same name from elsewhere");
+        assert_eq!(throttle.wait_us(here(), "anna", 4 + FIRST_WAIT_US), None);
+        let mut now_us = 4;
+        let waits: Vec<u64> = (0..6)
+            .map(|_| {
+                let wait_us = throttle.wait_us(here(), "anna", now_us).unwrap_or_default();
+                now_us += wait_us;
+                throttle.failed(here(), "anna", now_us);
+                wait_us / 1_000_000
+            })
+            .collect();
+        assert_eq!(waits, [4, 8, 16, 32, 60, 60]);
         throttle.went_well(here(), "anna");
-        assert_eq!(throttle.wait_us(here(), "anna", 10), None);
+        assert_eq!(throttle.wait_us(here(), "anna", now_us), None);
+    }
+
+    #[test]
+    fn exact_waits_double_and_end() {
+        for (beyond, wait_us) in
+            [(0, 4_000_000), (1, 8_000_000), (4, LONGEST_WAIT_US), (63, LONGEST_WAIT_US), (usize::MAX, LONGEST_WAIT_US)]
+        {
+            assert_eq!(wait_after(beyond), wait_us, "{beyond}");
+        }
     }
 
     #[test]
@@ -98,7 +136,7 @@ mod tests {
             assert_eq!(throttle.wait_us(here(), &format!("n{k}"), 0), None, "{k}");
             throttle.failed(here(), &format!("n{k}"), 0);
         }
-        assert_eq!(throttle.wait_us(here(), "one-more", 1), Some(WINDOW_US - 1));
+        assert_eq!(throttle.wait_us(here(), "one-more", 1), Some(FIRST_WAIT_US - 1));
     }
 
     #[test]

@@ -4,6 +4,9 @@ Positions are east, north, up in metres from the scenario origin; sticks are for
 """
 
 import math
+import tomllib
+
+import spandrel
 
 # Metres per second asked for at most; well under the 10 mph limit.
 CRUISE_M_S = 3.0
@@ -92,3 +95,17 @@ def first_task_plan(job, pad):
         "stop": stop,
         "defect": defect,
     }
+
+
+WGS84_A_M, WGS84_E2 = 6_378_137.0, 6.694_379_990_14e-3  # semi-major axis, eccentricity squared
+
+
+def local_origin(scenario, latitude_deg, longitude_deg, altitude_m):
+    """Where the vehicle's local frame has its origin (GPS_GLOBAL_ORIGIN), metres east, north, up of the job's origin."""
+    site = tomllib.loads((spandrel.ROOT / "scenarios" / f"{scenario}.toml").read_text(encoding="utf-8"))["origin"]
+    latitude = math.radians(site["latitude_deg"])
+    flat = 1.0 - WGS84_E2 * math.sin(latitude) ** 2
+    prime = WGS84_A_M / math.sqrt(flat)
+    north = math.radians(latitude_deg - site["latitude_deg"]) * prime * (1.0 - WGS84_E2) / flat
+    east = math.radians(longitude_deg - site["longitude_deg"]) * prime * math.cos(latitude)
+    return east, north, altitude_m - site["altitude_m"]

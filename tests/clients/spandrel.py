@@ -32,11 +32,11 @@ def free_udp_port():
         return probe.getsockname()[1]
 
 
-def start_sim(folder, client_port, *more, speed=SPEED, gcs_port=0, payload_port="none"):
+def start_sim(folder, client_port, *more, speed=SPEED, gcs_port=0, payload_port="none", scenario="drill-hover"):
     """A simulator alone, faster than the clock, that calls one client."""
     log = open(pathlib.Path(folder) / "sim.txt", "w", encoding="utf-8")
     arguments = [
-        "sim", "--scenario", "drill-hover", "--seed", "7", "--speed", str(speed), "--gcs", f"127.0.0.1:{client_port}",
+        "sim", "--scenario", scenario, "--seed", "7", "--speed", str(speed), "--gcs", f"127.0.0.1:{client_port}",
         "--sdk", "none", "--gcs-port", str(gcs_port), "--payload-port", str(payload_port), "--tcp-port", "none", "--monitor-port",
         "none", *more,
     ]

@@ -19,7 +19,7 @@ def failing(tmp_path):
     file = tmp_path / "drone.params"
     file.write_text("1\t1\tSYS_FAILURE_EN\t1\t6\n", encoding="utf-8")
     port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--params", str(file))
+    process = spandrel.start_sim(tmp_path, port, "--params", str(file), "--after-crash", "respawn")
     mavsdk, system = sdk.connect(port)
     yield system, sdk.ready(system), Failure(system)
     mavsdk.destroy()

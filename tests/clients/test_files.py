@@ -5,6 +5,7 @@ import json
 import math
 import pathlib
 import signal
+import struct
 import subprocess
 import time
 
@@ -16,6 +17,7 @@ from mcap.reader import make_reader
 from mcap.stream_reader import StreamReader
 from pyulog import ULog
 
+import asking
 import sdk
 import spandrel
 from spandrel import wait_for
@@ -66,6 +68,47 @@ def test_wire_mavsdk_keeps_files_on_the_vehicle(vehicle, tmp_path):
     ftp.remove_directory("/jobs")
     assert not (folder / "jobs").exists()
     mavsdk.destroy()
+
+
+@pytest.mark.timeout(600)
+def test_wire_a_checksum_of_a_huge_file_does_not_stop_the_vehicle(tmp_path, measured):
+    """CreateFile, TruncateFile to 256 MiB, CalcFileCRC32: heartbeats go on before the answer comes, and more than the quota is refused."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, "--files", str(tmp_path / "files"), speed=1)
+    try:
+        link = asking.connect(port)
+
+        def ftp(sequence, opcode, offset, path):
+            """Sends one request."""
+            header = struct.pack("<HBBBBBBI", sequence, 0, opcode, len(path), 0, 0, 0, offset)
+            link.mav.file_transfer_protocol_send(0, 1, 1, (header + path).ljust(251, b"\0"))
+
+        def answer(sequence, opcode, offset, path):
+            """The answer to one, opcode and data."""
+            fits = lambda m: bytes(m.payload[:2]) == struct.pack("<H", sequence + 1)  # noqa: E731
+            payload = bytes(asking.ask(link, lambda: ftp(sequence, opcode, offset, path), "FILE_TRANSFER_PROTOCOL", fits).payload)
+            return payload[3], payload[12 : 12 + payload[4]]
+
+        create, truncate, checksum, ack, nak = 6, 12, 14, 128, 129
+        assert answer(1, create, 0, b"/huge")[0] == ack
+        assert answer(3, truncate, 256 * 1024 * 1024, b"/huge")[0] == ack
+        ftp(5, checksum, 0, b"/huge")
+        beats, begin = [time.monotonic()], time.monotonic()
+        while True:
+            message = link.recv_match(type=["HEARTBEAT", "FILE_TRANSFER_PROTOCOL"], blocking=True, timeout=asking.LIMIT_S)
+            if message.get_type() == "FILE_TRANSFER_PROTOCOL":
+                break
+            if message.get_srcComponent() == 1:
+                beats.append(time.monotonic())
+        payload = bytes(message.payload)
+        assert (payload[3], payload[12:16]) == (ack, bytes(4)), "the sum over nothing but zeros"
+        assert len(beats) > 1, "no heartbeat before the answer"
+        gaps = [later - sooner for sooner, later in zip(beats, [*beats[1:], time.monotonic()], strict=True)]
+        measured(f"checksum of 256 MiB: {time.monotonic() - begin:.1f} s, longest time without a heartbeat {max(gaps):.1f} s")
+        assert answer(7, truncate, 256 * 1024 * 1024 + 1, b"/huge")[0] == nak
+        assert answer(9, create, 0, b"/log/mine.ulg")[0] == nak, "logs are the vehicle's"
+    finally:
+        spandrel.end(process)
 
 
 @pytest.mark.timeout(600)

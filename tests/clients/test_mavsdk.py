@@ -27,12 +27,13 @@ class Client:
         system = self.mavsdk.first_autopilot(60.0)
         assert system is not None, "no vehicle discovered"
         self.action, self.telemetry = Action(system), Telemetry(system)
+        self.origin = (0.0, 0.0, 0.0)
         self.manual, self.camera, self.gimbal = ManualControl(system), Camera(system), Gimbal(system)
 
     def here(self):
         """Position in metres east, north, up of the job's origin, and heading in radians."""
-        p = self.telemetry.position_velocity_ned().position
-        return (p.east_m, p.north_m, -p.down_m), math.radians(self.telemetry.attitude_euler().yaw_deg)
+        p, (east, north, up) = self.telemetry.position_velocity_ned().position, self.origin
+        return (east + p.east_m, north + p.north_m, up - p.down_m), math.radians(self.telemetry.attitude_euler().yaw_deg)
 
     def sticks(self, axes):
         """One manual control input; MAVSDK's throttle runs from 0 to 1."""
@@ -58,6 +59,9 @@ def test_wire_mavsdk_flies_the_first_task_and_is_scored(flight, job):
     client = Client(flight.client_port)
     wait_for("health_all_ok", client.telemetry.health_all_ok)
     assert client.telemetry.health().is_armable
+    # On the pad home is the local frame's origin; MAVSDK's own question for it times out at more than real time.
+    home = wait_for("home", lambda: client.telemetry.health().is_home_position_ok and client.telemetry.home())
+    client.origin = handpilot.local_origin("two-bridges", home.latitude_deg, home.longitude_deg, home.absolute_altitude_m)
     pad, _ = client.here()
     plan = handpilot.first_task_plan(job, pad)
     defect = plan["defect"]["position_enu_m"]

@@ -38,6 +38,8 @@ def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
         names, count, received, seconds, acknowledged = set(), None, 0, None, False
         begin = None
         end = time.monotonic() + LIMIT_S
+        # Streams, and with them the vehicle's clock, begin with a heartbeat.
+        mav.heartbeat_send(mavutil.mavlink.MAV_TYPE_GCS, mavutil.mavlink.MAV_AUTOPILOT_INVALID, 0, 0, 0)
         mav.param_request_list_send(1, 1)
         mav.command_long_send(1, 1, mavutil.mavlink.MAV_CMD_REQUEST_MESSAGE, 0, 148, 0, 0, 0, 0, 0, 0)
         while time.monotonic() < end and (count is None or len(names) < count or not acknowledged):
@@ -45,7 +47,7 @@ def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
             data = os.read(ours, 4096) if ready else b""
             received += len(data)
             for message in mav.parse_buffer(data) or []:
-                if message.get_type() == "SYSTEM_TIME":
+                if hasattr(message, "time_boot_ms"):
                     begin = begin if begin is not None else (message.time_boot_ms, received)
                     seconds = (message.time_boot_ms - begin[0]) / 1000
                 if message.get_type() == "PARAM_VALUE" and message.param_index != 65535:
@@ -116,3 +118,76 @@ def test_wire_tcp_clients_come_and_go_and_the_vehicle_flies_on(tmp_path):
         sim.send_signal(signal.SIGINT)
         sim.wait(timeout=LIMIT_S)
     assert sim.returncode == 0
+
+
+def heard_by(stranger, limit_s):
+    """Bytes that come to a socket until nothing has come for a while."""
+    stranger.settimeout(limit_s)
+    count = 0
+    try:
+        while count < 1_000_000:
+            count += len(stranger.recv(65_536))
+    except TimeoutError:
+        pass
+    return count
+
+
+def test_wire_strangers_draw_no_streams_and_take_no_sidecars_place(tmp_path):
+    """One byte draws nothing back; 70 rubbish datagrams keep no sidecar off; a sidecar's heartbeat gets it everything."""
+    payload = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port := spandrel.free_udp_port(), speed=1, payload_port=payload)
+    strangers = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(70)]
+    try:
+        asking.connect(port)
+        for stranger in strangers:
+            stranger.sendto(b"\xfd", ("127.0.0.1", payload))
+        # A second of silence is a second in which a peer would have got its streams.
+        assert heard_by(strangers[0], 1.0) == 0
+        sidecar = mavutil.mavlink_connection(f"udpout:127.0.0.1:{payload}", source_system=1, source_component=192, dialect="all")
+        hello = asking.Again(lambda: sidecar.mav.heartbeat_send(18, 8, 0, 0, 4))
+        end, truth = time.monotonic() + LIMIT_S, None
+        while truth is None and time.monotonic() < end:
+            hello.if_due()
+            truth = sidecar.recv_match(type="HIL_STATE_QUATERNION", blocking=True, timeout=0.1)
+        assert truth is not None, "the sidecar is kept off"
+    finally:
+        for stranger in strangers:
+            stranger.close()
+        spandrel.end(process)
+
+
+@pytest.mark.timeout(300)
+def test_wire_a_stranger_does_not_become_the_monitors_vehicle(tmp_path):
+    """Datagrams of a stranger, and a ground station's heartbeats, before and while the vehicle speaks: the monitor takes the vehicle's."""
+    sessions, port = tmp_path / "sessions", spandrel.free_udp_port()
+    with (tmp_path / "monitor.txt").open("w", encoding="utf-8") as log:
+        monitor = subprocess.Popen(
+            [spandrel.PROGRAM, "monitor", "--scenario", "drill-hover", "--sessions", str(sessions), "--port", str(port)],
+            stdout=log, stderr=log, stdin=subprocess.DEVNULL,
+        )
+    stranger = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    station = mavutil.mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
+    process = None
+    try:
+        spandrel.wait_for("the session folder", lambda: sessions.exists() and any(sessions.iterdir()), LIMIT_S)
+        end = time.monotonic() + LIMIT_S
+
+        def taken():
+            """Whether the vehicle's truth is in the session; the stranger goes on all the time."""
+            for datagram in (b"\xfd", station.heartbeat_encode(6, 8, 0, 0, 4).pack(station)):
+                stranger.sendto(datagram, ("127.0.0.1", port))
+            # 115: HIL_STATE_QUATERNION, of system 1 and component 1.
+            return any(b"\x01\x01\x73\x00\x00" in path.read_bytes() for path in sessions.glob("*/telemetry.tlog"))
+
+        assert not taken()
+        with (tmp_path / "sim.txt").open("w", encoding="utf-8") as log:
+            process = subprocess.Popen(
+                [spandrel.PROGRAM, "sim", "--scenario", "drill-hover", "--ports", "ephemeral", "--monitor-port", str(port)],
+                stdout=log, stderr=log, stdin=subprocess.DEVNULL,
+            )
+        spandrel.wait_for("the vehicle's telemetry", taken, end - time.monotonic())
+    finally:
+        stranger.close()
+        spandrel.end(monitor)
+        if process is not None:
+            spandrel.end(process)

@@ -70,7 +70,7 @@ def test_wire_parameters_outlive_the_run_in_their_file(tmp_path):
     process = spandrel.start_sim(tmp_path, spandrel.free_udp_port(), "--params", str(file))
     assert process.wait(timeout=LIMIT_S) == 2
     log = (tmp_path / "sim.txt").read_text(encoding="utf-8")
-    assert "drone.params:1: MIS_TAKEOFF_ALT = 900 is out of range (allowed: 0.5 to 80)" in log
+    assert "drone.params:1: MIS_TAKEOFF_ALT = 900 is out of range (allowed: 0.5 to 500)" in log
 
 
 @pytest.mark.timeout(300)

@@ -11,6 +11,7 @@ from pymavlink import mavutil
 
 import asking
 import handpilot
+import spandrel
 from spandrel import wait_for
 
 M = mavutil.mavlink
@@ -38,7 +39,6 @@ class Client:
         self.state = {}
         self.texts = []
         self.beat_at = 0.0
-        self.origin = None
 
     def pump(self):
         """Takes in everything that has arrived."""
@@ -80,8 +80,17 @@ class Client:
 
     def here(self):
         """Position in metres east, north, up of the job's origin, and heading in radians."""
-        p = self.state["LOCAL_POSITION_NED"]
-        return (p.y, p.x, -p.z), self.state["ATTITUDE"].yaw
+        p, (east, north, up) = self.state["LOCAL_POSITION_NED"], self.local_origin()
+        return (east + p.y, north + p.x, up - p.z), self.state["ATTITUDE"].yaw
+
+    def ask_origin(self):
+        """Asks for GPS_GLOBAL_ORIGIN: an ArduPilot does not say it by itself."""
+        self.link.mav.command_long_send(self.link.target_system, 1, M.MAV_CMD_REQUEST_MESSAGE, 0, M.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN, 0, 0, 0, 0, 0, 0)
+
+    def local_origin(self):
+        """Where the vehicle's local frame has its origin, metres east, north, up of the job's origin."""
+        o = self.state["GPS_GLOBAL_ORIGIN"]
+        return handpilot.local_origin("two-bridges", o.latitude * 1e-7, o.longitude * 1e-7, o.altitude * 1e-3)
 
     def sticks(self, axes):
         """One MANUAL_CONTROL."""
@@ -110,7 +119,7 @@ def test_wire_pymavlink_flies_the_first_task_and_is_scored(flight, job):
     client = Client(flight.client_port)
     prearm = M.MAV_SYS_STATUS_PREARM_CHECK
     client.wait("ready", lambda: (s := client.state.get("SYS_STATUS")) and s.onboard_control_sensors_health & prearm)
-    client.wait("position", lambda: "LOCAL_POSITION_NED" in client.state and "ATTITUDE" in client.state)
+    client.wait("position", lambda: {"LOCAL_POSITION_NED", "ATTITUDE", "GPS_GLOBAL_ORIGIN"} <= client.state.keys() or client.ask_origin())
     pad, _ = client.here()
     plan = handpilot.first_task_plan(job, pad)
     defect = plan["defect"]["position_enu_m"]

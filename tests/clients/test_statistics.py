@@ -29,20 +29,21 @@ def made_up_record(random, trainee, number):
     conformity, efficiency, safety, accuracy = (float(x) for x in random.uniform(20, 100, 4))
     nothing = {"bridge": 0, "terrain": 0, "water": 0, "other": 0, "vehicle": 0, "person": 0}
     task = lambda id, kind: {
-        "id": id, "name": kind, "kind": kind, "attempted": True, "seconds": 100.0, "on_path": float(random.uniform()), "speeding": 0.1,
+        "id": id, "name": kind, "kind": kind, "attempted": True, "state": "done", "covered": 1.0, "seconds": 100.0, "on_path": float(random.uniform()), "speeding": 0.1,
         "speeding_s": 2.0, "fastest_m_s": 4.0, "off_path_s": 1.0, "off_sideways_m": None, "off_height_m": None, "crashes": nothing,
         "defects_placed": 0, "defects_found": 0,
     }
     keys = ["time_pressure", "frustration", "feedback"]
     keys += [f"{phase}.{aspect}" for phase in PHASES for aspect in ("performance", "mental_demand", "physical_demand")]
     return {
-        "format": 1, "id": f"{trainee}-{number}", "fingerprint": f"{trainee}-{number}", "trainee": trainee,
+        "format": 2, "id": f"{trainee}-{number}", "fingerprint": f"{trainee}-{number}", "trainee": trainee,
         "started_unix_us": 1_700_000_000_000_000 + number, "spandrel_version": "0.1.0", "scorer_version": 1, "scenario": "two-bridges",
         "scenario_sha256": "", "vehicle": "phantom2", "vehicle_sha256": "", "telemetry_sha256": "", "seed": 7,
         "scores": {
             "conformity": conformity, "efficiency": efficiency, "safety": safety, "accuracy": accuracy,
             "overall": conformity + efficiency + safety + accuracy, "overall_max": 400.0,
         },
+        "completion": {"complete": True, "tasks_done": 4, "tasks": 4, "path_share": 1.0, "landed_at_home": True, "done_share": 0.8},
         "tasks": [task(k + 1, kind) for k, kind in enumerate(TASKS)], "crashes_outside": nothing, "defects": [], "snapshots": 3, "hits": 1,
         "end_reason": "landed", "seconds": 700.0, "battery_failed": False, "battery_at_end_pct": 50.0, "covered": 1.0, "certified": False,
         "answers": {"language": "en", "answers": {key: int(random.integers(1, 6)) for key in keys}},
@@ -194,3 +195,23 @@ def test_val_the_paired_test_that_the_paper_prints(tmp_path):
     test = next(one for one in cohort["tests"] if one["score"] == "conformity")
     assert round(test["t"], 3) == 2.609
     assert [round(test["p"][tail], 4) for tail in ("upper", "lower", "two")] == [0.0175, 0.9825, 0.0350]
+
+
+def test_regress_incomplete_sessions_are_left_out_and_counted(tmp_path):
+    """An abort is nobody's first session; asked for, it is."""
+    random = np.random.default_rng(9)
+    records = [made_up_record(random, trainee, n) for trainee in ("anna", "ben") for n in range(2)]
+    broken_off = records[0]
+    broken_off["completion"] |= {"complete": False, "tasks_done": 1, "path_share": 0.31, "landed_at_home": False}
+    broken_off["end_reason"] = "abort"
+    path = tmp_path / "records.jsonl"
+    path.write_text("".join(json.dumps(record) + "\n" for record in records), encoding="utf-8")
+    ask = lambda *more: json.loads(spandrel.run("cohort", "--records", str(path), "--repetitions", "1", "--json", "-", *more))
+    without, asked = ask(), ask("--include-incomplete")
+    assert (without["sessions"], without["left_out"]) == (3, 1) and (asked["sessions"], asked["left_out"]) == (4, 0)
+    first = lambda cohort: next(one["session"] for one in cohort["individuals"] if one["trainee"] == "anna")
+    assert (first(without), first(asked)) == ("anna-1", "anna-0")
+    said = spandrel.run("cohort", "--records", str(path), "--repetitions", "1")
+    assert "1 incomplete session left out (--include-incomplete counts them)" in said, said
+    plan = lambda *more: json.loads(spandrel.run("plan", "anna", "--records", str(path), "--json", *more))
+    assert (plan()["session"], plan()["left_out"]) == ("anna-1", 1) and plan("--include-incomplete")["left_out"] == 0

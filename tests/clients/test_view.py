@@ -142,6 +142,10 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
 
     refused = view(blind)
     assert refused.returncode == 1 and refused.stderr.count("no display") == 1, refused.stderr
+    # What a person can act on, and no place in a library's source code.
+    assert "neither DISPLAY nor WAYLAND_DISPLAY is set" in refused.stderr and ".rs" not in refused.stderr, refused.stderr
+    refused = view(blind | {"DISPLAY": ":4711"})
+    assert refused.returncode == 1 and "DISPLAY=:4711 cannot be opened" in refused.stderr and ".rs" not in refused.stderr, refused.stderr
     refused = view(screen.environment() | {"VK_DRIVER_FILES": str(tmp_path / "none.json")})
     assert refused.returncode == 1 and "no Vulkan" in refused.stderr and "mesa-vulkan-drivers" in refused.stderr, refused.stderr
     keys = tmp_path / "keys.toml"

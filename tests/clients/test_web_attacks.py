@@ -281,7 +281,8 @@ def test_a_flood_of_logins_waits(sessions):
 
         with concurrent.futures.ThreadPoolExecutor(16) as pool:
             flood = list(pool.map(one, range(60)))
-        assert set(flood) == {403, 429} and flood.count(403) <= 20
+        # 503: more at once than the queue for hashing holds.
+        assert {403} < set(flood) <= {403, 429, 503} and flood.count(403) <= 20
     finally:
         server.close()
 

@@ -5,8 +5,9 @@ use spandrel::base::time::{Schedule, SimTime};
 use spandrel::scenario::{BatteryModel, Rules, Scenario};
 use spandrel::site::Site;
 use spandrel::sitl::autopilot::{Autopilot, CONTROL_HZ, Landed, Mode, Outcome, Request, Sticks, Tuning};
+use spandrel::sitl::faults::Faults;
 use spandrel::sitl::physics::{Actuators, Air, Load, Model, State};
-use spandrel::sitl::sensors::{BatteryReading, Sensors, Truth};
+use spandrel::sitl::sensors::{BatteryReading, Readings, Sensors, Truth};
 use spandrel::vehicle::Vehicle;
 use std::path::Path;
 
@@ -41,6 +42,10 @@ pub struct Bench {
     pub jammed: bool,
     /// The flow sensor sees nothing.
     pub dark: bool,
+    /// Changes what the sensors read.
+    pub tamper: Option<fn(&mut Readings, SimTime)>,
+    /// What an instructor breaks.
+    pub faults: Faults,
     control: Schedule,
     stick_clock: Schedule,
 }
@@ -66,6 +71,8 @@ impl Bench {
             actuators: Actuators::default(),
             jammed: false,
             dark: false,
+            faults: Faults::new(seed),
+            tamper: None,
             control: Schedule::new(SimTime::ZERO, CONTROL_HZ),
             stick_clock: Schedule::new(SimTime::ZERO, 25.0),
         }
@@ -86,6 +93,10 @@ impl Bench {
                 let mut readings = self.sensors.sample(&truth, &self.site, self.now);
                 readings.gnss = readings.gnss.filter(|_| !self.jammed);
                 readings.flow = readings.flow.filter(|_| !self.dark);
+                if let Some(tamper) = self.tamper {
+                    tamper(&mut readings, self.now);
+                }
+                self.faults.spoil(&mut readings, self.now);
                 self.actuators = self.autopilot.step(&readings, self.now);
             }
             let load = Load { lamp_on: false, airborne: true };

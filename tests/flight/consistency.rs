@@ -5,7 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use spandrel::base::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel::base::geodesy::Geo;
 use spandrel::base::math;
+use spandrel::base::random::RandomStream;
 use spandrel::base::time::SimTime;
+use spandrel::sitl::autopilot::estimator::align::ROCKING_SHARE;
 use spandrel::sitl::autopilot::estimator::covariance::{P, THETA, V};
 use spandrel::sitl::autopilot::estimator::{Estimator, Truth};
 use spandrel::sitl::physics::{MAX_ROTORS, RigidState};
@@ -24,9 +26,10 @@ fn velocity(t: f64) -> Vec3<Ned> {
     Vec3::new(4.0 * a, 3.0 * b, -1.5 * c)
 }
 
-fn rates(t: f64) -> Vec3<Frd> {
+/// Turning: on its feet the body rocks as much as alignment allows for.
+fn rates(t: f64, rocking_rad_s: Vec3<Frd>) -> Vec3<Frd> {
     if t < 1.0 {
-        return Vec3::zero();
+        return rocking_rad_s;
     }
     Vec3::new(0.35 * math::cos(0.7 * t), 0.25 * math::cos(0.9 * t), 0.3 * math::sin(0.2 * t))
 }
@@ -51,6 +54,7 @@ struct Run {
     sensors: Sensors,
     filter: Estimator,
     site: Shadow,
+    rocking_rad_s: Vec3<Frd>,
     now: SimTime,
 }
 
@@ -70,8 +74,10 @@ impl Run {
             rates_rad_s: Vec3::zero(),
             rotor_rad_s: [0.0; MAX_ROTORS],
         };
+        let [x, y, z] = RandomStream::new(seed, "rocking").normal3();
         Self {
             rigid,
+            rocking_rad_s: Vec3::new(x, y, z) * (ROCKING_SHARE * vehicle.sensors.gyro_bias_rad_s),
             sensors: Sensors::new(vehicle, true, ORIGIN, seed),
             filter: Estimator::new(&vehicle.sensors, ORIGIN),
             site,
@@ -83,11 +89,11 @@ impl Run {
         let dt = SimTime::from_ns(TICK.ns() / SUBSTEPS);
         for _ in 0..SUBSTEPS {
             let (a, b) = (velocity(self.now.s()), velocity((self.now + dt).s()));
-            let mid = self.rigid.attitude.turned_by(rates(self.now.s()) * (0.5 * dt.s()));
+            let mid = self.rigid.attitude.turned_by(rates(self.now.s(), self.rocking_rad_s) * (0.5 * dt.s()));
             let felt = mid.inverse() * ((b - a) / dt.s() - Vec3::new(0.0, 0.0, math::GRAVITY_M_S2));
             self.rigid.position_m += (a + b) * (0.5 * dt.s());
             self.rigid.velocity_m_s = b;
-            self.rigid.rates_rad_s = rates(self.now.s());
+            self.rigid.rates_rad_s = rates(self.now.s(), self.rocking_rad_s);
             self.rigid.attitude = self.rigid.attitude.turned_by(self.rigid.rates_rad_s * dt.s());
             self.sensors.feel(&self.rigid, felt, dt);
             self.now += dt;

@@ -5,3 +5,10 @@ mod bench;
 mod consistency;
 mod emergencies;
 mod manoeuvres;
+mod missions;
+mod rules;
+#[path = "../wire/station.rs"]
+#[expect(dead_code, reason = "only commands and texts are used here")]
+mod station;
+mod stuck;
+mod winds;

@@ -303,7 +303,7 @@ fn exact_a_simulator_started_anew_in_flight_ends_the_session_and_keeps_what_was_
     let again = clean_flight();
     tape.datagrams.extend(again.datagrams);
     let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
-    timeline.push_log(&tape.log(0));
+    timeline.push_log(&tape.log(0)).unwrap();
     assert_eq!((timeline.epochs(), timeline.counts().restarts), (2, 1));
     let flown_before = [0, 1].map(|epoch| timeline.passed(epoch).ms());
     assert_eq!(flown_before, [0, i64::from(flown)]);

@@ -84,6 +84,35 @@ fn exact_a_short_swerve_and_a_far_away_drone_are_not_off_path() {
 }
 
 #[test]
+fn regress_who_comes_to_a_task_or_leaves_it_by_its_end_is_not_off_path() {
+    // The path leads from 10 to 60 m east, its threshold is 3 m.
+    let mut watch = Watch::airborne();
+    watch.tape.fly((-20.0, 20.0, 10.0), 4.0);
+    watch.tape.fly((30.0, 20.0, 10.0), 8.0);
+    watch.tape.fly((30.0, 0.0, 10.0), 1.0);
+    watch.tape.fly((60.0, 0.0, 10.0), 4.0);
+    watch.tape.fly((80.0, 0.0, 10.0), 1.0);
+    assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
+    // Left for good: passing by on the way home brings no cue either.
+    watch.tape.fly((70.0, 6.0, 10.0), 4.0);
+    watch.tape.fly((0.0, 6.0, 10.0), 4.0);
+    assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
+}
+
+#[test]
+fn regress_who_stays_beside_the_end_or_strays_from_the_middle_is_off_path() {
+    for (from_m, to_m) in [((60.0, 0.0), (64.0, 0.0)), ((40.0, 0.0), (40.0, 4.0))] {
+        let mut watch = Watch::airborne();
+        watch.tape.fly((30.0, 0.0, 10.0), 4.0);
+        watch.tape.fly((from_m.0, from_m.1, 10.0), 4.0);
+        watch.tape.fly((to_m.0, to_m.1, 10.0), 4.0);
+        watch.tape.hold(3.0);
+        watch.run();
+        assert!(watch.has(cue::OFF_PATH), "{to_m:?}");
+    }
+}
+
+#[test]
 fn exact_too_close_comes_at_2_5_and_clears_at_2_8() {
     let mut watch = Watch::airborne();
     for (metres, on) in [(3.0, false), (2.6, false), (2.4, true), (2.6, true), (2.79, true), (2.81, false), (2.6, false)] {
@@ -110,6 +139,22 @@ fn exact_a_tasks_own_distance_holds_on_its_path() {
 }
 
 #[test]
+fn regress_a_tasks_own_distance_holds_on_the_way_into_it() {
+    let mut scenario = one_task();
+    scenario.tasks[0].too_close_m = Some(1.0);
+    let mut watch = Watch::of(scenario);
+    watch.tape.fly((30.0, 20.0, 10.0), 8.0);
+    watch.tape.fly((30.0, 6.0, 10.0), 4.0);
+    watch.tape.clearance(1.5);
+    watch.tape.hold(0.1);
+    watch.run();
+    assert!(!watch.has(cue::TOO_CLOSE));
+    watch.tape.fly((30.0, 12.0, 10.0), 4.0);
+    watch.run();
+    assert!(watch.has(cue::TOO_CLOSE), "out of the task's reach the job's distance holds");
+}
+
+#[test]
 fn exact_the_ground_is_not_too_close_before_lift_off() {
     let mut watch = Watch { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
     watch.tape.clearance(0.5);
@@ -127,7 +172,7 @@ fn exact_speeding_is_said_on_the_path_and_not_far_from_it() {
     watch.tape.fly((40.0, 0.0, 10.0), 6.0);
     watch.run();
     assert!(watch.has(cue::SPEEDING));
-    assert_eq!(watch.texts.last().unwrap(), "Too fast: 6.0 m/s, limit 4.5");
+    assert_eq!(watch.texts.last().unwrap(), "Too fast: 13 mph, limit 10 mph");
     watch.tape.hold(1.0);
     watch.run();
     assert!(!watch.has(cue::SPEEDING));

@@ -12,7 +12,11 @@ fn grade(datagrams: &[Vec<u8>]) -> Graded {
 }
 
 fn busy_flight() -> Tape {
-    let mut tape = Tape::new();
+    busy_flight_at(0)
+}
+
+fn busy_flight_at(epoch_ms: u64) -> Tape {
+    let mut tape = Tape::starting_at(epoch_ms, &scenario(Vec::new()));
     tape.fly((0.0, 0.0, 10.0), 2.0);
     for k in 0..10 {
         tape.fly((5.0 * f64::from(k), 0.0, 10.0), 4.0);
@@ -35,6 +39,30 @@ fn counts(datagrams: &[Vec<u8>]) -> spandrel::telemetry::timeline::LinkCounts {
         timeline.push(datagram);
     });
     timeline.counts()
+}
+
+/// Simulation time at which clocks of 32-bit milliseconds start again.
+const WRAP_MS: u64 = 1 << 32;
+
+#[test]
+fn regress_a_flight_across_the_end_of_32_bit_milliseconds_is_the_same_flight() {
+    let epoch_ms = WRAP_MS - 10_000;
+    let flights = [0, epoch_ms].map(|epoch_ms| {
+        let tape = busy_flight_at(epoch_ms);
+        assert!(tape.now_ms > 20_000, "the clock starts again on the way");
+        let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
+        tape.datagrams.iter().for_each(|datagram| {
+            timeline.push(datagram);
+        });
+        let flight = timeline.flight(0);
+        let ms = |times: Vec<i64>| -> Vec<i64> { times.into_iter().map(|ms| ms - epoch_ms.cast_signed()).collect() };
+        let pictures = ms(flight.snapshots.all().iter().map(|picture| picture.0.ms()).collect());
+        let lamp = ms(flight.light.all().iter().map(|lamp| lamp.0.ms()).collect());
+        let sticks = ms(flight.sticks.all().iter().map(|sticks| sticks.0.ms()).collect());
+        (pictures, lamp, sticks, timeline.epochs())
+    });
+    assert_eq!(flights[0].0.len(), 10, "every picture once");
+    assert_eq!(flights[1], flights[0]);
 }
 
 #[test]

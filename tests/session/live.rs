@@ -84,6 +84,59 @@ fn exact_stamps_are_session_start_plus_simulation_time() {
     assert_eq!(spandrel::telemetry::tlog::session_start_us(&log), Some(START_US));
 }
 
+/// A vehicle that has been up for an hour: what it does now is stamped with now, and not with an hour later.
+#[test]
+fn regress_stamps_of_a_monitor_that_joins_late_begin_at_the_sessions_start() {
+    let mut tape = Tape::new();
+    tape.hold(62.0);
+    let late = tape.datagrams.len() * 30 / 31;
+    let mut monitor = monitor_of(one_task());
+    tape.datagrams[late..].iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    let (mut log, _) = written(&mut monitor);
+    let stamps = |log: &[u8]| -> Vec<u64> { spandrel::telemetry::tlog::Reader::new(log).map(|record| record.stamp_us).collect() };
+    let (first, last) = (stamps(&log)[0], *stamps(&log).last().unwrap());
+    assert_eq!(first, START_US);
+    assert!((START_US + 1_900_000..=START_US + 2_100_000).contains(&last), "{} us", last - START_US);
+    let zero = spandrel::telemetry::tlog::simulation_zero_us(&log).unwrap();
+    assert!((59_900_000..=60_100_000).contains(&(START_US - zero)), "{} us", START_US - zero);
+    assert_eq!(monitor.session_info(b"", b"", String::new(), 1).started_unix_us, START_US);
+    // One that was killed goes on with the same clock.
+    let mut second = Monitor::resume(config(one_task()), &log).unwrap();
+    let mut more = Tape::new();
+    more.hold(65.0);
+    let rest = more.datagrams.len() * 63 / 65;
+    more.datagrams[rest..].iter().for_each(|datagram| second.handle_datagram(datagram));
+    log = written(&mut second).0;
+    let last = *stamps(&log).last().unwrap();
+    assert!((START_US + 4_900_000..=START_US + 5_100_000).contains(&last), "{} us", last - START_US);
+}
+
+/// Any datagram made its sender the vehicle; now it takes the autopilot's frames, and those of the system whose flight is scored.
+#[test]
+fn regress_the_monitor_belongs_to_one_vehicle() {
+    let beat = |system: u8, component: u8, autopilot| {
+        let body = HEARTBEAT_DATA { autopilot, ..HEARTBEAT_DATA::default() };
+        Encoder::new(system, component).encode(&MavMessage::HEARTBEAT(body))
+    };
+    let (px4, none) = (MavAutopilot::MAV_AUTOPILOT_PX4, MavAutopilot::MAV_AUTOPILOT_INVALID);
+    let mut monitor = monitor_of(one_task());
+    for stranger in [vec![], vec![0xFD], vec![7; 60], beat(255, 190, none), beat(1, 191, none), beat(1, 1, none)] {
+        assert!(!monitor.is_from_vehicle(&stranger), "{stranger:?}");
+    }
+    assert!(monitor.is_from_vehicle(&beat(1, 1, px4)) && monitor.is_from_vehicle(&beat(9, 1, px4)));
+    let mut tape = Tape::new();
+    tape.hold(2.0);
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    assert!(monitor.is_from_vehicle(&beat(1, 1, px4)) && !monitor.is_from_vehicle(&beat(9, 1, px4)));
+    // Another vehicle's heartbeat, handed on to us, does not make us one of its components: `sent` looks at the sender's ids.
+    sent(&mut monitor);
+    monitor.handle_datagram(&beat(9, 1, px4));
+    tape.datagrams.clear();
+    tape.hold(1.5);
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    assert!(!sent(&mut monitor).is_empty());
+}
+
 #[test]
 fn exact_stamps_go_on_rising_after_the_simulator_starts_anew() {
     let mut monitor = monitor_of(one_task());
@@ -107,7 +160,7 @@ fn exact_a_killed_monitor_goes_on_where_its_log_stops() {
     let (mut log, _) = written(&mut first);
     log.truncate(log.len() - 5);
     log.truncate(spandrel::telemetry::tlog::whole_len(&log));
-    let mut second = Monitor::resume(config(one_task()), &log);
+    let mut second = Monitor::resume(config(one_task()), &log).unwrap();
     assert!(second.flown().is_some());
     tape.datagrams[half..].iter().for_each(|datagram| second.handle_datagram(datagram));
     let outcome = second.finished().expect("landed").clone().unwrap();

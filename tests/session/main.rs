@@ -1,5 +1,6 @@
 //! Whole sessions from datagrams alone: frames, measures, ends, the live monitor and its replay.
 
+mod completion;
 mod cut;
 mod feedback;
 mod hostile;
@@ -10,6 +11,7 @@ mod job;
 mod link;
 mod live;
 mod output;
+mod pieces;
 mod records;
 mod report;
 mod shipped;

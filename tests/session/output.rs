@@ -22,13 +22,18 @@ fn exact_the_assessment_has_the_names_of_the_design() {
     let value = serde_json::to_value(&grade(&tape, &one_task()).assessment).unwrap();
     assert_eq!(
         keys(&value),
-        ["profile", "scores", "tasks", "crashes", "snapshots", "end", "telemetry", "flown_by", "certification"]
+        ["profile", "scores", "completion", "tasks", "crashes", "snapshots", "end", "telemetry", "flown_by", "certification"]
     );
     assert_eq!(value["profile"], "paper");
     check_keys(&value["scores"], &["conformity", "efficiency", "safety", "accuracy", "overall"]);
     assert_eq!(keys(&value["scores"]["conformity"]), ["raw", "pct"]);
     assert!(value["scores"]["overall"].is_number());
-    assert_eq!(keys(&value["tasks"][0]), ["id", "attempted", "first_frame", "last_frame", "on_path", "speeding"]);
+    assert_eq!(
+        keys(&value["tasks"][0]),
+        ["id", "attempted", "state", "covered", "first_frame", "last_frame", "on_path", "speeding"]
+    );
+    let completion = ["complete", "tasks_done", "tasks", "path_share", "landed_at_home", "done_share"];
+    assert_eq!(keys(&value["completion"]), completion);
     assert_eq!(keys(&value["crashes"]), ["other", "person", "vehicle", "by_task"]);
     assert_eq!(keys(&value["crashes"]["by_task"]), ["1", "outside"]);
     let snapshots = ["taken", "hits", "defects_found", "defects_placed", "precision", "recall", "f_beta"];

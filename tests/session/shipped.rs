@@ -101,3 +101,48 @@ fn flight_the_shipped_jobs_paths_flown_to_the_letter_are_worth_full_conformity()
     assert_eq!(assessment.scores.efficiency.pct, 100.0);
     assert_eq!(assessment.end.reason, spandrel::monitor::session::EndReason::Landed);
 }
+
+#[test]
+fn regress_defects_are_placed_on_free_tasks_at_a_bridge() {
+    let (mut scenario, _) = shipped();
+    // The slab's path written point by point: nothing names the bridge, and nobody says where to look.
+    let mut free = scenario.tasks[0].clone();
+    (free.kind, free.bridge, free.look) =
+        (spandrel::scenario::TaskKind::Free, None, vec![Vec3::new(1.0, 0.0, 0.0); free.path_m.len()]);
+    scenario.tasks = vec![free];
+    scenario.defects.count = 4;
+    for seed in 1..=3 {
+        let site = build_site(&scenario, seed);
+        assert_eq!(site.defects().len(), 4, "seed {seed}");
+        assert!(
+            site.defects().iter().all(|defect| scenario.bridges.iter().any(|bridge| defect.member.starts_with(&bridge.name)))
+        );
+    }
+}
+
+#[test]
+fn regress_numbers_that_decide_are_shown_with_the_digits_that_decide() {
+    let view = spandrel::site::DefectView {
+        defect_id: 1,
+        in_frame: true,
+        unoccluded: true,
+        incidence_rad: 60.3_f64.to_radians(),
+        extent_px: 9.96,
+        width_px: 0.498,
+        illuminance_lux: 49.7,
+        needed_lux: 50.0,
+        distance_m: 3.0,
+        hit: false,
+        lamp_on: true,
+        line: true,
+    };
+    assert_eq!(
+        view.reasons(),
+        [
+            "too oblique: 60.3 deg, limit 60 deg",
+            "too small: 9.96 px, at least 10 px",
+            "line too thin: 0.498 px, at least 0.5 px",
+            "too dark: lamp on, 49.7 lx of 50 lx needed",
+        ]
+    );
+}

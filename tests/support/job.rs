@@ -99,6 +99,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             time_max_s: 1500.0,
             beta: 1.0,
             exact_path: false,
+            task_done_share: 0.8,
             clearance_m: 2.0,
         },
         crc: CRC,
@@ -253,7 +254,9 @@ pub struct Tape {
     encoder: Encoder,
     /// What was sent.
     pub datagrams: Vec<Vec<u8>>,
-    /// Time of the last truth, ms.
+    /// What the simulator's clock showed at the beginning, ms.
+    epoch_ms: u64,
+    /// Time of the last truth since then, ms.
     pub now_ms: u32,
     /// Where the last truth was.
     pub at_m: Vec3<Enu>,
@@ -269,9 +272,15 @@ impl Tape {
 
     /// The same in any job.
     pub fn of(job: &Scenario) -> Self {
+        Self::starting_at(0, job)
+    }
+
+    /// The same of a simulator that has run so long, ms.
+    pub fn starting_at(epoch_ms: u64, job: &Scenario) -> Self {
         let plane = LocalPlane::new(job.origin);
         let at_m = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 0.15);
-        let mut tape = Self { plane, encoder: Encoder::new(1, 1), datagrams: Vec::new(), now_ms: 0, at_m, yaw_rad: 0.0 };
+        let mut tape =
+            Self { plane, encoder: Encoder::new(1, 1), datagrams: Vec::new(), epoch_ms, now_ms: 0, at_m, yaw_rad: 0.0 };
         tape.truth(Vec3::zero());
         tape.int("seed", SEED as i32);
         tape.int("scn_crc", job.crc as i32);
@@ -283,6 +292,11 @@ impl Tape {
         tape
     }
 
+    /// The clock of 32-bit milliseconds.
+    fn clock_ms(&self) -> u32 {
+        (self.epoch_ms + u64::from(self.now_ms)) as u32
+    }
+
     pub fn send(&mut self, message: &MavMessage) {
         self.datagrams.push(self.encoder.encode(message));
     }
@@ -291,7 +305,7 @@ impl Tape {
         let geo = self.plane.geo_from_enu(self.at_m);
         let [e, n, u] = velocity.array().map(|v| (v * 100.0).round() as i16);
         self.send(&MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
-            time_usec: u64::from(self.now_ms) * 1000,
+            time_usec: (self.epoch_ms + u64::from(self.now_ms)) * 1000,
             attitude_quaternion: quaternion(0.0, self.yaw_rad),
             lat: (geo.latitude_deg * 1e7).round() as i32,
             lon: (geo.longitude_deg * 1e7).round() as i32,
@@ -304,7 +318,7 @@ impl Tape {
     }
 
     pub fn int(&mut self, name: &str, value: i32) {
-        let time_boot_ms = self.now_ms;
+        let time_boot_ms = self.clock_ms();
         self.send(&MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms, value, name: name.into() }));
     }
 
@@ -313,7 +327,7 @@ impl Tape {
     }
 
     pub fn clearance(&mut self, metres: f32) {
-        let time_boot_ms = self.now_ms;
+        let time_boot_ms = self.clock_ms();
         let name = "clearance".into();
         self.send(&MavMessage::NAMED_VALUE_FLOAT(NAMED_VALUE_FLOAT_DATA { time_boot_ms, value: metres, name }));
     }
@@ -333,26 +347,27 @@ impl Tape {
     }
 
     pub fn lamp(&mut self, on: bool) {
-        let lamp = ILLUMINATOR_STATUS_DATA { uptime_ms: self.now_ms, enable: u8::from(on), ..ILLUMINATOR_STATUS_DATA::default() };
+        let lamp =
+            ILLUMINATOR_STATUS_DATA { uptime_ms: self.clock_ms(), enable: u8::from(on), ..ILLUMINATOR_STATUS_DATA::default() };
         self.send(&MavMessage::ILLUMINATOR_STATUS(lamp));
     }
 
     /// Points the gimbal, rad over the horizon.
     pub fn gimbal(&mut self, pitch_rad: f64) {
         self.send(&MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(GIMBAL_DEVICE_ATTITUDE_STATUS_DATA {
-            time_boot_ms: self.now_ms,
+            time_boot_ms: self.clock_ms(),
             q: quaternion(pitch_rad, 0.0),
             ..GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::default()
         }));
     }
 
     pub fn field_of_view(&mut self, hfov_deg: f32) {
-        let time_boot_ms = self.now_ms;
+        let time_boot_ms = self.clock_ms();
         self.send(&MavMessage::CAMERA_FOV_STATUS(CAMERA_FOV_STATUS_DATA { time_boot_ms, hfov: hfov_deg, ..Default::default() }));
     }
 
     pub fn snapshot(&mut self, index: i32) {
-        self.snapshot_at(index, self.now_ms);
+        self.snapshot_at(index, self.clock_ms());
     }
 
     pub fn snapshot_at(&mut self, index: i32, time_boot_ms: u32) {
@@ -394,7 +409,7 @@ impl Tape {
     fn sticks(&mut self) {
         let forward = 1500 + (self.now_ms / 20 % 100) as u16;
         self.send(&MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {
-            time_boot_ms: self.now_ms,
+            time_boot_ms: self.clock_ms(),
             chan1_raw: 1500,
             chan2_raw: forward,
             chan3_raw: 1500,

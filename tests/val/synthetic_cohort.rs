@@ -3,7 +3,7 @@
 
 use spandrel::training::cohort::{Cohort, Selection, cohort, tables};
 use spandrel::training::plan::{RULES, plan, read_rules};
-use spandrel::training::record::Record;
+use spandrel::training::record::{Incomplete, Record};
 
 const RECORDS: &str = include_str!("../../examples/cohort/records.jsonl");
 /// Off the path or over the speed limit for a larger share of the time, or a crash, is not holding the interlayer (the shipped limits).
@@ -15,7 +15,7 @@ fn records() -> Vec<Record> {
 }
 
 fn study() -> Cohort {
-    cohort(&records(), &Selection { scenarios: Vec::new(), repetitions: 3 })
+    cohort(&records(), &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: Incomplete::Include })
 }
 
 #[test]

@@ -128,12 +128,6 @@ fn jpeg(picture: &Picture) -> Vec<u8> {
     bytes
 }
 
-/// A picture from its file, in another size.
-pub fn resized(path: &Path, (width, height): (u32, u32)) -> Picture {
-    let small = image::open(path).unwrap().resize_exact(width, height, image::imageops::FilterType::Triangle).to_rgba8();
-    Picture { width, height, rgba: small.into_raw() }
-}
-
 fn load(path: &Path) -> Result<Picture, image::ImageError> {
     let read = image::open(path)?.to_rgba8();
     Ok(Picture { width: read.width(), height: read.height(), rgba: read.into_raw() })

@@ -1,6 +1,6 @@
 //! The pictures that a stranger should be able to name, held against committed ones.
 
-use super::compare::{Difference, beside, committed, held, held_at, resized};
+use super::compare::{Difference, beside, held, held_at};
 use super::studio::{Studio, at, dusk, sunny};
 use spandrel::base::frames::{Enu, Vec3};
 use spandrel::base::math;
@@ -23,6 +23,11 @@ const VIEW: (u32, u32) = (640, 360);
 const CLOSE: (u32, u32) = (320, 240);
 /// Its fields of view at 1 and 3 m, where what is half a metre wide stays in the picture; at 8 m it is a piece of the camera's, pixel by pixel.
 const CLOSE_DEG: [f64; 2] = [30.0, 15.0];
+
+/// Size of each of the tutorial's pictures of a defect, px, and the field of view of the one lens that takes them all: at 1 m it just holds half a
+/// metre.
+const TUTORIAL: (u32, u32) = (240, 180);
+const TUTORIAL_DEG: f64 = 30.0;
 
 /// Collects what is wrong, so that one run tells of every picture.
 #[derive(Default)]
@@ -149,10 +154,39 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
     }
 }
 
+/// Shows a defect in the light of its place, and no other.
+fn hang_patch(studio: &mut Studio, defect: &PlacedDefect) {
+    let light = spandrel::site::light::spread(64);
+    let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
+    let sun = studio.site.light().daylight(studio.at).sun;
+    let (sky, bounced) = studio.site.light().indirect_shares(defect.position_m, defect.normal, sun, &light, &cast);
+    let patches = [patch(defect, [sky as f32, bounced as f32])];
+    let (gpu, renderer) = studio.renderer();
+    renderer.set_patches(gpu, &patches);
+}
+
+/// A defect from a distance along its normal, a little from aside and below.
+fn close_up(studio: &mut Studio, defect: &PlacedDefect, distance_m: f64, hfov_deg: f64, size: (u32, u32)) -> Picture {
+    let aside = Vec3::new(0.0, 0.0, 1.0).cross(defect.normal).unit();
+    let out = (defect.normal + aside * 0.25 - Vec3::new(0.0, 0.0, 0.12)).unit();
+    let shot = studio.seen(defect.position_m + out * distance_m, defect.position_m, hfov_deg, false, size);
+    studio.draw(&shot)
+}
+
+/// A sight line to a wall of the arch bridge, from the lake.
+fn wall_at() -> (Vec3<Enu>, Vec3<Enu>) {
+    (at(-55.0, -15.0, 24.0), at(-55.0, 0.0, 24.0))
+}
+
+/// A sight line to a girder of the suspension bridge.
+fn girder_at() -> (Vec3<Enu>, Vec3<Enu>) {
+    (at(-20.0, 138.0, 12.7), at(-20.0, 150.0, 12.7))
+}
+
 #[test]
 fn regress_defects_at_1_3_and_8_m() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
-    let (wall_at, girder_at) = ((at(-55.0, -15.0, 24.0), at(-55.0, 0.0, 24.0)), (at(-20.0, 138.0, 12.7), at(-20.0, 150.0, 12.7)));
+    let (wall_at, girder_at) = (wall_at(), girder_at());
     let mut wall = Wall::default();
     for (name, sight, kind, size_m, down) in [
         ("crack", wall_at, catalogue::CRACK, (0.9, 0.003), true),
@@ -165,34 +199,32 @@ fn regress_defects_at_1_3_and_8_m() {
         ("missing-bolts", girder_at, catalogue::CONNECTION, (0.30, 0.16), false),
     ] {
         let defect = placed(&studio, sight, kind, size_m, down);
-        let light = spandrel::site::light::spread(64);
-        let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
-        let sun = studio.site.light().daylight(studio.at).sun;
-        let (sky, bounced) = studio.site.light().indirect_shares(defect.position_m, defect.normal, sun, &light, &cast);
-        let patches = [patch(&defect, [sky as f32, bounced as f32])];
-        let (gpu, renderer) = studio.renderer();
-        renderer.set_patches(gpu, &patches);
-        let aside = Vec3::new(0.0, 0.0, 1.0).cross(defect.normal).unit();
+        hang_patch(&mut studio, &defect);
         let focal_px = studio.vehicle.camera.focal_px();
         let crop_deg = 2.0 * math::atan(0.5 * f64::from(CLOSE.0) / focal_px).to_degrees();
-        let pictures = [(1.0, CLOSE_DEG[0]), (3.0, CLOSE_DEG[1]), (8.0, crop_deg)].map(|(distance_m, hfov_deg)| {
-            let out = (defect.normal + aside * 0.25 - Vec3::new(0.0, 0.0, 0.12)).unit();
-            let shot = studio.seen(defect.position_m + out * distance_m, defect.position_m, hfov_deg, false, CLOSE);
-            studio.draw(&shot)
-        });
+        let pictures = [(1.0, CLOSE_DEG[0]), (3.0, CLOSE_DEG[1]), (8.0, crop_deg)]
+            .map(|(distance_m, hfov_deg)| close_up(&mut studio, &defect, distance_m, hfov_deg, CLOSE));
         wall.hang(&format!("defect-{name}"), &beside(&pictures));
     }
     wall.all_hold();
 }
 
-/// Who learns from the tutorial what a defect looks like meets just that in flight.
+/// The tutorial compares distances: each row is one defect through one lens, so that sizes fall as the distance grows.
 #[test]
-fn regress_the_tutorial_shows_defects_as_they_are_drawn() {
+fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
+    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
     let mut wall = Wall::default();
-    for name in ["crack", "spall", "efflorescence", "corrosion"] {
+    for (name, sight, kind, size_m, down) in [
+        ("crack", wall_at(), catalogue::CRACK, (0.9, 0.003), true),
+        ("spall", wall_at(), catalogue::SPALL, (0.42, 0.30), false),
+        ("efflorescence", wall_at(), catalogue::EFFLORESCENCE, (0.8, 0.42), true),
+        ("corrosion", girder_at(), catalogue::CORROSION, (0.42, 0.3), false),
+    ] {
+        let defect = placed(&studio, sight, kind, size_m, down);
+        hang_patch(&mut studio, &defect);
+        let row = [1.0, 3.0, 8.0].map(|distance_m| close_up(&mut studio, &defect, distance_m, TUTORIAL_DEG, TUTORIAL));
         let taught = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/view/flow/pictures/{name}.jpg"));
-        let drawn = resized(&committed(&format!("defect-{name}")), (720, 180));
-        wall.take(name, held_at(&taught, &format!("tutorial-{name}"), &drawn));
+        wall.take(name, held_at(&taught, &format!("tutorial-{name}"), &beside(&row)));
     }
     wall.all_hold();
 }

@@ -84,9 +84,18 @@ fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
     let orbit = [3.0, 0.5, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(20);
+    let mut unspoken = 0;
     for stream in STREAMS {
         let id = stream.id as f32;
         station.sticks(0, 0, 500, 0);
+        if !stream.is_spoken(&spandrel::sitl::endpoint::flavour::px4::FLAVOUR) {
+            let refused = station.command(stream.component, MavCmd::MAV_CMD_REQUEST_MESSAGE, [id, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            let rate =
+                station.command(stream.component, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id, 5e4, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            assert_eq!((refused, rate), (MavResult::MAV_RESULT_DENIED, MavResult::MAV_RESULT_FAILED), "message {id}");
+            unspoken += 1;
+            continue;
+        }
         let asked = station.command(stream.component, MavCmd::MAV_CMD_REQUEST_MESSAGE, [id, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         assert_eq!(asked, MavResult::MAV_RESULT_ACCEPTED, "message {id}");
         assert!(station.heard.iter().any(|f| f.message_id == stream.id && f.component_id == stream.component), "message {id}");
@@ -116,6 +125,7 @@ fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
         assert_eq!((interval, told), (MavResult::MAV_RESULT_ACCEPTED, Some((stream.id as u16, -1))));
         accepted(&mut station, 0.0);
     }
+    assert_eq!(unspoken, 6, "POWER_STATUS and what only ArduPilot's dialect has");
     let unknown = [9_999.0, 20_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, unknown), MavResult::MAV_RESULT_FAILED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, unknown), MavResult::MAV_RESULT_DENIED);

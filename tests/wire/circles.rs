@@ -173,3 +173,49 @@ fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
     assert!((home_mm(&mut station) - before - 3_000).abs() < 50);
     assert_eq!(set(&mut station, MavFrame::MAV_FRAME_LOCAL_NED, 3.0), MavResult::MAV_RESULT_DENIED);
 }
+
+/// The middle of the circle that is flown, as COMMAND_INT has it.
+fn middle(station: &Station) -> (i32, i32, f32) {
+    station.last(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some((o.x, o.y, o.z)) } else { None }).unwrap()
+}
+
+/// QGroundControl's orbit names no behavior of its own (5, unchanged): a PX4 that is not in an orbit yet turns its nose to the middle.
+#[test]
+fn regress_an_orbit_with_yaw_unchanged_faces_its_middle_and_keeps_what_is_flown() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.sticks(0, 0, 500, 0);
+    let centre = station.place();
+    let orbit = |yaw: f32| [8.0, 2.0, yaw, 0.0, NAN, NAN, NAN];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit(5.0)), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(15_000);
+    let [n, e, _] = std::array::from_fn(|k| station.place()[k] - centre[k]);
+    assert!(off(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
+    // Around the same middle, the nose along the circle (3), then unchanged.
+    let (x, y, z) = middle(&station);
+    for behavior in [3.0, 5.0] {
+        let orbit = COMMAND_INT_DATA {
+            command: MavCmd::MAV_CMD_DO_ORBIT,
+            frame: MavFrame::MAV_FRAME_GLOBAL,
+            param1: 8.0,
+            param2: 2.0,
+            param3: behavior,
+            x,
+            y,
+            z,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        };
+        station.heard.clear();
+        station.send(&MavMessage::COMMAND_INT(orbit));
+        // Streamed at 2 Hz.
+        station.run_ms(1_000);
+        let result = station.last(|m| if let MavMessage::COMMAND_ACK(ack) = m { Some(ack.result) } else { None });
+        assert_eq!(result, Some(MavResult::MAV_RESULT_ACCEPTED));
+        let radius = station.last(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some(o.radius) } else { None });
+        assert_eq!(radius, Some(8.0));
+    }
+    station.run_ms(8_000);
+    let [n, e, _] = std::array::from_fn(|k| station.place()[k] - centre[k]);
+    assert!(off(yaw(&station), n.atan2(-e)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
+}

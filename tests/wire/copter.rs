@@ -48,7 +48,7 @@ pub(super) fn next_beat(station: &mut Station) -> HEARTBEAT_DATA {
 pub(super) fn copter() -> Station {
     let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(2_500);
-    for id in [32.0, 245.0, 65.0] {
+    for id in [32.0, 33.0, 245.0, 65.0] {
         let interval = [id, 50_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, interval), ACCEPTED);
     }

@@ -122,7 +122,7 @@ fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
         station.ask(&MavMessage::MISSION_REQUEST(older), |m| if let MavMessage::MISSION_ITEM(i) = m { Some(i.x) } else { None });
     assert!((f64::from(degrees.unwrap()) - f64::from(items[2].x) * 1e-7).abs() < 1e-5);
     let answer = |m: &MavMessage| match m {
-        MavMessage::MISSION_REQUEST_INT(r) => Some(Ok(r.seq)),
+        MavMessage::MISSION_REQUEST(r) => Some(Ok(r.seq)),
         MavMessage::MISSION_ACK(ack) => Some(Err(ack.mavtype)),
         _ => None,
     };
@@ -158,7 +158,7 @@ fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
         ..Default::default()
     };
     let asked = station.ask(&MavMessage::MISSION_COUNT(fence), |m| match m {
-        MavMessage::MISSION_REQUEST_INT(r) => Some((r.seq, r.mission_type)),
+        MavMessage::MISSION_REQUEST(r) => Some((r.seq, r.mission_type)),
         _ => None,
     });
     assert_eq!(asked, Some((0, MavMissionType::MAV_MISSION_TYPE_FENCE)));

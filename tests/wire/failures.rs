@@ -1,10 +1,11 @@
 //! What an instructor breaks, and what the vehicle makes of it.
 
-use super::station::{Station, scenario};
+use super::station::{Station, p, scenario};
 use spandrel::mav::dialect::*;
 use spandrel::site::gates::Gates;
 use spandrel::site::traffic::CREW_TRUCK;
 use spandrel::site::{Site, Surface};
+use spandrel::sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
 
 const OFF: f32 = 1.0;
 const OK: f32 = 0.0;
@@ -30,6 +31,12 @@ fn set_whole(station: &mut Station, name: &str, value: i32) {
 
 fn set_real(station: &mut Station, name: &str, value: f32) {
     set(station, name, value, MavParamType::MAV_PARAM_TYPE_REAL32);
+}
+
+/// ArduPilot writes whole numbers as floating-point ones, the others bit by bit.
+fn allow_failures(station: &mut Station, flavour: &Flavour) {
+    let one = if flavour.name == ardupilot::FLAVOUR.name { 1.0 } else { f32::from_bits(1) };
+    set(station, "SYS_FAILURE_EN", one, MavParamType::MAV_PARAM_TYPE_INT32);
 }
 
 fn inject(station: &mut Station, unit: f32, kind: f32, instance: f32) -> MavResult {
@@ -152,6 +159,66 @@ fn flight_a_compass_lost_in_the_air_is_told_and_the_hold_goes_on() {
     station.run_ms(20_000);
     let now = station.sim.truth().rigid.position_m;
     assert!((now - before).norm() < 3.0, "{before:?} to {now:?}");
+}
+
+/// Stuck, then whole again, on the ground: announced in the flavour's words, forbidden to arm, and back.
+#[test]
+fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
+    use MavSysStatusSensor as S;
+    const STUCK: f32 = 2.0;
+    const BAROMETER: f32 = 3.0;
+    // s: two seconds of the same value, and SYS_STATUS twice a second.
+    const WITHIN_S: f64 = 4.0;
+    let arm = p(&[1.0]);
+    for (flavour, unit, bit, words) in [
+        (&px4::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "BARO #0 failed: STALE!"),
+        (&px4::FLAVOUR, COMPASS, S::MAV_SYS_STATUS_SENSOR_3D_MAG, "MAG #0 failed: STALE!"),
+        (&px4::FLAVOUR, GNSS, S::MAV_SYS_STATUS_SENSOR_GPS, "GPS #0 failed: STALE!"),
+        (&ardupilot::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Baro 1 not healthy"),
+        (&ardupilot::FLAVOUR, COMPASS, S::MAV_SYS_STATUS_SENSOR_3D_MAG, "Compass 1 not healthy"),
+        (&ardupilot::FLAVOUR, GNSS, S::MAV_SYS_STATUS_SENSOR_GPS, "GPS Glitch or Compass error"),
+        (&generic::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Barometer stuck: not used"),
+    ] {
+        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        // ArduPilot's streams start when they are asked for.
+        station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, p(&[1.0, 500_000.0]));
+        station.run_ms(4_000);
+        allow_failures(&mut station, flavour);
+        station.run_ms(600);
+        assert!(health(&station).unwrap().contains(bit), "{words}");
+        assert_eq!(inject(&mut station, unit, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+        station.heard.clear();
+        let gone = |s: &mut Station| health(s).is_some_and(|now| !now.intersects(bit)) && said(s, words);
+        assert!(station.run_until(WITHIN_S, gone), "{words}: {:?}", station.texts());
+        assert_ne!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED, "{words}");
+        assert_eq!(inject(&mut station, unit, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+        assert!(station.run_until(WITHIN_S, |s| health(s).is_some_and(|now| now.contains(bit))), "{words}");
+    }
+}
+
+/// The flow of issue 16: reposition to 12 m, and the barometer sticks on the way.
+#[test]
+fn regress_a_barometer_stuck_on_the_way_up_is_announced_and_the_height_is_reached() {
+    const STUCK: f32 = 2.0;
+    const BAROMETER: f32 = 3.0;
+    // m: the receiver's height alone is left.
+    const HEIGHT_M: f64 = 2.5;
+    let mut station = holding();
+    let before = station.sim.truth().rigid.position_m.enu();
+    let altitude = station.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt as f32 * 1e-3) } else { None });
+    let up = p(&[-1.0, 1.0, 0.0, f32::NAN, f32::NAN, f32::NAN, altitude.unwrap() + 7.0]);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPOSITION, up), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(1_500);
+    assert_eq!(inject(&mut station, BAROMETER, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    station.heard.clear();
+    assert!(station.run_until(4.0, |s| said(s, "BARO #0 failed: STALE!")), "{:?}", station.texts());
+    for _ in 0..60 {
+        station.run_ms(1_000);
+        let climbed = station.sim.truth().rigid.position_m.enu().up() - before.up();
+        assert!(climbed < 7.0 + HEIGHT_M, "{climbed} m instead of 7");
+    }
+    let climbed = station.sim.truth().rigid.position_m.enu().up() - before.up();
+    assert!((climbed - 7.0).abs() < HEIGHT_M, "{climbed} m instead of 7");
 }
 
 /// One rotor less: it cannot be held level, turns, and says so before it has fallen.

@@ -55,7 +55,9 @@ fn wire_every_mode_that_is_offered_is_entered_by_each_message_and_shown_under_it
         let offered = |m: &AVAILABLE_MODES_DATA| !m.properties.contains(MavModeProperty::MAV_MODE_PROPERTY_NOT_USER_SELECTABLE);
         // A mission has to be there before its mode.
         let needs_mission = |m: &AVAILABLE_MODES_DATA| m.standard_mode == MavStandardMode::MAV_STANDARD_MODE_MISSION;
-        for mode in modes.iter().filter(|mode| offered(mode) && !needs_mission(mode)) {
+        // Copter's AUTO and AUTO RTL need one too, and FOLLOW its parameter.
+        let needs_more = |m: &AVAILABLE_MODES_DATA| flavour.name == "ardupilot" && [3, 23, 27].contains(&m.custom_mode);
+        for mode in modes.iter().filter(|mode| offered(mode) && !needs_mission(mode) && !needs_more(mode)) {
             let target_system = 1;
             let base_mode = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED;
             station.send(&MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: mode.custom_mode, target_system, base_mode }));

@@ -2,6 +2,8 @@
 //! outlive nobody.
 
 use serde_json::Value;
+use spandrel::mav::codec::{Decoder, Encoder};
+use spandrel::mav::dialect::{MavMessage, TIMESYNC_DATA};
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Output, Stdio};
@@ -159,12 +161,28 @@ fn wire_a_killed_monitor_goes_on_where_it_stopped() {
 
 #[test]
 fn wire_a_peer_that_vanishes_in_lockstep_ends_the_run_with_its_reason() {
-    let deaf = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
-    let peer = deaf.local_addr().unwrap().to_string();
-    let output = Command::new(PROGRAM)
+    let socket = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
+    let peer = socket.local_addr().unwrap().to_string();
+    let sim = Command::new(PROGRAM)
         .args(["sim", "--ports", "ephemeral", "--scenario", "drill-hover", "--seed", "1", "--gcs", &peer, "--lockstep", &peer])
-        .output()
+        .stderr(std::process::Stdio::piped())
+        .spawn()
         .unwrap();
+    // One answer, by which lockstep begins, and no more.
+    let mut bytes = [0u8; 2048];
+    let (token, from) = loop {
+        let (len, from) = socket.recv_from(&mut bytes).unwrap();
+        let asked = Decoder::new().datagram(&bytes[..len]).into_iter().find_map(|frame| match frame.message {
+            Some(MavMessage::TIMESYNC(sync)) if sync.tc1 == 0 => Some(sync.ts1),
+            _ => None,
+        });
+        if let Some(token) = asked {
+            break (token, from);
+        }
+    };
+    let answer = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 1, ts1: token, ..Default::default() });
+    socket.send_to(&Encoder::new(255, 190).encode(&answer), from).unwrap();
+    let output = sim.wait_with_output().unwrap();
     let err = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{err}");
     assert!(err.contains("has not answered TIMESYNC"), "{err}");

@@ -1,10 +1,12 @@
 //! Files over a link that loses 30 %, is 200 ms late, exchanges and doubles datagrams, both ways: read, in bursts, and written.
 
 use super::impaired::{Client, LIMIT_S, PATIENCE_MS};
+use super::station::{GCS, Station};
 use spandrel::base::time::SimTime;
+use spandrel::mav::codec::{Decoder, Encoder};
 use spandrel::mav::dialect::*;
 use spandrel::mav::ftp::{ACK, DATA_MAX, NAK, Opcode, Packet, Refusal, checksum};
-use spandrel::sitl::endpoint::files::job::{Action, Done, FileError};
+use spandrel::sitl::endpoint::files::job::{Action, CHECKSUM_SLICE, Done, FileError};
 use spandrel::sitl::endpoint::params::{face, metadata};
 use std::collections::BTreeMap;
 
@@ -37,7 +39,11 @@ impl Disk {
                 file[from..to].copy_from_slice(bytes);
                 Ok(Done::Nothing)
             }
-            Action::Checksum(path) => self.file(path.as_str()).map(|file| Done::Checksum(checksum(0, file))),
+            Action::Checksum { path, from, sum } => {
+                let file = self.file(path.as_str())?;
+                let slice: Vec<u8> = file.iter().skip(*from as usize).take(CHECKSUM_SLICE as usize).copied().collect();
+                Ok(Done::Checksum { sum: checksum(*sum, &slice), bytes: slice.len() as u32 })
+            }
             _ => Err(FileError::Other),
         }
     }
@@ -136,7 +142,8 @@ impl Ftp {
             let written = self.ask(Opcode::WriteFile, created.session, (k * DATA_MAX) as u32, piece);
             assert_eq!(written.opcode, ACK, "piece {k}: {:?}", written.sized());
         }
-        assert_eq!(self.ask(Opcode::TerminateSession, created.session, 0, &[]).opcode, ACK);
+        let ended = self.ask(Opcode::TerminateSession, created.session, 0, &[]);
+        assert_eq!(ended.opcode, ACK, "{:?}", ended.sized());
         let sum = self.ask(Opcode::CalcFileCrc32, 0, 0, path.as_bytes());
         assert_eq!(sum.sized(), Some(checksum(0, content).to_le_bytes().as_slice()));
     }
@@ -184,5 +191,76 @@ fn wire_a_file_goes_up_whole_over_a_bad_link() {
             ftp.write(path, &content);
             assert!(ftp.client.disk.0[&path[1..]] == content, "{path} from seed {seed}");
         }
+    }
+}
+
+/// So long that its checksum takes more than the jobs that the ticks have saved up.
+fn long_file() -> Vec<u8> {
+    content(200 * CHECKSUM_SLICE as usize + 5)
+}
+
+/// The FTP answers of a second if the shell lets so much time pass at once, and the most jobs between two ticks.
+fn answers_of_a_second(at_once_ms: i64) -> (Vec<Packet>, usize) {
+    let mut station = Station::new("drill-hover", 7);
+    station.run_ms(100);
+    let sim = &mut station.sim;
+    sim.serve_files();
+    let mut disk = Disk::default();
+    disk.0.insert("long".into(), long_file());
+    let mut encoder = Encoder::new(255, 190);
+    let mut request = |opcode: Opcode, sequence: u16, path: &[u8]| {
+        let mut data = [0; DATA_MAX];
+        data[..path.len()].copy_from_slice(path);
+        let packet = Packet { sequence, opcode: opcode as u8, size: path.len() as u8, data, ..Packet::read(&[0; 251]) };
+        let payload = packet.write();
+        encoder.encode(&MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
+            target_network: 0,
+            target_system: 1,
+            target_component: 1,
+            payload,
+        }))
+    };
+    sim.handle_datagram(GCS, &request(Opcode::CalcFileCrc32, 1, b"/long"));
+    (2..60).for_each(|k| sim.handle_datagram(GCS, &request(Opcode::OpenFileRo, 7 * k, b"/none")));
+    let (begin, mut heard, mut most): (SimTime, Vec<Packet>, usize) = (sim.now(), Vec::new(), 0);
+    while sim.now() - begin < SimTime::from_ms(1_000) {
+        let until = sim.now() + SimTime::from_ms(at_once_ms);
+        let (mut tick, mut jobs) = (sim.now(), 0);
+        loop {
+            sim.handle_timeout(until);
+            if !sim.has_file_job() {
+                break;
+            }
+            jobs = if sim.now() == tick { jobs } else { 0 };
+            tick = sim.now();
+            while let Some(job) = sim.poll_file_job() {
+                let outcome = disk.work(&job.action);
+                sim.file_job_done(job.ticket, outcome);
+                jobs += 1;
+            }
+            most = most.max(jobs);
+        }
+        while let Some(transmit) = sim.poll_transmit() {
+            let frames = Decoder::new().datagram(&transmit.bytes);
+            heard.extend(frames.iter().filter_map(|frame| frame.message.as_ref().and_then(of)));
+        }
+    }
+    let checked = heard.iter().any(|packet| packet.request == Opcode::CalcFileCrc32 as u8);
+    assert!(checked, "the checksum is there within a second");
+    (heard, most)
+}
+
+/// CreateFile, TruncateFile to 256 MiB and CalcFileCRC32 held the vehicle up for 28 s. A tick waits for few and small jobs, and the answers
+/// come in the same order however much time the shell lets pass at once.
+#[test]
+fn regress_work_on_files_is_done_in_slices_between_the_ticks() {
+    let (one, most) = answers_of_a_second(1);
+    assert!((1..=40).contains(&most), "{most} jobs between two ticks");
+    let last = one.last().map(|packet| packet.request);
+    assert_eq!(last, Some(Opcode::CalcFileCrc32 as u8), "what others ask for is done between the slices");
+    let sum = checksum(0, &long_file());
+    assert_eq!(one.last().and_then(|packet| packet.sized().map(<[u8]>::to_vec)), Some(sum.to_le_bytes().to_vec()));
+    for at_once_ms in [7, 50] {
+        assert!(answers_of_a_second(at_once_ms).0 == one, "{at_once_ms} ms at once");
     }
 }

@@ -1,11 +1,13 @@
 //! The program as a user meets it: processes, sockets, files, exit codes.
 
+mod aftermath;
 mod afterwards;
 mod answers;
 mod camera;
 mod camera_settings;
 mod circles;
 mod copter;
+mod copter_modes;
 mod copter_plans;
 mod failures;
 mod fence;
@@ -16,16 +18,21 @@ mod impaired;
 mod impaired_files;
 mod inspection;
 mod items;
+mod landed_states;
 mod lasting;
+mod local_frame;
 mod manual;
 mod mount;
 mod network;
 mod noise;
 mod offboard;
+mod parameters;
 mod payload;
 mod plans;
 mod program;
+mod px4_setup;
 mod ranges;
 mod signing;
+mod simple_clients;
 mod station;
 mod vehicle;

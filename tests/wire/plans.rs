@@ -32,7 +32,7 @@ pub(super) fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_I
 
 /// Where the pad is, m north of the origin.
 pub(super) fn home_north(station: &Station) -> f64 {
-    f64::from(station.place()[0])
+    station.site_place()[0]
 }
 
 fn count(count: u16, mission_type: MavMissionType) -> MavMessage {
@@ -40,7 +40,11 @@ fn count(count: u16, mission_type: MavMissionType) -> MavMessage {
 }
 
 fn asked(m: &MavMessage) -> Option<u16> {
-    if let MavMessage::MISSION_REQUEST_INT(r) = m { Some(r.seq) } else { None }
+    match m {
+        MavMessage::MISSION_REQUEST_INT(r) => Some(r.seq),
+        MavMessage::MISSION_REQUEST(r) => Some(r.seq),
+        _ => None,
+    }
 }
 
 fn result(m: &MavMessage) -> Option<MavMissionResult> {

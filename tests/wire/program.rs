@@ -86,6 +86,26 @@ fn wire_check_reports_every_problem_of_every_file_as_text_and_as_json() {
     assert!(["file", "value", "allowed", "message"].iter().all(|key| problem[key].is_string()), "{problem}");
 }
 
+/// Bytes of a report on thousands of problems: 50 lines of at most some 200 bytes.
+const REPORT_MOST_BYTES: usize = 20_000;
+
+#[test]
+fn regress_thousands_of_unknown_keys_are_counted_and_not_all_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("keys.toml");
+    let unknown: String = (0..10_000).map(|k| format!("unknown_{k} = 1\n")).collect();
+    std::fs::write(&path, unknown + include_str!("../../scenarios/drill-hover.toml")).unwrap();
+    let path = path.display().to_string();
+    for (args, code) in [(vec!["check", &path], 2), (vec!["export", &path, "--glb", "-"], 2), (vec!["check", &path, "--json"], 2)]
+    {
+        let (ended, out, err) = told(&spandrel(&args));
+        assert_eq!(ended, Some(code), "{args:?}");
+        assert!(out.len() + err.len() < REPORT_MOST_BYTES, "{args:?}: {} bytes", out.len() + err.len());
+        let more = if args.contains(&"--json") { "\"more_problems\": 9950" } else { "and 9950 more problems" };
+        assert!(out.contains(more) || err.contains(more), "{args:?}: {out}{err}");
+    }
+}
+
 #[test]
 fn wire_exports_go_to_standard_output_and_logs_do_not() {
     let (code, out, _) = told(&spandrel(&["export", "two-bridges", "--seed", "7", "--scenario", "-", "--log", "trace"]));

@@ -97,9 +97,13 @@ fn wire_every_range_finder_tells_the_sites_distance_in_its_own_direction() {
             site.ray(truth.position_m.enu(), way, REACH_M, now).map(|hit| hit.distance_m)
         };
         let map = station.last(|m| if let MavMessage::OBSTACLE_DISTANCE(o) = m { Some(o.clone()) } else { None }).unwrap();
-        assert_eq!((map.frame, map.angle_offset, map.increment_f), (MavFrame::MAV_FRAME_BODY_FRD, 0.0, 45.0));
+        assert_eq!((map.frame, map.angle_offset, map.increment_f), (MavFrame::MAV_FRAME_BODY_FRD, 0.0, 5.0));
+        assert_eq!(map.increment, 5, "72 sectors of 5 deg go once round: QGroundControl reads all of them");
         assert_eq!((map.min_distance, f64::from(map.max_distance) / 100.0), (10, REACH_M));
-        assert!(map.distances[8..].iter().all(|slot| *slot == u16::MAX), "eight sectors, and no more");
+        for (sector, slot) in map.distances.iter().enumerate() {
+            let nearest = (5.0 * sector as f64 / 45.0).round() as usize % 8;
+            assert_eq!(*slot, map.distances[9 * nearest], "sector {sector}");
+        }
         for (k, (orientation, direction)) in finders().into_iter().enumerate() {
             let there = ray(direction);
             let what = format!("{orientation:?} at {place:?} heading {heading_deg}");
@@ -107,7 +111,7 @@ fn wire_every_range_finder_tells_the_sites_distance_in_its_own_direction() {
             assert_eq!(reach, REACH_M);
             agrees(distance, there, &what);
             if let Some(sector) = k.checked_sub(2) {
-                agrees(f64::from(map.distances[sector]) / 100.0, there, &what);
+                agrees(f64::from(map.distances[9 * sector]) / 100.0, there, &what);
             }
             met[k] += usize::from(there.is_some_and(|distance| distance < REACH_M - TOLERANCE_M));
         }

@@ -1,9 +1,10 @@
 //! A ground station and a monitor's place on an in-process vehicle: no sockets, no clock.
 
+use spandrel::base::geodesy::Geo;
 use spandrel::base::time::SimTime;
 use spandrel::mav::codec::{Decoder, Encoder, Received};
 use spandrel::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavResult};
-use spandrel::scenario::Scenario;
+use spandrel::scenario::{AfterCrash, Scenario};
 use spandrel::site::Site;
 use spandrel::sitl::endpoint::flavour::{self, Flavour};
 use spandrel::sitl::endpoint::{LinkId, LinkKind};
@@ -46,25 +47,36 @@ impl Station {
 
     /// On a job and with an aircraft of one's own.
     pub fn of(scenario: Scenario, vehicle: &str, seed: u64) -> Self {
-        Self::start(&flavour::px4::FLAVOUR, scenario, vehicle, seed, 0)
+        Self::start(&flavour::px4::FLAVOUR, scenario, vehicle, (seed, 0), None)
     }
 
     /// As another autopilot.
     pub fn speaking(flavour: &'static Flavour, scenario_name: &str, seed: u64) -> Self {
-        Self::start(flavour, scenario(scenario_name), "phantom2", seed, 0)
+        Self::start(flavour, scenario(scenario_name), "phantom2", (seed, 0), None)
     }
 
     /// As one of several vehicles.
     pub fn numbered(scenario_name: &str, seed: u64, instance: u8) -> Self {
-        Self::start(&flavour::px4::FLAVOUR, scenario(scenario_name), "phantom2", seed, instance)
+        Self::start(&flavour::px4::FLAVOUR, scenario(scenario_name), "phantom2", (seed, instance), None)
     }
 
-    fn start(flavour: &'static Flavour, scenario: Scenario, vehicle: &str, seed: u64, instance: u8) -> Self {
+    /// With a rule for crashes other than the scenario's.
+    pub fn ruled(scenario_name: &str, seed: u64, rule: Option<AfterCrash>) -> Self {
+        Self::start(&flavour::px4::FLAVOUR, scenario(scenario_name), "phantom2", (seed, 0), rule)
+    }
+
+    fn start(
+        flavour: &'static Flavour,
+        scenario: Scenario,
+        vehicle: &str,
+        (seed, instance): (u64, u8),
+        after_crash: Option<AfterCrash>,
+    ) -> Self {
         let scenario = Arc::new(scenario);
         let file = format!("vehicle-params/{vehicle}.toml");
         let vehicle = Arc::new(spandrel::vehicle::read(&file, &shipped(&file)).unwrap());
         let site = Arc::new(Site::build(&scenario, seed));
-        let mut sim = Sim::new(SimConfig { scenario, vehicle, seed, instance, flavour }, site);
+        let mut sim = Sim::new(SimConfig { scenario, vehicle, seed, instance, flavour, after_crash }, site);
         sim.open_link(GCS, LinkKind::GroundStation, false);
         Self { sim, encoder: Encoder::new(255, 190), decoder: Decoder::new(), heard: Vec::new() }
     }
@@ -89,6 +101,11 @@ impl Station {
             assert_eq!(self.decoder.bad_bytes(), 0, "whole frames only");
             self.heard.extend(frames);
         }
+    }
+
+    /// The frames of one of the vehicle's datagrams.
+    pub fn read(&mut self, bytes: &[u8]) -> Vec<Received> {
+        self.decoder.datagram(bytes)
     }
 
     /// The last message that a filter likes.
@@ -167,6 +184,19 @@ impl Station {
         .unwrap()
     }
 
+    /// The place as the vehicle reports it on the globe, m north, east, down of the scenario's origin.
+    pub fn site_place(&self) -> [f64; 3] {
+        let place = self.last(|m| match m {
+            MavMessage::GLOBAL_POSITION_INT(g) => Some(Geo {
+                latitude_deg: f64::from(g.lat) * 1e-7,
+                longitude_deg: f64::from(g.lon) * 1e-7,
+                altitude_m: f64::from(g.alt) * 1e-3,
+            }),
+            _ => None,
+        });
+        self.sim.site().plane().enu_from_geo(place.unwrap()).ned().array()
+    }
+
     /// The place after a while.
     pub fn place_after(&mut self, ms: i64) -> [f32; 3] {
         self.run_ms(ms.max(25));
@@ -211,19 +241,20 @@ impl Station {
     /// Armed and climbing by hand to about five metres.
     pub fn airborne(scenario_name: &str, seed: u64) -> Self {
         let mut station = Self::new(scenario_name, seed);
-        station.run_ms(2500);
-        station.sticks(0, 0, 500, 0);
-        station.run_ms(20);
-        assert_eq!(
-            station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-            MavResult::MAV_RESULT_ACCEPTED
-        );
-        let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
-        for _ in 0..150 {
-            station.sticks(0, 0, 750, 0);
-            station.run_ms(20);
-        }
+        station.climb_by_hand();
         station
+    }
+
+    /// Ready, armed and up by hand to about five metres.
+    pub fn climb_by_hand(&mut self) {
+        self.run_ms(2500);
+        self.sticks(0, 0, 500, 0);
+        self.run_ms(20);
+        assert_eq!(self.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 3.0])), MavResult::MAV_RESULT_ACCEPTED);
+        assert_eq!(self.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)), MavResult::MAV_RESULT_ACCEPTED);
+        for _ in 0..150 {
+            self.sticks(0, 0, 750, 0);
+            self.run_ms(20);
+        }
     }
 }

@@ -5,9 +5,10 @@
 use super::address::{self, sqlite_url, without_password};
 use crate::app::errors::AppError;
 use sqlx::any::AnyPoolOptions;
-use sqlx::{Any, AnyConnection, AnyPool, Connection, Executor, Transaction};
+use sqlx::{Any, AnyConnection, AnyPool, Connection, Executor, Row, Transaction};
 use std::future::Future;
 use std::path::Path;
+use std::time::Duration;
 
 /// SQLite waits so long for other writers, ms.
 const PATIENCE: &str = "PRAGMA busy_timeout = 60000";
@@ -53,9 +54,11 @@ impl Database {
             .build()
             .map_err(|error| AppError::failed(format!("{name}: no runtime for the database: {error}")))?;
         let url = if kind == Kind::Sqlite { sqlite_url(target) } else { target.to_owned() };
-        let options = AnyPoolOptions::new().max_connections(1).after_connect(move |connection, _| {
-            Box::pin(async move { if kind == Kind::Sqlite { prepare(connection).await } else { Ok(()) } })
-        });
+        // SQLite's version of its data counts within one connection: it stays open.
+        let lives = |seconds| (kind == Kind::Postgres).then(|| Duration::from_secs(seconds));
+        let options = AnyPoolOptions::new().max_connections(1).idle_timeout(lives(600)).max_lifetime(lives(1800)).after_connect(
+            move |connection, _| Box::pin(async move { if kind == Kind::Sqlite { prepare(connection).await } else { Ok(()) } }),
+        );
         // The pool would try a server that refuses again and again; one that does not answer at once is told at once.
         let open = async {
             AnyConnection::connect(&url).await?.close().await?;
@@ -101,6 +104,23 @@ impl Database {
         let ended = || AppError::failed(format!("{}: is being closed", self.name));
         let runtime = self.runtime.as_ref().ok_or_else(ended)?;
         runtime.block_on(work).map_err(|error| AppError::failed(format!("{}: {error}", self.name)))
+    }
+
+    /// Returns a text that differs from an earlier answer of the same handle whenever another handle has changed the database since.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn version(&self) -> Result<String, AppError> {
+        self.run(async {
+            match self.kind {
+                Kind::Sqlite => {
+                    let version: i64 = sqlx::query("PRAGMA data_version").fetch_one(&self.pool).await?.try_get(0)?;
+                    Ok(version.to_string())
+                }
+                // Any transaction of the server that writes changes it: figures are computed too often rather than too seldom.
+                Kind::Postgres => sqlx::query("SELECT txid_current_snapshot()::text").fetch_one(&self.pool).await?.try_get(0),
+            }
+        })
     }
 
     pub(super) async fn begin(&self) -> Result<Transaction<'static, Any>, sqlx::Error> {

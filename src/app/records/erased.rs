@@ -21,13 +21,16 @@ pub(super) enum What {
     Trainee,
     /// One session.
     Session,
+    /// A folder here that is still to be removed.
+    Folder,
 }
 
 impl What {
-    fn word(self) -> &'static str {
+    pub(super) fn word(self) -> &'static str {
         match self {
             Self::Trainee => "trainee",
             Self::Session => "session",
+            Self::Folder => "folder",
         }
     }
 }
@@ -46,7 +49,7 @@ impl Erased {
 }
 
 /// A name is not kept where it was to be forgotten.
-fn hash(name: &str) -> String {
+pub(super) fn hash(name: &str) -> String {
     sha256_hex(format!("erased: {name}").as_bytes())
 }
 
@@ -71,6 +74,12 @@ impl Database {
 pub(super) async fn mark(change: &mut Transaction<'static, Any>, what: What, name: &str) -> Result<(), sqlx::Error> {
     let query = sqlx::query(MARK).bind(what.word().to_owned()).bind(hash(name)).bind(signed(clock::unix_us()));
     query.execute(&mut **change).await.map(|_| ())
+}
+
+/// Takes a mark away, within a change.
+pub(super) async fn unmark(change: &mut Transaction<'static, Any>, what: What, name: &str) -> Result<(), sqlx::Error> {
+    let query = sqlx::query("DELETE FROM erased WHERE what = $1 AND sha256 = $2");
+    query.bind(what.word().to_owned()).bind(hash(name)).execute(&mut **change).await.map(|_| ())
 }
 
 /// The same as [`Erased::holds`], within a change: nobody erases between this answer and the change's end.

@@ -3,6 +3,7 @@
 use super::erased::Erased;
 use crate::app::assess;
 use crate::app::errors::AppError;
+use crate::app::log_file::LogFile;
 use crate::app::questionnaire;
 use crate::app::session_folder::{Stored, is_session, whose};
 use crate::monitor::folder::{SCENARIO, TELEMETRY, VEHICLE};
@@ -21,10 +22,15 @@ pub fn session_folders(sessions: &[PathBuf]) -> Result<Vec<PathBuf>, AppError> {
     for folder in sessions {
         let entries = std::fs::read_dir(folder)
             .map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", folder.display())))?;
-        found.extend(entries.flatten().map(|entry| entry.path()).filter(|path| is_session(path)));
+        found.extend(entries.flatten().map(|entry| entry.path()).filter(|path| is_session(path) && !is_hidden(path)));
     }
     found.sort_by(|a, b| a.file_name().cmp(&b.file_name()));
     Ok(found)
+}
+
+/// Folders that are being erased or made have such names.
+fn is_hidden(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."))
 }
 
 /// The id of a session: its folder's name.
@@ -81,6 +87,7 @@ fn hashes(session: &Path) -> Result<Hashes, AppError> {
         let path = session.join(name);
         std::fs::read(&path).map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", path.display())))
     };
+    let telemetry = LogFile::open(&session.join(TELEMETRY))?.sha256()?;
     let answers = if session.join(ANSWERS).is_file() { bytes(ANSWERS)? } else { Vec::new() };
-    Ok(Hashes::of(&bytes(SCENARIO)?, &bytes(VEHICLE)?, &bytes(TELEMETRY)?, &answers))
+    Ok(Hashes { telemetry, ..Hashes::of(&bytes(SCENARIO)?, &bytes(VEHICLE)?, &[], &answers) })
 }

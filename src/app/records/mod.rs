@@ -5,6 +5,7 @@ mod accounts;
 mod address;
 mod database;
 mod erased;
+mod erasing;
 mod import;
 mod migrate;
 mod people;
@@ -17,7 +18,7 @@ mod trainees;
 pub use accounts::Account;
 pub use database::Database;
 pub use import::{id as session_id, is_erased, read as read_session, session_folders};
-pub use people::{folders_where, forget, kept, remove};
+pub use people::{forget, forget_older, kept};
 
 use super::args::TraineeId;
 use super::clock;
@@ -166,18 +167,22 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 impl Place {
-    /// Opens the database.
+    /// Opens the database, and finishes erasures that a kill has cut off.
     ///
     /// # Errors
     /// When it cannot be opened.
     pub fn open(&self) -> Result<Database, AppError> {
-        match &self.database {
+        let database = match &self.database {
             Some(target) => Database::open(target),
             None => {
                 let folder = self.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
                 Database::open(&folder.join("records.sqlite").display().to_string())
             }
+        }?;
+        if let Err(error) = erasing::finish(&database, &self.sessions) {
+            tracing::warn!("an erasure is not finished: {error}");
         }
+        Ok(database)
     }
 }
 
@@ -284,12 +289,19 @@ fn rebuild(place: &Place, yes: bool) -> Result<(), AppError> {
 }
 
 fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), AppError> {
-    let mut table =
-        format!("{:<22}{:<16}{:<22}{:>8}{:>6}  {:<12}{}\n", "started", "trainee", "scenario", "overall", "of", "end", "session");
+    let mut table = format!(
+        "{:<22}{:<16}{:<22}{:>8}{:>6}  {:<12}{}\n",
+        "started", "trainee", "scenario", "overall", "of", "end", "session, result"
+    );
     for one in database.list(trainee, last, 0)? {
         let started = clock::utc(one.started_unix_us).0;
         let (who, job, end, id) = (&one.trainee, &one.scenario, &one.end_reason, &one.id);
-        table.push_str(&format!("{started:<22}{who:<16}{job:<22}{:>8.1}{:>6.0}  {end:<12}{id}\n", one.overall, one.overall_max));
+        let (overall, most) = match one.is_complete() {
+            true => (format!("{:.1}", one.overall), format!("{:.0}", one.overall_max)),
+            false => ("-".to_owned(), "-".to_owned()),
+        };
+        let result = format!("{}. {}", one.headline(), one.verdict());
+        table.push_str(&format!("{started:<22}{who:<16}{job:<22}{overall:>8}{most:>6}  {end:<12}{id}  {result}\n"));
     }
     files::write("-", table.as_bytes())
 }
@@ -297,17 +309,14 @@ fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), App
 fn retention(place: &Place, days: u64, yes: bool) -> Result<(), AppError> {
     let limit_us = clock::unix_us().saturating_sub(days.saturating_mul(DAY_US));
     let database = place.open()?;
-    let old = database.older_than(limit_us)?;
-    let folders = people::folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)?;
     let before = clock::utc(limit_us).0;
     if !yes {
+        let (old, folders) = (database.older_than(limit_us)?, people::folders_older(place, limit_us)?);
         println!("{} sessions and {} folders are from before {before}; --yes erases them", old.len(), folders.len());
         return Ok(());
     }
-    people::remove(&folders)?;
-    let ids: Vec<String> = old.into_iter().map(|(id, _)| id).collect();
-    let deleted = database.delete_sessions(&ids)?;
-    println!("{deleted} sessions and {} folders from before {before} are erased", folders.len());
+    let (deleted, folders) = people::forget_older(&database, place, limit_us)?;
+    println!("{deleted} sessions and {folders} folders from before {before} are erased");
     Ok(())
 }
 

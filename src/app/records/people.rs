@@ -1,6 +1,6 @@
 //! Trainees: what is known of them, everything that is kept of one, and erasing it.
 
-use super::{Database, Place, import};
+use super::{Database, Place, erasing, import};
 use crate::app::args::TraineeId;
 use crate::app::errors::AppError;
 use crate::app::files;
@@ -123,9 +123,8 @@ pub fn erase(place: &Place, trainee: &str, yes: bool) -> Result<(), AppError> {
 /// When a folder or the database refuses.
 pub fn forget(database: &Database, place: &Place, trainee: &str) -> Result<(bool, u64), AppError> {
     let folders = folders_of(place, trainee)?;
-    // Folders first: a kill between leaves records without a folder, which the same command removes; not folders that bring them back.
-    remove(&folders)?;
-    let (known, sessions) = database.erase(trainee)?;
+    let (known, sessions) = database.erase(trainee, &folders)?;
+    erasing::remove(database, &folders)?;
     Ok((known || !folders.is_empty(), sessions))
 }
 
@@ -141,7 +140,7 @@ fn folders_of(place: &Place, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
 ///
 /// # Errors
 /// When the folder of sessions cannot be read.
-pub fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
+fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let mut found = Vec::new();
     for path in import::session_folders(&here)? {
@@ -154,14 +153,23 @@ pub fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Re
     Ok(found)
 }
 
-/// Removes session folders.
+/// Erases all sessions and session folders that started before this instant, µs since the Unix epoch. Returns how many sessions and how many
+/// folders there were.
 ///
 /// # Errors
-/// When the disk refuses.
-pub fn remove(folders: &[PathBuf]) -> Result<(), AppError> {
-    folders.iter().try_for_each(|path: &PathBuf| remove_one(path))
+/// When a folder or the database refuses.
+pub fn forget_older(database: &Database, place: &Place, limit_us: u64) -> Result<(u64, usize), AppError> {
+    let folders = folders_older(place, limit_us)?;
+    let ids: Vec<String> = database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
+    let deleted = database.delete_sessions(&ids, &folders)?;
+    erasing::remove(database, &folders)?;
+    Ok((deleted, folders.len()))
 }
 
-fn remove_one(path: &Path) -> Result<(), AppError> {
-    std::fs::remove_dir_all(path).map_err(|error| AppError::failed(format!("{}: cannot be erased: {error}", path.display())))
+/// Session folders that started before this instant, µs since the Unix epoch.
+///
+/// # Errors
+/// When the folder of sessions cannot be read.
+pub fn folders_older(place: &Place, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
+    folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)
 }

@@ -2,13 +2,16 @@
 
 use super::database::Database;
 use super::erased::{self, What};
+use super::erasing::name_of;
 use crate::app::errors::AppError;
+use crate::monitor::score::completion::Completion;
 use crate::training::record::{Listed, Record};
 use crate::training::trainee::Role;
 use sqlx::any::{AnyArguments, AnyRow};
 use sqlx::query::Query;
 use sqlx::{Any, Row, Transaction};
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, \
     telemetry_sha256, spandrel_version, scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, \
@@ -24,9 +27,9 @@ const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     WHERE sessions.fingerprint <> excluded.fingerprint";
 const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
 // The inner question is answered from an index alone; only what is shown is read whole.
-const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose FROM sessions WHERE id IN \
+const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
-const LIST_OF_ONE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose FROM sessions WHERE id IN \
+const LIST_OF_ONE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
 impl Database {
@@ -156,13 +159,15 @@ impl Database {
         })
     }
 
-    /// Erases sessions: they do not come back from a folder elsewhere. Returns how many there were.
+    /// Erases sessions: they do not come back from a folder elsewhere. Marks `folders` for [`super::erasing::remove`]. Returns how many
+    /// sessions there were.
     ///
     /// # Errors
     /// When the database refuses; then all stays as it was.
-    pub fn delete_sessions(&self, ids: &[String]) -> Result<u64, AppError> {
+    pub fn delete_sessions(&self, ids: &[String], folders: &[PathBuf]) -> Result<u64, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
+            mark_folders(&mut change, folders).await?;
             let mut deleted = 0;
             for id in ids {
                 erased::mark(&mut change, What::Session, id).await?;
@@ -173,14 +178,15 @@ impl Database {
         })
     }
 
-    /// Erases a trainee with everything: what he has flown so far does not come back from a folder elsewhere. Returns whether he was known,
-    /// and how many sessions there were.
+    /// Erases a trainee with everything: sessions flown so far do not come back from a folder elsewhere. Marks `folders` for
+    /// [`super::erasing::remove`]. Returns whether the trainee was known, and how many sessions there were.
     ///
     /// # Errors
     /// When the database refuses; then all stays as it was.
-    pub fn erase(&self, trainee: &str) -> Result<(bool, u64), AppError> {
+    pub fn erase(&self, trainee: &str, folders: &[PathBuf]) -> Result<(bool, u64), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
+            mark_folders(&mut change, folders).await?;
             erased::mark(&mut change, What::Trainee, trainee).await?;
             let answers = "DELETE FROM answers WHERE session IN (SELECT id FROM sessions WHERE trainee = $1)";
             sqlx::query(answers).bind(trainee.to_owned()).execute(&mut *change).await?;
@@ -192,6 +198,13 @@ impl Database {
             self.forget().await.map(|()| (known, sessions))
         })
     }
+}
+
+async fn mark_folders(change: &mut Transaction<'static, Any>, folders: &[PathBuf]) -> Result<(), sqlx::Error> {
+    for folder in folders {
+        erased::mark(change, What::Folder, &name_of(folder)).await?;
+    }
+    Ok(())
 }
 
 async fn put_all(change: &mut Transaction<'static, Any>, records: &[Record]) -> Result<usize, sqlx::Error> {
@@ -258,8 +271,20 @@ fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &Record, text: Stri
         .bind(record.purpose.clone())
 }
 
+/// Fields of a record that lists show besides its columns.
+#[derive(serde::Deserialize)]
+struct Shown {
+    #[serde(default)]
+    completion: Option<Completion>,
+    certified: bool,
+    #[serde(default)]
+    unmet: Vec<String>,
+}
+
 fn listed(row: &AnyRow) -> Result<Listed, sqlx::Error> {
     let started: i64 = row.try_get(2)?;
+    let text: String = row.try_get(8)?;
+    let shown: Shown = serde_json::from_str(&text).map_err(|error| sqlx::Error::Decode(error.into()))?;
     Ok(Listed {
         id: row.try_get(0)?,
         trainee: row.try_get(1)?,
@@ -269,6 +294,9 @@ fn listed(row: &AnyRow) -> Result<Listed, sqlx::Error> {
         overall_max: row.try_get(5)?,
         end_reason: row.try_get(6)?,
         purpose: row.try_get(7)?,
+        completion: shown.completion,
+        certified: shown.certified,
+        unmet: shown.unmet,
     })
 }
 

@@ -27,6 +27,10 @@ pub struct Recorded {
     pub folder: PathBuf,
     /// What it holds.
     pub stored: Stored,
+    /// Wall time of simulation time zero, microseconds since 1970.
+    zero_unix_us: u64,
+    /// Its telemetry: pictures look at the records in any order.
+    log: Vec<u8>,
     /// The flight.
     pub flight: Flight,
     /// So many flights before it are in the log: the simulator has begun anew.
@@ -45,7 +49,8 @@ impl Recorded {
     pub fn read(folder: &Path) -> Result<Self, AppError> {
         let stored = Stored::read(folder)?;
         let mut timeline = Timeline::new(LocalPlane::new(stored.scenario.scenario.origin));
-        let begun: Vec<usize> = tlog::Reader::new(&stored.log)
+        let log = stored.log.bytes()?;
+        let begun: Vec<usize> = tlog::Reader::new(&log)
             .enumerate()
             .filter_map(|(k, record)| matches!(timeline.push(record.frame), Pushed::Restarted(_)).then_some(k))
             .collect();
@@ -53,13 +58,14 @@ impl Recorded {
         if flight.truths.is_empty() {
             return Err(AppError::failed("the session holds no flight to draw"));
         }
+        let zero_unix_us = tlog::simulation_zero_us(&log).unwrap_or(stored.started_unix_us);
         let (passed, records_before) = (timeline.passed(before), before.checked_sub(1).map_or(0, |k| begun[k]));
-        Ok(Self { folder: folder.to_owned(), stored, flight, before, passed, records_before })
+        Ok(Self { folder: folder.to_owned(), stored, log, zero_unix_us, flight, before, passed, records_before })
     }
 
     /// A simulation time of the flight as the clock of the world had it, microseconds since 1970.
     pub fn unix_us(&self, at: SimTime) -> u64 {
-        self.stored.started_unix_us + u64::try_from((self.passed + at).us()).unwrap_or(0)
+        self.zero_unix_us + u64::try_from((self.passed + at).us()).unwrap_or(0)
     }
 
     /// The job.
@@ -113,7 +119,7 @@ impl Recorded {
         // Taken from the end; those of one time stay in their order.
         events.sort_by_key(|event| event.0);
         events.reverse();
-        let records = tlog::Reader::new(&self.stored.log).skip(self.records_before);
+        let records = tlog::Reader::new(&self.log).skip(self.records_before);
         Heard { feed: Feed::default(), now: SimTime::ZERO, records, next: None, events }
     }
 }

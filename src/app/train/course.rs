@@ -3,6 +3,7 @@
 use super::flight::{Flight, Outcome};
 use super::offers;
 use super::photographs::Photographs;
+use super::prompt::{Answer, Prompt};
 use super::questions;
 use super::window::Window;
 use super::{Args, USUAL, camera, tell};
@@ -13,7 +14,6 @@ use crate::app::records::Place;
 use crate::app::stop::Stop;
 use crate::app::web::{ListenArgs, Server, Setup, Watched};
 use crate::view::flow::pipe::{Choice, FromWindow, ToWindow};
-use std::io::IsTerminal;
 use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
@@ -39,6 +39,9 @@ pub struct Course<'a> {
     web: Option<Pages>,
     told: bool,
     photographs: Photographs,
+    /// The vehicle of the last flight. It stays connected until the next flight or the end of the run: ground stations download its logs.
+    vehicle: Option<Flight>,
+    prompt: Prompt,
 }
 
 /// What comes after a flight.
@@ -53,7 +56,18 @@ enum Next {
 impl<'a> Course<'a> {
     /// Nothing is started yet.
     pub fn new(args: &'a Args, log: tracing::Level, stop: Stop) -> Self {
-        Self { args, log, stop, window: None, closed: false, web: None, told: false, photographs: Photographs::default() }
+        Self {
+            args,
+            log,
+            stop,
+            window: None,
+            closed: false,
+            web: None,
+            told: false,
+            photographs: Photographs::default(),
+            vehicle: None,
+            prompt: Prompt::default(),
+        }
     }
 
     /// Flies as often as is asked for.
@@ -89,10 +103,11 @@ impl<'a> Course<'a> {
         }
         // Who leaves by the window has seen the end; what is still asked is answered from the pages.
         let seen = matches!(next, Next::Leave) && !last.as_deref().is_some_and(questions::are_open);
+        self.end_vehicle();
         if let Some(window) = self.window.take() {
             window.close();
         }
-        if let (Some(session), false, true) = (&last, seen, result.is_ok()) {
+        if let (Some(session), false, true) = (&last, seen || self.prompt.answered, result.is_ok()) {
             self.linger(session);
         }
         self.photographs.finish(&self.stop);
@@ -172,8 +187,7 @@ impl<'a> Course<'a> {
 
     /// Waits for what the window asks for next.
     fn next(&mut self, last: &Choice) -> Next {
-        loop {
-            let Some(window) = &mut self.window else { return Next::Nobody };
+        while let Some(window) = &mut self.window {
             while let Some(said) = window.hear() {
                 match said {
                     FromWindow::Again => return Next::Fly(last.clone()),
@@ -186,16 +200,56 @@ impl<'a> Course<'a> {
                     FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
                 }
             }
-            if !self.is_open() || self.stop.asked() {
+            self.check_vehicle();
+            if self.stop.asked() {
                 return Next::Nobody;
             }
+            if self.is_open() {
+                std::thread::sleep(LOOK);
+            }
+        }
+        self.ask_at_terminal(last)
+    }
+
+    /// Keeps the vehicle connected when no window can ask what comes next, until the trainee answers at the terminal or interrupts.
+    fn ask_at_terminal(&mut self, last: &Choice) -> Next {
+        if self.args.once || self.closed || self.vehicle.is_none() {
+            return Next::Nobody;
+        }
+        println!("{}", self.prompt.words());
+        if let (Some(web), Some(vehicle)) = (&self.web, &self.vehicle) {
+            println!("in a browser  {}", offers::ended(vehicle.session(), Some(web.server.address()), None).questionnaire);
+        }
+        while self.vehicle.is_some() && !self.stop.asked() {
+            match self.prompt.answer() {
+                Some(Answer::Again) => return Next::Fly(last.clone()),
+                Some(Answer::Quit) => return Next::Leave,
+                None => {}
+            }
+            self.check_vehicle();
             std::thread::sleep(LOOK);
+        }
+        Next::Leave
+    }
+
+    /// Drops a vehicle that has ended by itself.
+    fn check_vehicle(&mut self) {
+        if let Some(status) = self.vehicle.as_mut().and_then(Flight::vehicle_ended) {
+            tracing::warn!("the simulator ended early ({status}): ground stations have lost the vehicle");
+            self.vehicle = None;
+        }
+    }
+
+    fn end_vehicle(&mut self) {
+        if let Some(mut flight) = self.vehicle.take() {
+            flight.finish();
         }
     }
 
     /// One flight, begun anew as often as is wished, to its end. Gives how it went and its folder.
     fn fly(&mut self, choice: &Choice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
         loop {
+            self.end_vehicle();
             let mut flight = Flight::start(self.args, choice, self.log)?;
             self.serve(flight.port("payload_port"));
             if let Some(flying) = flight.flying(self.args) {
@@ -209,11 +263,15 @@ impl<'a> Course<'a> {
                 // Who interrupts is not asked again.
                 self.window.take().into_iter().for_each(Window::close);
             }
-            flight.finish();
+            flight.end_session();
             let session = flight.session().to_path_buf();
             if matches!(outcome, Outcome::Restart) {
                 tracing::info!("this attempt ended; what was recorded is in {}", session.display());
+                flight.finish();
                 continue;
+            }
+            if matches!(outcome, Outcome::Over) && !self.stop.asked() {
+                self.vehicle = Some(flight);
             }
             return Ok((self.end(choice, &session, outcome), session));
         }
@@ -270,20 +328,12 @@ impl<'a> Course<'a> {
     }
 
     /// Keeps the pages for whoever sits at the terminal: the questionnaire comes after the flight.
-    fn linger(&self, session: &Path) {
-        let (Some(web), true, false) = (&self.web, std::io::stdin().is_terminal(), self.stop.asked()) else { return };
+    fn linger(&mut self, session: &Path) {
+        let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.asked()) else { return };
         let address = offers::ended(session, Some(web.server.address()), None).questionnaire;
         println!("in a browser  {address}   (the pages stay until you press Enter)");
         // Enter ends the pages alone: the photographs are still waited for.
-        let over = Stop::default();
-        let pressed = over.clone();
-        std::thread::spawn(move || {
-            let mut line = String::new();
-            // The end of the input ends it, too.
-            let _ = std::io::stdin().read_line(&mut line);
-            pressed.ask();
-        });
-        while !over.asked() && !self.stop.asked() {
+        while self.prompt.answer().is_none() && !self.stop.asked() {
             std::thread::sleep(LOOK);
         }
     }

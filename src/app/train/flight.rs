@@ -12,10 +12,15 @@ use crate::view::flow::pipe::{Choice, Flying, FromWindow, Purpose, ToWindow};
 use serde_json::Value;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
+use std::process::ExitStatus;
 use std::time::Duration;
 
 /// Between two looks at the children.
 const LOOK: Duration = Duration::from_millis(50);
+/// Folder in the session folder for the vehicle's files, flight logs among them: they are erased with the session.
+const VEHICLE_FILES: &str = "vehicle";
+/// A monitor that dies more often than this is not started again.
+const MONITOR_RESTARTS_MOST: u32 = 10;
 
 /// A flight that goes on.
 pub struct Flight {
@@ -29,6 +34,9 @@ pub struct Flight {
     choice: Choice,
     title: String,
     stands: bool,
+    /// Arguments that start a monitor again on the same session and port.
+    monitor_again: Vec<String>,
+    monitor_restarts: u32,
 }
 
 /// Why a flight is not waited for any longer.
@@ -50,21 +58,38 @@ impl Flight {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;
         let common = super::common(&job, log);
-        let mut monitor = Child::start("monitor", &[common.clone(), monitor_args(args, choice)].concat())?;
+        let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
+        let with_port = |port: String| [monitor_args.clone(), vec!["--port".to_owned(), port]].concat();
+        let mut monitor = Child::start("monitor", &with_port(args.ports.monitor_port().to_string()))?;
         let announced = monitor.announced()?;
         let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
         let monitor_port = announced["port"].as_u64().unwrap_or_default().to_string();
+        let monitor_again =
+            [with_port(monitor_port.clone()), vec!["--session".to_owned(), session.display().to_string()]].concat();
+        let files = session.join(VEHICLE_FILES).display().to_string();
         let sim_args = [
             common,
             args.ports.to_args(),
             args.flavour.to_args(),
             vec!["--speed".into(), args.speed.to_string(), "--monitor-port".into(), monitor_port],
+            vec!["--files".into(), files, "--after-crash".into(), "scenario".into()],
         ];
         let mut sim = Child::start("sim", &sim_args.concat())?;
         let ports = sim.announced()?;
         let listen = args.ports.listen;
         let here = if listen.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { listen };
-        Ok(Self { monitor, sim, ports, here, session, choice: choice.clone(), title, stands: false })
+        Ok(Self {
+            monitor,
+            sim,
+            ports,
+            here,
+            session,
+            choice: choice.clone(),
+            title,
+            stands: false,
+            monitor_again,
+            monitor_restarts: 0,
+        })
     }
 
     /// Its folder.
@@ -109,8 +134,17 @@ impl Flight {
                     self.stand(false);
                 }
             }
-            if self.monitor.ended().is_some() || stop.asked() {
+            if stop.asked() {
                 return Outcome::Over;
+            }
+            match self.monitor.ended() {
+                Some(status) if has_finished(status) => return Outcome::Over,
+                Some(status) => {
+                    if let Err(error) = self.restart_monitor(status) {
+                        return Outcome::Lost(error);
+                    }
+                }
+                None => {}
             }
             if let Some(status) = self.sim.ended() {
                 return Outcome::Lost(AppError::failed(format!("the simulator ended early ({status})")));
@@ -145,11 +179,43 @@ impl Flight {
         tracing::info!("{}", if still { "time stands still" } else { "time runs again" });
     }
 
+    /// Starts a monitor again that died in flight: it reads the session's telemetry and goes on.
+    fn restart_monitor(&mut self, status: ExitStatus) -> Result<(), AppError> {
+        self.monitor_restarts += 1;
+        if self.monitor_restarts > MONITOR_RESTARTS_MOST {
+            return Err(AppError::failed(format!(
+                "the monitor died {} times, the last time with {status}",
+                self.monitor_restarts
+            )));
+        }
+        tracing::warn!("the monitor died ({status}); it starts again on the same session");
+        self.monitor = Child::start("monitor", &self.monitor_again)?;
+        self.monitor.announced().map(|_| ())
+    }
+
+    /// Ends the monitor: the session is scored and complete. The vehicle stays connected.
+    pub fn end_session(&mut self) {
+        self.monitor.finish();
+        if self.stands {
+            self.stand(false);
+        }
+    }
+
+    /// How the simulator ended, if it has.
+    pub fn vehicle_ended(&mut self) -> Option<ExitStatus> {
+        self.sim.ended()
+    }
+
     /// Ends both processes; the session is written down.
     pub fn finish(&mut self) {
         self.monitor.finish();
         self.sim.finish();
     }
+}
+
+/// True when a monitor ended with a result or a reason of its own; false when it was killed or broke off.
+fn has_finished(status: ExitStatus) -> bool {
+    status.code().is_some_and(|code| (0..=2).contains(&code))
 }
 
 fn monitor_args(args: &Args, choice: &Choice) -> Vec<String> {
@@ -160,8 +226,6 @@ fn monitor_args(args: &Args, choice: &Choice) -> Vec<String> {
         &choice.trainee,
         "--purpose",
         choice.purpose.word(),
-        "--port",
-        &args.ports.monitor_port().to_string(),
         "--instance",
         &args.ports.instance.to_string(),
     ]

@@ -5,8 +5,10 @@ use crate::app::records::session_folders;
 use crate::app::report;
 use crate::app::session_folder::{purpose, whose};
 use crate::monitor::folder::{ASSESSMENT, REPORT};
+use crate::monitor::score::completion::{Completion, verdict};
 use crate::scenario::Scenario;
 use crate::view::flow::pipe::{Choice, Ended, Job, Offers, Person, Purpose, SCORES, Score};
+use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -66,9 +68,16 @@ pub fn ended(session: &Path, web: Option<&str>, trouble: Option<String>) -> Ende
     let one = |name: &str| Some(Score { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
     let page = session.join(REPORT);
     let id = session.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let completion = Completion::deserialize(&assessment["completion"]).ok();
+    let complete = completion.is_none_or(|completion| completion.complete);
+    let certification = &assessment["certification"];
+    let unmet = Vec::<String>::deserialize(&certification["unmet"]).unwrap_or_default();
     Ended {
         scores: SCORES.map(one),
-        overall: scores["overall"].as_f64().zip(scores["overall_max"].as_f64()),
+        overall: scores["overall"].as_f64().zip(scores["overall_max"].as_f64()).filter(|_| complete),
+        completion: completion.map(|completion| completion.headline()),
+        complete,
+        verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet)),
         why: trouble.unwrap_or_else(|| why(&assessment["end"], session)),
         report: page.is_file().then(|| report::address(&page)),
         questionnaire: match web {
@@ -140,5 +149,20 @@ mod tests {
         assert_eq!((ended.scores[2].map(|s| s.raw), ended.scores[3], ended.overall), (Some(-9.0), None, Some((272.0, 300.0))));
         assert!(ended.report.is_some_and(|address| address.starts_with("file:///")));
         assert!(ended.questionnaire.starts_with("http://127.0.0.1:9/sessions/") && ended.questionnaire.ends_with("/questions"));
+    }
+
+    #[test]
+    fn regress_an_attempt_that_flew_nothing_ends_without_a_sum() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = r#"{"scores": {"conformity": {"raw": 0.0, "pct": 50.0}, "efficiency": {"raw": 100.0, "pct": 100.0},
+            "safety": {"raw": 0.0, "pct": 100.0}, "accuracy": null, "overall": 250.0, "overall_max": 300.0},
+            "completion": {"complete": false, "tasks_done": 0, "tasks": 4, "path_share": 0.0, "landed_at_home": false, "done_share": 0.8},
+            "certification": {"passed": false, "unmet": ["task 1 not attempted", "not landed at home"]},
+            "end": {"reason": "abort", "seconds": 23.0}}"#;
+        std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
+        let ended = ended(folder.path(), None, None);
+        assert_eq!((ended.overall, ended.complete), (None, false));
+        assert_eq!(ended.completion.as_deref(), Some("Incomplete: 0 of 4 tasks, 0 % of the path"));
+        assert_eq!(ended.verdict.as_deref(), Some("Not certified: task 1 not attempted (and 1 more)"));
     }
 }

@@ -39,6 +39,8 @@ pub enum Refusal {
     TooLarge(usize),
     /// Too often; seconds to wait.
     Later(u64),
+    /// Too much is asked for at once; seconds to wait.
+    Busy(u64),
     /// Our fault; the log says more than the page.
     Failed(String),
 }
@@ -155,6 +157,14 @@ pub fn harden(headers: &mut axum::http::HeaderMap, secure: bool) {
 }
 
 impl Refusal {
+    /// Seconds after which the client may try again, where waiting helps.
+    pub fn retry_after_s(&self) -> Option<u64> {
+        match self {
+            Self::Later(seconds) | Self::Busy(seconds) => Some(*seconds),
+            Self::NotFound | Self::Stranger | Self::Forbidden(_) | Self::Wrong(_) | Self::TooLarge(_) | Self::Failed(_) => None,
+        }
+    }
+
     /// Status, title and words for people.
     pub fn told(&self) -> (StatusCode, &'static str, String) {
         match self {
@@ -169,12 +179,22 @@ impl Refusal {
                 let words = format!("Too many failed logins. Please wait {seconds} s.");
                 (StatusCode::TOO_MANY_REQUESTS, "Please wait", words)
             }
+            Self::Busy(seconds) => {
+                let words = format!("The server is busy. Try again in {seconds} s.");
+                (StatusCode::SERVICE_UNAVAILABLE, "Server busy", words)
+            }
             Self::Failed(_) => (
                 StatusCode::INTERNAL_SERVER_ERROR,
                 "Something failed",
                 "The server's log says what. Please tell who runs it.".into(),
             ),
         }
+    }
+}
+
+impl From<crate::app::append_file::Refused> for Refusal {
+    fn from(refused: crate::app::append_file::Refused) -> Self {
+        Self::Failed(refused.to_string())
     }
 }
 

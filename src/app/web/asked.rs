@@ -1,21 +1,22 @@
 //! A request, read.
 
 use super::answer::Refusal;
+use super::spool::Spooled;
 use crate::web::access::Visitor;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
 /// A file of a form.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug)]
 pub struct Upload {
-    /// Its name as the browser tells it; never used as a path.
+    /// Its name as the browser sent it; never used as a path.
     pub name: String,
-    /// What it holds.
-    pub bytes: Vec<u8>,
+    /// Its contents.
+    pub file: Spooled,
 }
 
 /// A request, read: who, what, with which words.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Asked {
     /// Who.
     pub visitor: Visitor,

@@ -19,13 +19,18 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use tokio::sync::Semaphore;
 
+/// A client that found no room may try again after this, s.
+const BUSY_S: u64 = 5;
+
 /// What the requests' tasks share.
 #[derive(Debug, Clone)]
 pub struct Shared {
     /// What all requests share.
     pub state: Arc<State>,
-    /// Room for uploads.
+    /// Room for uploads that arrive.
     pub uploads: Arc<Semaphore>,
+    /// Held while a recording is scored or a cohort's figures are computed; who waits for it holds no thread.
+    pub working: Arc<Semaphore>,
 }
 
 /// A request for a row of the table.
@@ -53,12 +58,23 @@ async fn asked(shared: Shared, route: &'static Route, mut request: Request) -> R
     let answered = async {
         admit(&asked, route)?;
         let _room = match route.how {
-            How::Upload(_) => Some(shared.uploads.acquire().await.map_err(|_| Refusal::Failed("the server ends".into()))?),
+            How::Upload(_) => Some(shared.uploads.try_acquire().map_err(|_| Refusal::Busy(BUSY_S))?),
+            How::File | How::Show | How::Compute | How::Change => None,
+        };
+        body::read(&mut asked, route.how, request, &shared.state.spool()).await?;
+        let turn = match route.how {
+            How::Upload(_) | How::Compute => {
+                Some(shared.working.clone().acquire_owned().await.map_err(|_| Refusal::Failed("the server ends".into()))?)
+            }
             How::File | How::Show | How::Change => None,
         };
-        body::read(&mut asked, route.how, request).await?;
         let state = shared.state.clone();
-        blocking(move || (route.handler)(&state, &asked)).await
+        blocking(move || {
+            // The handler goes on when its client leaves, and keeps its turn.
+            let _turn = turn;
+            (route.handler)(&state, &asked)
+        })
+        .await
     }
     .await;
     let mut response = match answered {
@@ -81,12 +97,12 @@ async fn head(shared: &Shared, route: &'static Route, request: &mut Request) -> 
     let query = request.uri().query().unwrap_or_default();
     let query = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
     let state = shared.state.clone();
-    let changes = !matches!(route.how, How::File | How::Show);
+    let changes = !route.how.only_looks();
     let file = route.how == How::File;
     blocking(move || {
         let open = state.guard.is_open(&state.database)?;
         state.guard.check_origin(&headers, changes, open)?;
-        let from = state.guard.address(socket.ok_or_else(|| Refusal::Failed("a request from nowhere".into()))?, &headers);
+        let from = state.guard.address(socket.ok_or_else(|| Refusal::Failed("a request from nowhere".into()))?, &headers)?;
         let recognised = if file { None } else { Some(state.guard.recognise(&state.database, state.guard.cookie_of(&headers))?) };
         let visitor = recognised.as_ref().map_or_else(nobody, |recognised| recognised.visitor.clone());
         let cookie = recognised.as_ref().map(|recognised| recognised.cookie.clone());
@@ -133,7 +149,8 @@ fn refused(shared: &Shared, visitor: Option<&crate::web::access::Visitor>, refus
     }
     let (status, title, words) = refusal.told();
     let visitor = visitor.cloned().unwrap_or_else(nobody);
-    let mut response = Answer::page(frame::refusal(&visitor, title, &words)).with_status(status).into_response();
+    let page = Answer::page(frame::refusal(&visitor, title, &words)).with_status(status);
+    let mut response = page.retry_after(refusal.retry_after_s()).into_response();
     harden(response.headers_mut(), shared.state.guard.is_secure());
     response
 }

@@ -2,8 +2,10 @@
 
 mod origin;
 
+pub use origin::{Reach, is_host_name};
+
 use super::answer::Refusal;
-use super::passwords;
+use super::hashing::Hashing;
 use super::state::lock;
 use crate::app::clock;
 use crate::app::errors::AppError;
@@ -17,19 +19,16 @@ use std::net::IpAddr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Passwords that are hashed at once: each costs 19 MiB and some 50 ms, so that a flood of logins takes neither memory nor processor.
-const AT_ONCE: usize = 2;
-
 /// The guard.
 #[derive(Debug)]
 pub struct Guard {
     visits: Mutex<Visits>,
     throttle: Mutex<Throttle>,
-    hashing: [Mutex<()>; AT_ONCE],
-    next: std::sync::atomic::AtomicUsize,
+    /// The queue for password hashing.
+    pub hashing: Hashing,
     somebody_has_a_password: AtomicBool,
     secure: bool,
-    behind_proxy: bool,
+    reach: Reach,
 }
 
 /// A visitor with his cookie, and the cookie to set when it is new.
@@ -45,15 +44,14 @@ pub struct Recognised {
 
 impl Guard {
     /// A guard; `secure` says that all requests come over TLS.
-    pub fn new(somebody_has_a_password: bool, secure: bool, behind_proxy: bool) -> Self {
+    pub fn new(somebody_has_a_password: bool, secure: bool, reach: Reach) -> Self {
         Self {
             visits: Mutex::default(),
             throttle: Mutex::default(),
-            hashing: [Mutex::new(()), Mutex::new(())],
-            next: std::sync::atomic::AtomicUsize::new(0),
+            hashing: Hashing::default(),
             somebody_has_a_password: AtomicBool::new(somebody_has_a_password),
             secure,
-            behind_proxy,
+            reach,
         }
     }
 
@@ -140,16 +138,13 @@ impl Guard {
         if let Some(wait_us) = lock(&self.throttle).wait_us(from, name, now_us) {
             return Err(Refusal::Later(wait_us.div_ceil(1_000_000)));
         }
+        // A full queue refuses before the failure counts: a flood from elsewhere must not lock anybody out.
+        let turn = self.hashing.enter()?;
         // Counted before the slow part, so that a flood at once is a flood, too.
         lock(&self.throttle).failed(from, name, now_us);
         let account = database.account(name)?;
         let hash = account.as_ref().and_then(|account| account.hash.as_deref());
-        let turn = self.next.fetch_add(1, Ordering::Relaxed) % AT_ONCE;
-        let fits = {
-            let _one_at_a_time = lock(&self.hashing[turn]);
-            passwords::fits(password, hash)
-        };
-        if !fits {
+        if !turn.fits(password, hash) {
             tracing::info!("a login from {from} failed");
             return Err(no_fit());
         }
@@ -232,9 +227,9 @@ mod tests {
 
     #[test]
     fn exact_cookies_are_out_of_scripts_reach_and_stay_with_a_link() {
-        let plain = Guard::new(true, false, false).cookie("v");
+        let plain = Guard::new(true, false, Reach::default()).cookie("v");
         assert_eq!(plain, "spandrel=v; HttpOnly; SameSite=Lax; Path=/");
-        let guard = Guard::new(true, true, false);
+        let guard = Guard::new(true, true, Reach::default());
         let cookie = guard.cookie("v");
         assert!(cookie.starts_with("__Host-spandrel=v;") && cookie.contains("Secure"), "{cookie}");
         assert_eq!(guard.cookie_of(&headers(&[("cookie", "a=b; __Host-spandrel=xyz; spandrel=no")])), Some("xyz".into()));

@@ -6,7 +6,9 @@ mod asked;
 mod assets;
 mod body;
 mod door;
+mod figures;
 mod guard;
+mod hashing;
 mod leftovers;
 mod live;
 mod passwords;
@@ -17,6 +19,7 @@ mod scenarios;
 mod server;
 mod sessions;
 mod settings;
+mod spool;
 mod state;
 mod taking_in;
 mod tls;
@@ -32,7 +35,8 @@ use super::files;
 use super::records::Place;
 use super::stop::Stop;
 use crate::training::trainee::Role;
-use std::net::{Ipv4Addr, SocketAddr};
+use ipnet::IpNet;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
 /// Show sessions, trainees, cohorts and live flights in a browser
@@ -46,8 +50,9 @@ Examples:
   spandrel serve                                             http://127.0.0.1:8080, this machine only
   spandrel serve --set-password maria --role administrator   asks for the password, keeps its argon2 hash, and ends
   spandrel serve --vehicle 127.0.0.1:14280 --vehicle 127.0.0.1:14281   two flights at once (instances 0 and 1)
-  spandrel serve --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem
-  spandrel serve --listen 127.0.0.1:8080 --behind-proxy      TLS is the proxy's business
+  spandrel serve --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem --host trainer.example
+  spandrel serve --listen 127.0.0.1:8080 --behind-proxy --host trainer.example    a proxy on this machine speaks TLS
+  spandrel serve --listen 10.0.0.7:8080 --behind-proxy --trusted-proxy 10.0.0.2 --host trainer.example
   spandrel serve --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem' --sessions /srv/sessions
 
 {EXIT_CODES}"))]
@@ -97,17 +102,34 @@ pub struct ListenArgs {
     /// Its private key, PEM
     #[arg(long, value_name = "FILE", requires = "tls_cert")]
     pub tls_key: Option<PathBuf>,
-    /// A proxy in front speaks TLS, sets X-Forwarded-For and passes the Host header on
+    /// A proxy in front speaks TLS, sets X-Forwarded-For and passes the Host header on; nobody else reaches the server
     #[arg(long, conflicts_with = "tls_cert")]
     pub behind_proxy: bool,
+    /// Address or network of that proxy, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]
+    #[arg(long, value_name = "ADDR[/BITS]", requires = "behind_proxy", value_parser = proxy)]
+    pub trusted_proxy: Vec<IpNet>,
+    /// Name by which browsers reach the server; may be repeated. localhost and addresses always work
+    #[arg(long, value_name = "NAME", value_parser = host_name)]
+    pub host: Vec<String>,
 }
 
 impl ListenArgs {
     /// This machine alone.
     pub fn local(port: u16) -> Self {
         let listen = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-        Self { listen, tls_cert: None, tls_key: None, behind_proxy: false }
+        let (trusted_proxy, host) = (Vec::new(), Vec::new());
+        Self { listen, tls_cert: None, tls_key: None, behind_proxy: false, trusted_proxy, host }
     }
+}
+
+fn proxy(text: &str) -> Result<IpNet, String> {
+    let network = text.parse().or_else(|_| text.parse().map(|address: IpAddr| IpNet::from(address)));
+    network.map_err(|_| format!("'{text}' is no address or network (allowed: such as 10.0.0.2, 10.0.0.0/24 or fd00::/8)"))
+}
+
+fn host_name(text: &str) -> Result<String, String> {
+    let wrong = || format!("'{text}' is no host name (allowed: letters, digits, hyphens and dots, without a port)");
+    guard::is_host_name(text).then(|| text.to_owned()).ok_or_else(wrong)
 }
 
 fn listen(text: &str) -> Result<SocketAddr, String> {

@@ -8,11 +8,11 @@ use crate::app::records::{forget, kept};
 use crate::app::{clock, plan};
 use crate::monitor::export::json_text;
 use crate::report::{assets, page::cohort as report};
-use crate::training::cohort::{Cohort, Selection, TABLES, cohort, table};
-use crate::training::plan::plan as planned;
+use crate::training::cohort::{Selection, TABLES, table};
+use crate::training::plan::plan_counting;
+use crate::training::record::Incomplete;
 use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
 use crate::web::{group, people as pages};
-use std::collections::BTreeSet;
 
 /// Sessions on a trainee's page.
 const SESSIONS: u32 = 200;
@@ -36,8 +36,9 @@ pub fn one(state: &State, asked: &Asked) -> Answered {
     let person = person(state, asked)?;
     let records = state.database.records(Some(&person.pseudonym))?;
     let listed = state.database.list(Some(&person.pseudonym), SESSIONS, 0)?;
-    let plan = planned(&records, &plan::rules(None)?, clock::unix_us());
-    let about = pages::About { person: &person, records: &records, listed: &listed, plan: plan.as_ref() };
+    let incomplete = incomplete(asked);
+    let plan = plan_counting(records.clone(), incomplete, &plan::rules(None)?, clock::unix_us());
+    let about = pages::About { person: &person, records: &records, listed: &listed, plan: plan.as_ref(), incomplete };
     Ok(Answer::page(pages::one(&asked.visitor, &about)))
 }
 
@@ -90,6 +91,11 @@ pub fn erase(state: &State, asked: &Asked) -> Answered {
     Ok(Answer::to("/trainees"))
 }
 
+/// Incomplete sessions count where the page's switch is on.
+fn incomplete(asked: &Asked) -> Incomplete {
+    Incomplete::included(asked.word("incomplete").is_some())
+}
+
 fn chosen(asked: &Asked) -> Result<Selection, Refusal> {
     let repetitions = match asked.word("repetitions") {
         None => REPETITIONS,
@@ -100,37 +106,37 @@ fn chosen(asked: &Asked) -> Result<Selection, Refusal> {
             .ok_or_else(|| Refusal::Wrong("repetitions: no such number (allowed: 1 to 100)".into()))?,
     };
     let scenarios = asked.query.iter().filter(|(key, _)| key == "scenario").map(|(_, name)| name.clone()).collect();
-    Ok(Selection { scenarios, repetitions })
-}
-
-/// The group's figures, and the scenarios that were flown at all.
-fn figures(state: &State, selection: &Selection) -> Result<(Option<Cohort>, Vec<String>), Refusal> {
-    let records = state.database.records(None)?;
-    let flown: BTreeSet<String> = records.iter().map(|record| record.scenario.clone()).collect();
-    let cohort = cohort(&records, selection);
-    Ok(((cohort.sessions > 0).then_some(cohort), flown.into_iter().collect()))
+    Ok(Selection { scenarios, repetitions, incomplete: incomplete(asked) })
 }
 
 /// The group's page.
 pub fn cohort_page(state: &State, asked: &Asked) -> Answered {
     let selection = chosen(asked)?;
-    let (cohort, flown) = figures(state, &selection)?;
-    let scenarios = cohort.as_ref().map_or(selection.scenarios, |cohort| cohort.scenarios.clone());
-    let chosen = group::Chosen { flown: &flown, scenarios: &scenarios, repetitions: selection.repetitions };
-    Ok(Answer::page(group::group(&asked.visitor, &chosen, cohort.as_ref())))
+    let figured = state.figures.of(&selection)?;
+    let counted = figured.counted();
+    let scenarios = counted.map_or(selection.scenarios, |cohort| cohort.scenarios.clone());
+    let chosen = group::Chosen {
+        flown: &figured.flown,
+        scenarios: &scenarios,
+        repetitions: selection.repetitions,
+        incomplete: selection.incomplete,
+        left_out: figured.cohort.left_out,
+    };
+    Ok(Answer::page(group::group(&asked.visitor, &chosen, counted)))
 }
 
 /// One of its tables as a file.
 pub fn cohort_table(state: &State, asked: &Asked) -> Answered {
     let name = TABLES.into_iter().find(|name| *name == asked.part("name")).ok_or(Refusal::NotFound)?;
-    let (cohort, _) = figures(state, &chosen(asked)?)?;
-    let csv = cohort.as_ref().and_then(|cohort| table(cohort, name)).ok_or(Refusal::NotFound)?;
+    let figured = state.figures.of(&chosen(asked)?)?;
+    let csv = figured.counted().and_then(|cohort| table(cohort, name)).ok_or(Refusal::NotFound)?;
     Ok(Answer::download(name, "text/csv; charset=utf-8", csv.into_bytes()))
 }
 
 /// The same as one page that opens offline.
 pub fn cohort_report(state: &State, asked: &Asked) -> Answered {
-    let (cohort, _) = figures(state, &chosen(asked)?)?;
-    let cohort = cohort.ok_or_else(|| Refusal::Wrong("there is no session of these scenarios".into()))?;
-    Ok(Answer::boxed(report::cohort(&cohort).into_bytes(), &assets::page_policy()))
+    let figured = state.figures.of(&chosen(asked)?)?;
+    let nothing = || Refusal::Wrong("there is no session of these scenarios that counts".into());
+    let cohort = figured.counted().ok_or_else(nothing)?;
+    Ok(Answer::boxed(report::cohort(cohort).into_bytes(), &assets::page_policy()))
 }

@@ -23,10 +23,19 @@ pub enum How {
     File,
     /// Looking changes nothing.
     Show,
+    /// As `Show`, but it may take seconds to work out: one at a time.
+    Compute,
     /// A form changes something; it must carry the visitor's token.
     Change,
     /// A form with one file of at most so many bytes.
     Upload(usize),
+}
+
+impl How {
+    /// Changes nothing.
+    pub fn only_looks(self) -> bool {
+        matches!(self, Self::File | Self::Show | Self::Compute)
+    }
 }
 
 /// One row.
@@ -44,6 +53,10 @@ pub struct Route {
 
 const fn show(path: &'static str, needs: Needs, handler: Handler) -> Route {
     Route { path, how: How::Show, needs, handler }
+}
+
+const fn compute(path: &'static str, needs: Needs, handler: Handler) -> Route {
+    Route { path, how: How::Compute, needs, handler }
 }
 
 const fn change(path: &'static str, needs: Needs, handler: Handler) -> Route {
@@ -79,9 +92,9 @@ pub const ROUTES: &[Route] = &[
     show("/trainees/{name}/export.json", Needs::Login, people::export),
     change("/trainees/{name}/details", Needs::Login, people::details),
     change("/trainees/{name}/erase", Needs::Administrator, people::erase),
-    show("/cohort", Needs::Instructor, people::cohort_page),
-    show("/cohort/report.html", Needs::Instructor, people::cohort_report),
-    show("/cohort/tables/{name}", Needs::Instructor, people::cohort_table),
+    compute("/cohort", Needs::Instructor, people::cohort_page),
+    compute("/cohort/report.html", Needs::Instructor, people::cohort_report),
+    compute("/cohort/tables/{name}", Needs::Instructor, people::cohort_table),
     show("/scenarios", Needs::Login, scenarios::list),
     show("/scenarios/{name}", Needs::Login, scenarios::one),
     upload("/scenarios", SCENARIO_MOST, Needs::Instructor, scenarios::upload),
@@ -113,7 +126,7 @@ mod tests {
     #[test]
     fn exact_no_row_stands_twice() {
         for (k, a) in ROUTES.iter().enumerate() {
-            let shows = |route: &Route| matches!(route.how, How::File | How::Show);
+            let shows = |route: &Route| route.how.only_looks();
             assert!(!ROUTES[..k].iter().any(|b| a.path == b.path && shows(a) == shows(b)), "{}", a.path);
         }
     }

@@ -108,7 +108,8 @@ pub fn upload(state: &State, asked: &Asked) -> Answered {
 fn keep(state: &State, asked: &Asked) -> Result<String, AppError> {
     let upload = asked.upload.as_ref().ok_or_else(|| AppError::wrong("file: missing"))?;
     let shown: String = upload.name.chars().filter(|c| !c.is_control()).take(60).collect();
-    let text = std::str::from_utf8(&upload.bytes)
+    let bytes = upload.file.bytes()?;
+    let text = std::str::from_utf8(&bytes)
         .map_err(|error| AppError::wrong(format!("{shown}: is not UTF-8 text (byte {})", error.valid_up_to())))?;
     let scenario = read(&shown, text)?;
     // The name goes into folder names; the reader of scenarios allows [a-z0-9-] alone.

@@ -1,6 +1,7 @@
 //! The server: its port, its threads, and the table of routes as axum takes it.
 
 use super::door::{self, Shared};
+use super::guard::Reach;
 use super::routes::{FORM_MOST, How, ROUTES, Route, STREAM};
 use super::state::{Setup, State};
 use super::{ListenArgs, tls};
@@ -18,8 +19,8 @@ use tokio::sync::Semaphore;
 
 /// A browser has this long to send the head of a request.
 const HEAD_WAIT: Duration = Duration::from_secs(30);
-/// Uploads that are held in memory at once.
-const UPLOADS: usize = 2;
+/// Uploads that arrive at once; each takes up to `RECORDING_MOST` of disk. Estimate: a class of thirty.
+const UPLOADS: usize = 32;
 /// What is under way when the server ends has this long.
 const FAREWELL: Duration = Duration::from_secs(2);
 /// Between two looks whether to end.
@@ -43,7 +44,12 @@ impl Server {
     pub fn start(args: &ListenArgs, setup: Setup) -> Result<Self, AppError> {
         let secure = args.tls_cert.is_some() || args.behind_proxy;
         let tls = tls::config(args)?;
-        let state = State::open(setup, secure, args.behind_proxy)?;
+        let reach = if args.behind_proxy {
+            Reach::behind(&args.trusted_proxy, &args.host)
+        } else {
+            Reach { hosts: args.host.clone(), ..Reach::default() }
+        };
+        let state = State::open(setup, secure, reach)?;
         tls::check(args, !state.database.with_password()?.is_empty())?;
         let taken = |error: std::io::Error| AppError::failed(format!("--listen {}: cannot be opened: {error}", args.listen));
         let listener = TcpListener::bind(args.listen).map_err(taken)?;
@@ -57,7 +63,8 @@ impl Server {
             .build()
             .map_err(|error| AppError::failed(format!("no runtime for the server: {error}")))?;
         let handle = Handle::new();
-        let shared = Shared { state: Arc::new(state), uploads: Arc::new(Semaphore::new(UPLOADS)) };
+        let shared =
+            Shared { state: Arc::new(state), uploads: Arc::new(Semaphore::new(UPLOADS)), working: Arc::new(Semaphore::new(1)) };
         let (router, own) = (router(&shared), handle.clone());
         let thread = std::thread::spawn(move || {
             let ended = runtime.block_on(serve(listener, tls, own, router));
@@ -137,7 +144,7 @@ fn method(route: &'static Route, shared: &Shared) -> MethodRouter {
     let shared = shared.clone();
     let handle = move |request: Request| door::through(shared.clone(), route, request);
     match route.how {
-        How::File | How::Show => get(handle),
+        How::File | How::Show | How::Compute => get(handle),
         How::Change => post(handle),
         // The fields beside the file need room, too.
         How::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + FORM_MOST)),

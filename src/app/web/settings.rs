@@ -2,11 +2,10 @@
 
 use super::answer::{Answer, Answered, Refusal};
 use super::asked::Asked;
-use super::passwords;
 use super::state::State;
 use crate::app::args::TraineeId;
 use crate::app::clock;
-use crate::app::records::{Account, folders_where, remove};
+use crate::app::records::{Account, forget_older};
 use crate::training::trainee::{Role, Trainee};
 use crate::web::{login, settings as pages};
 
@@ -31,10 +30,10 @@ pub fn log_in(state: &State, asked: &Asked) -> Answered {
             answer.cookie = Some(state.guard.cookie(&cookie));
             Ok(answer)
         }
-        Err(refusal @ (Refusal::Forbidden(_) | Refusal::Later(_))) => {
+        Err(refusal @ (Refusal::Forbidden(_) | Refusal::Later(_) | Refusal::Busy(_))) => {
             let (status, _, words) = refusal.told();
-            let wait = if let Refusal::Later(seconds) = refusal { Some(seconds) } else { None };
-            Ok(Answer::page(login::login(&asked.visitor, name, Some(&words))).with_status(status).retry_after(wait))
+            let page = Answer::page(login::login(&asked.visitor, name, Some(&words)));
+            Ok(page.with_status(status).retry_after(refusal.retry_after_s()))
         }
         Err(other) => Err(other),
     }
@@ -59,7 +58,9 @@ pub fn change_password(state: &State, asked: &Asked) -> Answered {
     let name = asked.visitor.name.as_deref().ok_or(Refusal::NotFound)?;
     let told = match change(state, asked, name) {
         Ok(()) => ("good", "The password is changed. Wherever else you were logged in, you are so no more.".to_owned()),
-        Err(refusal @ (Refusal::Forbidden(_) | Refusal::Wrong(_) | Refusal::Later(_))) => ("bad", refusal.told().2),
+        Err(refusal @ (Refusal::Forbidden(_) | Refusal::Wrong(_) | Refusal::Later(_) | Refusal::Busy(_))) => {
+            ("bad", refusal.told().2)
+        }
         Err(other) => return Err(other),
     };
     Ok(Answer::page(login::account(&asked.visitor, Some((told.0, &told.1)))))
@@ -69,7 +70,7 @@ fn change(state: &State, asked: &Asked, name: &str) -> Result<(), Refusal> {
     let mut account = state.guard.check(&state.database, name, asked.needed("present")?, asked.from)?;
     let new = asked.needed("new")?;
     login::check(new, name).map_err(Refusal::Wrong)?;
-    let before = account.hash.replace(passwords::hash(new)?).unwrap_or_default();
+    let before = account.hash.replace(state.guard.hashing.enter()?.hash(new)?).unwrap_or_default();
     if !state.database.change_password(name, &before, account.hash.as_deref().unwrap_or_default())? {
         return Err(Refusal::Wrong("somebody has changed your password meanwhile: log in with that one".into()));
     }
@@ -109,7 +110,7 @@ pub fn set_login(state: &State, asked: &Asked) -> Answered {
     if own && role != Role::Administrator {
         return Err(Refusal::Wrong("you would shut yourself out: let another administrator change your role".into()));
     }
-    let hash = passwords::hash(password)?;
+    let hash = state.guard.hashing.enter()?.hash(password)?;
     state.database.set_login(name, role, &hash)?;
     state.guard.put_out(name, asked.cookie.as_deref());
     if own {
@@ -146,9 +147,6 @@ pub fn retention(state: &State, asked: &Asked) -> Answered {
         return Err(Refusal::Wrong("sure: not said (allowed: yes)".into()));
     }
     let limit_us = clock::unix_us().saturating_sub(days * DAY_US);
-    let folders = folders_where(&state.place.sessions, |_, started_unix_us| started_unix_us < limit_us)?;
-    remove(&folders)?;
-    let ids: Vec<String> = state.database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
-    let deleted = state.database.delete_sessions(&ids)?;
-    shown(state, asked, Some(("good", &format!("{deleted} sessions and {} folders are erased.", folders.len()))))
+    let (deleted, folders) = forget_older(&state.database, &state.place, limit_us)?;
+    shown(state, asked, Some(("good", &format!("{deleted} sessions and {folders} folders are erased."))))
 }

@@ -1,6 +1,7 @@
 //! What all requests share.
 
-use super::guard::Guard;
+use super::figures::Figures;
+use super::guard::{Guard, Reach};
 use super::live::{Live, Watched};
 use super::taking_in::TakingIn;
 use crate::app::errors::AppError;
@@ -28,6 +29,8 @@ pub struct Setup {
 pub struct State {
     /// Records.
     pub database: Database,
+    /// Figures of cohorts.
+    pub figures: Figures,
     /// Where they and the sessions are.
     pub place: Place,
     /// Folder of uploaded scenarios.
@@ -51,7 +54,7 @@ impl State {
     ///
     /// # Errors
     /// When a wording is wrong, or the database or a link to a vehicle cannot be opened.
-    pub fn open(setup: Setup, secure: bool, behind_proxy: bool) -> Result<Self, AppError> {
+    pub fn open(setup: Setup, secure: bool, reach: Reach) -> Result<Self, AppError> {
         let Setup { place, scenarios, watched, wordings } = setup;
         let languages = questionnaire::languages(&wordings)?;
         let first = place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
@@ -60,13 +63,23 @@ impl State {
         super::uploads::clear(&first)?;
         let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
         super::leftovers::sweep(&place.sessions, &scenarios);
-        let database = place.open()?;
-        let guard = Guard::new(!database.with_password()?.is_empty(), secure, behind_proxy);
+        let (database, figures) = (place.open()?, Figures::open(&place)?);
+        let guard = Guard::new(!database.with_password()?.is_empty(), secure, reach);
         let start = |watched: &Watched| Live::start(watched, &place.sessions, &scenarios);
         let live = watched.iter().map(start).collect::<Result<Vec<_>, _>>()?;
         let taking_in = TakingIn::start(&place)?;
         let (answers, scoring) = (Mutex::new(()), Mutex::new(()));
-        Ok(Self { database, place, scenarios, guard, languages, live, taking_in, answers, scoring })
+        Ok(Self { database, figures, place, scenarios, guard, languages, live, taking_in, answers, scoring })
+    }
+
+    /// Where uploads lie while they arrive and sessions while they are made.
+    pub fn spool(&self) -> PathBuf {
+        self.first().join(super::uploads::ASIDE)
+    }
+
+    /// The folder of sessions that new ones go into.
+    pub fn first(&self) -> PathBuf {
+        self.place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"))
     }
 
     /// The folder of a session; `None` when it is not on this machine, or the id is no plain name.

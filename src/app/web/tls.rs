@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     fn args(listen: &str, behind_proxy: bool) -> ListenArgs {
-        ListenArgs { listen: listen.parse().unwrap(), tls_cert: None, tls_key: None, behind_proxy }
+        ListenArgs { listen: listen.parse().unwrap(), behind_proxy, ..ListenArgs::local(0) }
     }
 
     #[test]

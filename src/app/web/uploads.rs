@@ -18,7 +18,7 @@ use axum::http::StatusCode;
 use std::path::{Path, PathBuf};
 
 /// Where a session lies while it is taken in; its name is no session's.
-const ASIDE: &str = ".taking-in";
+pub const ASIDE: &str = ".taking-in";
 
 /// The form.
 pub fn page(state: &State, asked: &Asked) -> Answered {
@@ -69,7 +69,7 @@ fn take(state: &State, asked: &Asked) -> Result<Taken, Refusal> {
         return Err(Refusal::Wrong("vehicle: there is none of this name".into()));
     }
     let vehicle = files::vehicle(vehicle)?;
-    let log = &asked.upload.as_ref().ok_or_else(|| Refusal::Wrong("file: missing".into()))?.bytes;
+    let log = &*asked.upload.as_ref().ok_or_else(|| Refusal::Wrong("file: missing".into()))?.file.bytes()?;
     // The telemetry is kept as it came, to its last whole record.
     let kept = &log[..tlog::whole_len(log)];
     if let Some((id, trainee)) = state.database.of_telemetry(&sha256_hex(kept))? {
@@ -83,8 +83,8 @@ fn take(state: &State, asked: &Asked) -> Result<Taken, Refusal> {
         let words = format!("trainee = {}: was erased after this flight; it is not taken in again", trainee.as_str());
         return Err(Refusal::Wrong(words));
     }
-    let first = state.place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
-    let aside = first.join(ASIDE);
+    let first = state.first();
+    let aside = state.spool();
     let mut folder = SessionFolder::create(&aside, trainee.as_str(), started_unix_us, &scenario, &vehicle)?;
     let config = MonitorConfig {
         scenario: scenario.scenario.clone(),

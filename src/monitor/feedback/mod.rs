@@ -40,6 +40,8 @@ pub struct TaskNow {
     pub too_close_m: Option<f64>,
     /// Number for people.
     pub id: u32,
+    /// Who flies away from here leaves the task: it is flown, or the nearest place is an end of its path.
+    pub may_leave: bool,
 }
 
 /// What the rules see, at one instant.

@@ -1,6 +1,8 @@
 //! Speeding: over the limit while on any path, or near the one last entered. (The score knows a window's end, this cannot.)
 
 use super::{CoolDown, Moment, Text, cue};
+use crate::base::math::M_S_PER_MPH;
+use crate::base::numbers::{beside_limit, limit};
 use crate::scenario::Feedback;
 
 /// The rule. It clears only after the speed was at or under the limit for `CLEAR_MS`, so that it does not chatter.
@@ -20,7 +22,10 @@ impl Speeding {
         let speeding = moment.in_session && moment.speed_m_s > limit_m_s && (moment.on.is_some() || near_last);
         if speeding {
             self.over = Some(moment.time);
-            let words = || format!("Too fast: {:.1} m/s, limit {limit_m_s:.1}", moment.speed_m_s);
+            let words = || {
+                let (speed_mph, limit_mph) = (moment.speed_m_s / M_S_PER_MPH, limit_m_s / M_S_PER_MPH);
+                format!("Too fast: {} mph, limit {} mph", beside_limit(speed_mph, limit_mph, 0), limit(limit_mph))
+            };
             return (cue::SPEEDING, self.cool_down.say(moment.time, limits.text_interval, cue::SPEEDING, words));
         }
         let fresh = self.over.is_some_and(|over| (moment.time - over).ms() < CLEAR_MS);

@@ -1,6 +1,7 @@
 //! What is measured in the frames of a session, one file per measure.
 
 pub mod attention;
+pub mod coverage;
 pub mod crash;
 pub mod on_path;
 pub mod on_speed;

@@ -102,6 +102,31 @@ impl Path {
         self.blocks.iter().all(|block| block.distance_squared(position_m.array()) > limit)
     }
 
+    /// Length of the path from its first point to each point, m.
+    #[must_use]
+    pub fn along_m(&self) -> Vec<f64> {
+        let steps = self.points_m.windows(2).map(|pair| (pair[1] - pair[0]).norm());
+        let mut sum_m = 0.0;
+        let later = steps.map(|step_m| {
+            sum_m += step_m;
+            sum_m
+        });
+        self.points_m.first().map(|_| 0.0).into_iter().chain(later).collect()
+    }
+
+    /// Length that each point stands for, m: half of each segment that touches it.
+    #[must_use]
+    pub fn lengths_by_point_m(&self) -> Vec<f64> {
+        let mut lengths_m = vec![0.0; self.points_m.len()];
+        for k in 0..self.points_m.len() {
+            let Some((a, b)) = self.segment(k) else { continue };
+            let half_m = 0.5 * (b - a).norm();
+            lengths_m[k] += half_m;
+            lengths_m[(k + 1) % self.points_m.len()] += half_m;
+        }
+        lengths_m
+    }
+
     /// The segment that starts at point `k`.
     fn segment(&self, k: usize) -> Option<(Vec3<Enu>, Vec3<Enu>)> {
         let next = if k + 1 < self.points_m.len() { Some(k + 1) } else { self.closed.then_some(0) }?;

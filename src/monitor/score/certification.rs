@@ -2,8 +2,11 @@
 //! only the part of a path that was flown, and weighs a crash by its speed. The weights are this project's estimates and are written
 //! into the output with it.
 
+use crate::base::numbers::{beside_limit, limit};
+use crate::monitor::measures::coverage::PathCoverage;
 use crate::monitor::measures::crash::{self, Crash};
 use crate::monitor::measures::on_path::{OnPath, Paths};
+use crate::monitor::score::completion::{Completion, TaskState, missing};
 use crate::monitor::score::{Score, accuracy, conformity, efficiency};
 use crate::monitor::session::{EndReason, Session};
 use crate::scenario::{PlacedDefect, Scenario};
@@ -27,16 +30,16 @@ const CRASH_LOSS_MAX: f64 = 30.0;
 const EXPOSURE_LOSS_PER_S: f64 = 0.1;
 /// Largest loss for closeness alone, points (estimate).
 const EXPOSURE_LOSS_MAX: f64 = 50.0;
-/// Marked path points are joined when the drone skipped at most so many between two frames (points are at most 1 m apart).
-const COVER_STEP: usize = 5;
 
 /// The profile's output.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Certification {
-    /// All gates are open.
+    /// All requirements are met.
     pub passed: bool,
     /// Gates.
     pub gates: Gates,
+    /// Each requirement that failed, in words, with what was reached and what is needed.
+    pub unmet: Vec<String>,
     /// Scores, 0 to 100; conformity is absent when there is no evidence (no path entered), accuracy when no defect was placed.
     pub scores: CertificationScores,
     /// `not_attempted:ID` per task, `no_evidence`.
@@ -58,6 +61,8 @@ pub struct Certification {
 /// What must hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Gates {
+    /// Every task is done, and the session ended by landing at home.
+    pub session_complete: bool,
     /// Every task's path was entered.
     pub all_tasks_attempted: bool,
     /// Nobody and no vehicle was hit.
@@ -146,6 +151,12 @@ pub struct Evidence<'a> {
     pub session: &'a Session,
     /// On-path measure.
     pub on_path: &'a OnPath,
+    /// Coverage of each task's path.
+    pub covered: &'a [PathCoverage],
+    /// State of each task.
+    pub states: &'a [TaskState],
+    /// Completion of the session.
+    pub completion: Completion,
     /// Crashes.
     pub crashes: &'a [Crash],
     /// Counts of the pictures.
@@ -167,6 +178,7 @@ pub fn grade(evidence: &Evidence<'_>) -> Certification {
     let exposure_s = exposure_s(evidence);
     let battery_at_end_pct = frames.last().map_or(0.0, |frame| frame.battery_pct);
     let gates = gates(evidence, attempted.iter().all(|a| *a), battery_at_end_pct);
+    let unmet = unmet(evidence, &gates, battery_at_end_pct);
     let none_entered = !attempted.is_empty() && attempted.iter().all(|a| !a);
     let whole = gates.landed_at_home && gates.all_tasks_attempted;
     let scores = CertificationScores {
@@ -175,10 +187,10 @@ pub fn grade(evidence: &Evidence<'_>) -> Certification {
         safety: safety(&gates, &crashes, exposure_s),
         accuracy: evidence.counts.score(scenario.scoring.beta).map(|score| score.pct),
     };
-    let Gates { all_tasks_attempted, no_person_or_vehicle_hit, landed_at_home, battery_reserve } = gates;
     Certification {
-        passed: all_tasks_attempted && no_person_or_vehicle_hit && landed_at_home && battery_reserve,
+        passed: unmet.is_empty(),
         gates,
+        unmet,
         scores,
         flags: flags(scenario, &attempted, none_entered),
         tasks,
@@ -194,11 +206,30 @@ fn gates(evidence: &Evidence<'_>, all_tasks_attempted: bool, battery_pct: f64) -
     let landed = evidence.session.reason == EndReason::Landed;
     let traffic = |crash: &Crash| matches!(crash.with, Contact::Person | Contact::Vehicle);
     Gates {
+        session_complete: evidence.completion.complete,
         all_tasks_attempted,
         no_person_or_vehicle_hit: !evidence.crashes.iter().any(traffic),
         landed_at_home: landed,
         battery_reserve: landed && battery_pct >= BATTERY_AT_HOME_PCT,
     }
+}
+
+/// The requirements that failed. A battery that was not landed with is not one by itself, nor is a skipped task beside its own line.
+fn unmet(evidence: &Evidence<'_>, gates: &Gates, battery_pct: f64) -> Vec<String> {
+    let done_share = evidence.completion.done_share;
+    let tasks = evidence.scenario.tasks.iter().zip(evidence.states).zip(evidence.covered);
+    let mut unmet = Vec::new();
+    if !gates.no_person_or_vehicle_hit {
+        unmet.push("a person or a vehicle was hit".to_owned());
+    }
+    unmet.extend(tasks.filter_map(|((task, state), covered)| missing(task.id, *state, covered.share, done_share)));
+    if !gates.landed_at_home {
+        unmet.push("not landed at home".to_owned());
+    } else if !gates.battery_reserve {
+        let reached = beside_limit(battery_pct, BATTERY_AT_HOME_PCT, 0);
+        unmet.push(format!("{reached} % battery at landing, {} % needed", limit(BATTERY_AT_HOME_PCT)));
+    }
+    unmet
 }
 
 fn flags(scenario: &Scenario, attempted: &[bool], none_entered: bool) -> Vec<String> {
@@ -243,27 +274,12 @@ fn visits(evidence: &Evidence<'_>) -> Vec<TaskVisits> {
         TaskVisits {
             id: scenario.tasks[task].id,
             visits: ranges.iter().map(|(first, last)| (frames[*first].index, frames[*last].index)).collect(),
-            coverage: coverage(evidence, task),
+            coverage: evidence.covered[task].share,
             on_path: per_frame(on as f64),
             speeding: per_frame(loss),
         }
     };
     ranges.iter().enumerate().map(one).collect()
-}
-
-/// Share of a path's points that were the nearest one in some on-path frame, or lie between two of consecutive frames.
-fn coverage(evidence: &Evidence<'_>, task: usize) -> f64 {
-    let mut marked = vec![false; evidence.paths.path(task).points_m().len()];
-    let mut before: Option<usize> = None;
-    for on in &evidence.on_path.task {
-        let point = on.and_then(|(t, point)| (t == task).then_some(point));
-        if let Some(point) = point {
-            let from = before.filter(|b| b.abs_diff(point) <= COVER_STEP).unwrap_or(point);
-            marked[from.min(point)..=from.max(point)].fill(true);
-        }
-        before = point;
-    }
-    marked.iter().filter(|m| **m).count() as f64 / marked.len().max(1) as f64
 }
 
 fn covered_conformity(tasks: &[TaskVisits], scenario: &Scenario) -> Option<f64> {

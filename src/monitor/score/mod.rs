@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod certification;
+pub mod completion;
 pub mod conformity;
 pub mod efficiency;
 pub mod safety;
@@ -9,7 +10,7 @@ pub mod safety;
 use serde::Serialize;
 
 /// Version of the scorer: it grows whenever the same flight may get other scores, so that records know which of them compare.
-pub const SCORER_VERSION: u32 = 1;
+pub const SCORER_VERSION: u32 = 2;
 
 /// A score on its own scale and on 0 to 100. Full precision; only what is shown is rounded.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

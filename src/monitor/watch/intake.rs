@@ -18,13 +18,17 @@ use crate::telemetry::timeline::Pushed;
 use crate::telemetry::{Contact, Truth};
 use serde_json::json;
 impl Monitor {
-    /// Session start plus simulation time; after a simulator's restart the stamps go on rising.
-    pub(super) fn stamp_us(&self, received: &Received) -> u64 {
+    /// Session start plus the simulation time since the first truth; after a simulator's restart the stamps go on rising.
+    pub(super) fn stamp_us(&mut self, received: &Received) -> u64 {
         let own = crate::telemetry::sample::truth_time(&received.bytes);
+        let since_zero = |own: SimTime| u64::try_from(own.us()).unwrap_or(0);
+        let started = self.config.started_unix_us;
+        self.zero_unix_us = self.zero_unix_us.or(own.map(|own| started.saturating_sub(since_zero(own))));
+        let Some(zero) = self.zero_unix_us else { return started };
         let now = own.map_or(self.now(), |own| own.max(self.now()));
         let passed = self.timeline.passed(self.timeline.epochs() - 1);
         let since = u64::try_from((passed + now).us()).unwrap_or(0);
-        self.config.started_unix_us.saturating_add(since)
+        zero.saturating_add(since)
     }
 
     pub(super) fn take(&mut self, received: &Received) {
@@ -151,7 +155,13 @@ impl Monitor {
         if self.live.lift_off.is_none() {
             return;
         }
-        let on = self.paths.on(position_m, self.live.last_task).map(|(task, _)| task);
+        let on = self.paths.on(position_m, self.live.last_task);
+        if let Some((task, nearest)) = on
+            && let Some(passed) = self.live.passed[task].get_mut(nearest.point)
+        {
+            *passed = true;
+        }
+        let on = on.map(|(task, _)| task);
         if let Some(task) = on.filter(|task| self.live.last_task != Some(*task)) {
             self.event("task_entered", json!({ "task": self.config.scenario.tasks[task].id }));
         }
@@ -247,8 +257,9 @@ impl Monitor {
     pub(super) fn finish(&mut self, outcome: Result<Graded, AssessError>) {
         let (reason, words) = match &outcome {
             Ok(graded) => {
-                let overall = graded.assessment.scores.overall;
-                (json!(graded.assessment.end.reason), format!("Session over: {overall:.0} points"))
+                let (overall, completion) = (graded.assessment.scores.overall, graded.assessment.completion);
+                let words = if completion.complete { format!("Session over: {overall:.0} points") } else { completion.short() };
+                (json!(graded.assessment.end.reason), words)
             }
             Err(error) => (json!(error.to_string()), "Session over: nothing to score".to_owned()),
         };

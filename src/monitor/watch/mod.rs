@@ -8,7 +8,8 @@
 
 use crate::base::geodesy::LocalPlane;
 use crate::base::time::SimTime;
-use crate::mav::codec::{Decoder, Encoder};
+use crate::mav::codec::{Decoder, Encoder, Received};
+use crate::mav::dialect::{MavAutopilot, MavMessage, MavSeverity};
 use crate::monitor::assessment::{AssessError, Graded};
 use crate::monitor::feedback::{Feedback, texts::Texts};
 use crate::monitor::folder::SessionInfo;
@@ -18,10 +19,12 @@ use crate::monitor::session::{EndReason, EndRule};
 use crate::scenario::Scenario;
 use crate::site::Site;
 use crate::site::gates::Gates;
+use crate::telemetry::log_stream::Log;
 use crate::telemetry::timeline::LinkCounts;
 use crate::telemetry::{Contact, Hand, Timeline, Truth, tlog};
 use crate::vehicle::Vehicle;
 use std::collections::VecDeque;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 mod intake;
@@ -29,6 +32,8 @@ mod voice;
 
 /// The monitor's component id (MAV_COMP_ID_ONBOARD_COMPUTER).
 pub const COMPONENT: u8 = 191;
+/// The autopilot's component id (MAV_COMP_ID_AUTOPILOT1).
+const AUTOPILOT: u8 = 1;
 /// `cues` are repeated at 5 Hz (design.md).
 const CUES_EVERY: SimTime = SimTime::from_ms(200);
 /// Heartbeats run on simulation time, so that a run flat out says the same in every run.
@@ -64,7 +69,7 @@ pub struct MonitorConfig {
     pub trainee: String,
     /// What for, where somebody chose: practice or assessment.
     pub purpose: Option<String>,
-    /// Wall time of simulation time zero, µs since the Unix epoch; on a restart that of the first start.
+    /// Wall time of the session's start, µs since the Unix epoch; on a restart that of the first start.
     pub started_unix_us: u64,
     /// System id until the vehicle has been heard: 1 + instance.
     pub system_id: u8,
@@ -98,6 +103,8 @@ struct Live {
     lift_off: Option<SimTime>,
     on: Option<usize>,
     last_task: Option<usize>,
+    /// Per task the points of its path that the drone was nearest to while on it.
+    passed: Vec<Vec<bool>>,
     rule: EndRule,
     end: Option<(SimTime, EndReason)>,
     no_end_before: SimTime,
@@ -115,6 +122,8 @@ pub struct Monitor {
     decoder: Decoder,
     encoder: Encoder,
     timeline: Timeline,
+    /// Wall time of simulation time zero, µs since the Unix epoch, once a truth has come.
+    zero_unix_us: Option<u64>,
     feedback: Feedback,
     texts: Texts,
     live: Live,
@@ -141,6 +150,7 @@ impl Monitor {
             decoder: Decoder::new(),
             encoder: Encoder::new(config.system_id, COMPONENT),
             timeline: Timeline::new(LocalPlane::new(scenario.origin)),
+            zero_unix_us: None,
             feedback: Feedback::new(scenario),
             texts: Texts::default(),
             live: Live::new(&config),
@@ -161,22 +171,36 @@ impl Monitor {
 
     /// A monitor that goes on where a killed one stopped: `log` is what `telemetry.tlog` holds. The shell cuts the file to
     /// [`tlog::whole_len`] before it appends.
-    #[must_use]
-    pub fn resume(mut config: MonitorConfig, log: &[u8]) -> Self {
-        if let Some(start) = tlog::session_start_us(log) {
-            config.started_unix_us = start;
-        }
+    ///
+    /// # Errors
+    /// When the log cannot be read.
+    pub fn resume(config: MonitorConfig, log: &(impl Log + ?Sized)) -> std::io::Result<Self> {
         let mut monitor = Self::new(config);
         monitor.replaying = true;
-        for record in tlog::Reader::new(log) {
+        log.each(&mut |record| {
+            monitor.zero_unix_us = monitor.zero_unix_us.or_else(|| tlog::zero_us(&record));
             for received in monitor.decoder.datagram(record.frame) {
                 monitor.take(&received);
             }
-        }
+            ControlFlow::Continue(())
+        })?;
         monitor.replaying = false;
         let resumed_at_s = monitor.now().s();
         monitor.event("monitor_restarted", serde_json::json!({ "at_s": resumed_at_s }));
-        monitor
+        Ok(monitor)
+    }
+
+    /// Whether the vehicle sends this datagram: it holds a frame of the autopilot's component, and of the system whose flight is scored as
+    /// soon as there is one.
+    #[must_use]
+    pub fn is_from_vehicle(&self, bytes: &[u8]) -> bool {
+        let system = self.timeline.system();
+        let beats = |frame: &Received| match &frame.message {
+            Some(MavMessage::HEARTBEAT(beat)) => beat.autopilot != MavAutopilot::MAV_AUTOPILOT_INVALID,
+            message => message.is_some() && system.is_some(),
+        };
+        let fits = |frame: &Received| frame.component_id == AUTOPILOT && system.is_none_or(|system| system == frame.system_id);
+        Decoder::new().datagram(bytes).iter().any(|frame| fits(frame) && beats(frame))
     }
 
     /// Takes one datagram from the vehicle. The site is built while the first `seed` is handled, which may take a while.
@@ -235,6 +259,21 @@ impl Monitor {
         if self.outcome.is_none() {
             let outcome = self.score();
             self.finish(outcome);
+        }
+    }
+
+    /// Sends the pilot a text and records it as an event.
+    pub fn notify_pilot(&mut self, words: &str, severity: MavSeverity) {
+        self.text(words, severity);
+    }
+
+    /// Frees the flight once its session is over and written; the assessment stays.
+    pub fn release_flight(&mut self) {
+        self.timeline = Timeline::new(LocalPlane::new(self.config.scenario.origin));
+        self.survey = None;
+        self.records = VecDeque::new();
+        if let Some(Ok(graded)) = &mut self.outcome {
+            graded.frames = Vec::new();
         }
     }
 
@@ -328,6 +367,7 @@ impl Live {
             lift_off: None,
             on: None,
             last_task: None,
+            passed: config.scenario.tasks.iter().map(|task| vec![false; task.path_m.len()]).collect(),
             rule: EndRule::new(&config.scenario, &config.vehicle),
             end: None,
             no_end_before: SimTime::ZERO,

@@ -1,6 +1,6 @@
 //! Speaking: cues, texts, answers, events.
 
-use super::{COMPONENT, CUES_EVERY, Monitor, Record};
+use super::{AUTOPILOT, COMPONENT, CUES_EVERY, Monitor, Record};
 use crate::mav::codec::{Encoder, Received};
 use crate::mav::dialect::{
     COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA, TIMESYNC_DATA,
@@ -10,6 +10,10 @@ use crate::monitor::feedback::{Moment, TaskNow, cue};
 use crate::monitor::session::lift_off_height_m;
 use crate::telemetry::{Contact, Truth};
 use serde_json::json;
+
+/// Share of a path's points that must be passed before it counts as flown (estimate: a rounded corner hides the last ones).
+const FLOWN_SHARE: f64 = 0.9;
+
 impl Monitor {
     pub(super) fn speak(&mut self) {
         let Some(truth) = self.live.truth else { return };
@@ -23,7 +27,7 @@ impl Monitor {
         if changed || self.live.cues_sent.is_none_or(|sent| truth.time - sent >= CUES_EVERY) {
             self.live.cues_sent = Some(truth.time);
             self.send(&MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA {
-                time_boot_ms: u32::try_from(truth.time.ms()).unwrap_or(u32::MAX),
+                time_boot_ms: truth.time.ms() as u32,
                 value: cues,
                 name: "cues".into(),
             }));
@@ -39,11 +43,15 @@ impl Monitor {
     fn moment(&self, truth: &Truth) -> Moment {
         let scenario = &self.config.scenario;
         let in_session = self.live.lift_off.is_some() && self.live.end.is_none() && self.outcome.is_none();
-        let near = |(t, task): (usize, &crate::scenario::Task)| TaskNow {
-            distance_m: self.paths.nearest(t, truth.position_m).map_or(f64::INFINITY, |nearest| nearest.distance_m),
-            threshold_m: task.threshold_m,
-            too_close_m: task.too_close_m,
-            id: task.id,
+        let near = |(t, task): (usize, &crate::scenario::Task)| {
+            let nearest = self.paths.nearest(t, truth.position_m);
+            TaskNow {
+                distance_m: nearest.map_or(f64::INFINITY, |nearest| nearest.distance_m),
+                threshold_m: task.threshold_m,
+                too_close_m: task.too_close_m,
+                id: task.id,
+                may_leave: nearest.is_some_and(|nearest| self.may_leave(t, nearest.point)),
+            }
         };
         let contact = self.counted_contact();
         let onset = contact != Contact::None && self.live.cues & cue::CRASH == 0;
@@ -60,6 +68,14 @@ impl Monitor {
             on: self.live.on,
             last: self.live.last_task,
         }
+    }
+
+    /// A task may be left here: anywhere once it is flown, before that at an end of its path.
+    fn may_leave(&self, task: usize, point: usize) -> bool {
+        let count = self.paths.path(task).points_m().len();
+        let passed = self.live.passed[task].iter().filter(|passed| **passed).count();
+        let at_end = !self.config.scenario.tasks[task].closed && (point == 0 || point + 1 >= count);
+        at_end || passed as f64 >= FLOWN_SHARE * count as f64
     }
 
     /// Low over the pad. Elsewhere the pad's height says nothing: a job may be flown lower than it lies.
@@ -93,10 +109,16 @@ impl Monitor {
                     self.unsupported(command.command, received);
                 }
             }
-            Some(MavMessage::HEARTBEAT(_)) if received.component_id == 1 && received.system_id != self.encoder.system_id() => {
-                self.encoder = Encoder::new(received.system_id, COMPONENT);
-            }
+            Some(MavMessage::HEARTBEAT(_)) if received.component_id == AUTOPILOT => self.join(received.system_id),
             Some(_) | None => {}
+        }
+    }
+
+    /// Speaks as a component of the vehicle: the one whose flight is scored, or until there is one the last that has been heard.
+    fn join(&mut self, system: u8) {
+        let system = self.timeline.system().unwrap_or(system);
+        if system != self.encoder.system_id() {
+            self.encoder = Encoder::new(system, COMPONENT);
         }
     }
 

@@ -1,5 +1,6 @@
 //! The certification profile beside the paper's scores: gates, and what its scores are made of.
 
+use crate::monitor::score::completion::verdict;
 use crate::report::Review;
 use crate::report::table::{Cell, Table};
 use crate::report::words;
@@ -10,6 +11,7 @@ use maud::{Markup, html};
 pub fn section(review: &Review) -> Markup {
     let c = &review.assessment.certification;
     let gates = [
+        ("session complete", c.gates.session_complete),
         ("every task attempted", c.gates.all_tasks_attempted),
         ("no person and no vehicle hit", c.gates.no_person_or_vehicle_hit),
         ("landed near the ground team", c.gates.landed_at_home),
@@ -17,12 +19,13 @@ pub fn section(review: &Review) -> Markup {
     ];
     html! {
         p { "A second profile with gates that close the paper's loopholes; it stands beside the four scores, never instead of them. "
-            b { @if c.passed { "All gates are open." } @else { "Not all gates are open." } } }
+            b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet)) "." } } }
         ul.gates {
             @for (words, open) in gates {
-                li { span class={ "badge " (if open { "v-hit" } else { "v-false" }) } { (if open { "open" } else { "closed" }) } " " (words) }
+                li { span class={ "badge " (if open { "v-hit" } else { "v-false" }) } { (if open { "met" } else { "not met" }) } " " (words) }
             }
         }
+        @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }
         p { "Closer than " (words::number(review.scenario.scoring.clearance_m, 1)) " m to something for " (words::number(c.exposure_s, 1))
             " s; " (c.crash_onsets) " contacts, " (c.crashes.len()) " when those less than a second apart count as one; "
             (words::number(c.battery_at_end_pct, 0)) " % battery at the end." }

@@ -9,6 +9,7 @@ use crate::report::plots::practice::{Practice, practice};
 use crate::report::table::{Cell, Table};
 use crate::report::words;
 use crate::training::cohort::{Curve, OnJob, Progress, Repetition};
+use crate::training::record::left_out_words;
 use maud::{Markup, html};
 
 /// The four scores, and the most that each can be.
@@ -23,7 +24,12 @@ pub fn most(score: &str) -> f64 {
 #[must_use]
 pub fn on_job(job: &OnJob) -> Markup {
     let progress = &job.progress;
+    let left_out = html! { @if let Some(words) = left_out_words(job.left_out) { p.note { (words) "." } } };
+    if progress.repetitions.is_empty() {
+        return left_out;
+    }
     html! {
+        (left_out)
         (pictures(progress, &job.tasks))
         @if !progress.curves.is_empty() { (learning(progress)) }
         (numbers(&job.scenario, progress).folded())
@@ -163,7 +169,7 @@ pub fn too_few() -> String {
 mod tests {
     use super::*;
     use crate::training::cohort::by_job;
-    use crate::training::record::Record;
+    use crate::training::record::{Incomplete, Record};
     use crate::training::testing::faultless;
 
     fn flown(count: usize) -> Markup {
@@ -173,7 +179,7 @@ mod tests {
         records[count - 1].tasks[0].name = "<b>slab</b>".into();
         records[0].tasks[1].crashes.water = 2;
         records[0].tasks[1].crashes.person = 1;
-        on_job(&by_job(&records)[0])
+        on_job(&by_job(&records, Incomplete::LeaveOut)[0])
     }
 
     #[test]

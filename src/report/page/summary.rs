@@ -3,6 +3,7 @@
 use super::figure;
 use crate::monitor::assessment::Scores;
 use crate::monitor::score::Score;
+use crate::monitor::score::completion::verdict;
 use crate::report::Review;
 use crate::report::plots::radar::{Spoke, radar};
 use crate::report::table::{Cell, Table};
@@ -13,6 +14,7 @@ use maud::{Markup, html};
 pub fn header(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let end = &review.assessment.end;
+    let certification = &review.assessment.certification;
     html! {
         a.skip href="#scores" { "Skip to the scores" }
         header {
@@ -26,8 +28,13 @@ pub fn header(review: &Review) -> Markup {
                 p { (words::duration(end.seconds)) " of flight, " (words::end(end.reason)) ". " (cover(review)) }
             }
             div.overall {
-                p.figure { (words::number(scores.overall, 0)) span.of { " of " (words::number(scores.overall_max, 0)) } }
-                p { "overall" }
+                @if review.assessment.completion.complete {
+                    p.figure { (words::number(scores.overall, 0)) span.of { " of " (words::number(scores.overall_max, 0)) } }
+                    p { "overall" }
+                } @else {
+                    p.headline { (review.assessment.completion.headline()) }
+                }
+                p { (verdict(certification.passed, &certification.unmet)) }
             }
         }
     }
@@ -53,6 +60,7 @@ pub fn scores(review: &Review) -> Markup {
     let spokes: Vec<Spoke> =
         named(scores).iter().map(|(name, score)| Spoke { name, values: vec![score.map(|score| score.pct)] }).collect();
     html! {
+        p { (review.assessment.completion.headline()) "." @if !review.assessment.completion.complete { " The scores below are for the part that was flown." } }
         div.split {
             (figure("The four scores, 0 in the middle, 100 at the rim", &radar(&spokes, "Kiviat diagram of the four scores")))
             div.cards {
@@ -115,6 +123,9 @@ fn conformity(review: &Review) -> String {
     let tasks = &review.assessment.tasks;
     let Some(worst) = tasks.iter().min_by(|a, b| a.on_path.total_cmp(&b.on_path)) else { return "no tasks in this job".into() };
     let skipped = tasks.iter().filter(|task| !task.attempted).count();
+    if skipped == tasks.len() {
+        return "no task attempted (the paper's formula gives 50)".into();
+    }
     if skipped > 0 {
         return format!("{skipped} of {} tasks not attempted", tasks.len());
     }
@@ -139,6 +150,8 @@ fn table(review: &Review) -> Table {
             vec![(*name).into(), number(score.map(|s| s.raw)), number(score.map(|s| s.pct)), number(beside)]
         })
         .collect();
-    rows.push(vec!["Overall".into(), Cell::Empty, Cell::Number(scores.overall, 2), Cell::Empty]);
+    if review.assessment.completion.complete {
+        rows.push(vec!["Overall".into(), Cell::Empty, Cell::Number(scores.overall, 2), Cell::Empty]);
+    }
     Table { name: "scores", caption: "scores", columns: vec!["score", "raw", "of 100", "certification profile, of 100"], rows }
 }

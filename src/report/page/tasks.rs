@@ -1,6 +1,7 @@
 //! Per task: on the path, speeding, crashes by kind.
 
 use super::{figure, legend};
+use crate::monitor::score::completion::TaskState;
 use crate::report::Review;
 use crate::report::plots::bars::{self, Counts, Row};
 use crate::report::table::{Cell, Table};
@@ -20,6 +21,7 @@ const KINDS: [(Contact, &str); 6] = [
 
 /// The section.
 pub fn section(review: &Review) -> Markup {
+    let done_share = review.assessment.completion.done_share;
     html! {
         div.split {
             (figure("Share of each task's time on the path and over the speed limit", &html! {
@@ -32,6 +34,9 @@ pub fn section(review: &Review) -> Markup {
                 @else { (bars::counts(&counts(review), "Contacts by task and kind")) }
             }))
         }
+        ul { @for (k, task) in review.assessment.tasks.iter().enumerate() {
+            li { (task.id) " · " (review.scenario.tasks[k].name) ": " (task.state.words(task.covered, done_share)) }
+        } }
         (task_table(review).folded())
         (crash_table(review).folded())
     }
@@ -48,6 +53,14 @@ fn rows(review: &Review) -> Vec<Row> {
         }
     };
     review.assessment.tasks.iter().enumerate().map(row).collect()
+}
+
+fn state(task: &crate::monitor::assessment::TaskResult) -> &'static str {
+    match task.state {
+        TaskState::Done => "done",
+        TaskState::Part => "part",
+        TaskState::NotAttempted => "not attempted",
+    }
 }
 
 fn of(review: &Review, task: Option<usize>, kind: Contact) -> usize {
@@ -77,7 +90,8 @@ fn task_table(review: &Review) -> Table {
         vec![
             task.id.into(),
             review.scenario.tasks[k].name.clone().into(),
-            if task.attempted { "yes" } else { "no" }.into(),
+            state(task).into(),
+            number(100.0 * task.covered, 1),
             number(facts.time_s, 1),
             number(100.0 * task.on_path, 1),
             number(facts.off_path_s, 1),
@@ -95,7 +109,8 @@ fn task_table(review: &Review) -> Table {
         columns: vec![
             "task",
             "name",
-            "attempted",
+            "state",
+            "path flown, %",
             "time, s",
             "on path, %",
             "off path, s",

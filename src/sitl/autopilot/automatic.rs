@@ -3,9 +3,10 @@
 use super::core::{Autopilot, Severity};
 use super::manual::LOCK_SPEED_M_S;
 use super::modes::{ReturnPhase, Wanted};
-use super::shaper::{Limits, heading_of, towards};
+use super::operator_rules::Heading;
+use super::shaper::{CALM_JERK_S, JERK_S, Limits, heading_of, towards};
 use super::velocity::{Motion, Pull};
-use super::{Landed, Mode, OffboardSetpoint};
+use super::{Landed, MissionStep, Mode, OffboardSetpoint, Turn};
 use crate::base::frames::{Frd, Ned, Vec3};
 use crate::base::math;
 use crate::base::time::SimTime;
@@ -15,14 +16,40 @@ const AUTO_YAW_SHARE: f64 = 0.7;
 const AUTO_YAW_GAIN: f64 = 1.5;
 /// A height counts as reached within, m.
 pub(super) const HEIGHT_REACHED_M: f64 = 0.4;
+/// A take-off keeps its own rate up to this height over the ground, then climbs as elsewhere, m (PX4: MPC_LAND_ALT1).
+const TAKEOFF_SLOW_BELOW_M: f64 = 10.0;
+/// A take-off from the ground climbs at least so far, m (ArduCopter's AUTO).
+const TAKEOFF_LEAST_M: f64 = 1.0;
+/// The rest of a turn is flown the shorter way, rad (5 degrees, estimate: more than the heading overshoots).
+const NEARLY_TURNED_RAD: f64 = 0.087;
 /// The nose turns to the way when the target is further than this, m.
-const TURN_BEYOND_M: f64 = 2.0;
+pub(super) const TURN_BEYOND_M: f64 = 2.0;
+/// The nose turns along the path when it flies faster than this, m/s (estimate: well above the estimator's noise).
+const TURN_ABOVE_M_S: f64 = 1.0;
 
 impl Autopilot {
     pub(super) fn turn_to(&mut self, yaw: Option<f64>, dt_s: f64) {
-        let limit = AUTO_YAW_SHARE * self.airframe.limits.yaw_rate_rad_s;
-        let rate = yaw.map_or(0.0, |y| (AUTO_YAW_GAIN * math::wrap_pi(y - self.course.yaw_rad)).clamp(-limit, limit));
-        self.turn_at(rate, dt_s);
+        let own = AUTO_YAW_SHARE * self.airframe.limits.yaw_rate_rad_s;
+        let turn = self.course.turn.filter(|turn| yaw == Some(turn.yaw_rad));
+        let Some(yaw) = yaw else {
+            self.turn_at(0.0, dt_s);
+            return;
+        };
+        let limit = turn.and_then(|turn| turn.rate_rad_s).map_or(own, |rate| rate.min(self.airframe.limits.yaw_rate_rad_s));
+        let left = math::wrap_pi(yaw - self.course.yaw_rad);
+        let left = turn.map_or(left, |turn| self.the_way_round(turn, left));
+        self.course.heading_free = false;
+        self.advance_heading((AUTO_YAW_GAIN * left).clamp(-limit, limit), dt_s);
+    }
+
+    /// What is left of a turn in its direction, rad; once it is nearly there the direction no longer counts.
+    fn the_way_round(&mut self, turn: Turn, left: f64) -> f64 {
+        let long_way = turn.clockwise.is_some_and(|clockwise| clockwise != (left > 0.0));
+        if left.abs() < NEARLY_TURNED_RAD {
+            self.course.turn = Some(Turn { clockwise: None, ..turn });
+            return left;
+        }
+        if long_way { left - 2.0 * math::PI * left.signum() } else { left }
     }
 
     pub(super) fn motion(&self, velocity_m_s: Vec3<Ned>) -> Motion {
@@ -30,7 +57,23 @@ impl Autopilot {
     }
 
     pub(super) fn auto_limits(&self) -> Limits {
-        Limits { horizontal_m_s2: 0.7 * self.gains.acceleration_m_s2, vertical_m_s2: 0.7 * self.gains.climb_acceleration_m_s2 }
+        let (own, set) = (self.airframe_auto_limits(), &self.tuning.rules.envelope);
+        Limits {
+            horizontal_m_s2: own.horizontal_m_s2.min(set.acceleration_m_s2),
+            vertical_m_s2: own.vertical_m_s2.min(set.climb_acceleration_m_s2),
+            ..own
+        }
+    }
+
+    pub(super) fn airframe_auto_limits(&self) -> Limits {
+        let (horizontal_m_s2, vertical_m_s2) = (0.7 * self.gains.acceleration_m_s2, 0.7 * self.gains.climb_acceleration_m_s2);
+        Limits { horizontal_m_s2, vertical_m_s2, build_up_s: JERK_S }
+    }
+
+    /// Nobody waits for a mission or a return to react: they accelerate calmly. A pause brakes as `stopping_point` assumes.
+    fn travel_limits(&self) -> Limits {
+        let calm = matches!(self.status.mode, Mode::Mission | Mode::Return) && self.course.paused.is_none();
+        Limits { build_up_s: if calm { CALM_JERK_S } else { JERK_S }, ..self.auto_limits() }
     }
 
     /// Flies to the course's target and stays.
@@ -46,13 +89,29 @@ impl Autopilot {
         let target = self.course.target_m;
         let here = self.estimate.position_m;
         self.status.target_m = Some(target);
-        let way = heading_of(target - here, TURN_BEYOND_M);
+        let way = self.nose_by_rule(target);
         let turns = speed.is_some() || self.status.mode != Mode::Hold;
         let yaw = self.look_rad().or(self.course.target_yaw_rad).or(way.filter(|_| turns));
         self.turn_to(yaw, dt_s);
         let wish = towards(&self.gains, here, target, cruise, up, down);
-        self.shaper.advance(wish, &self.auto_limits(), dt_s);
+        self.shaper.advance(wish, &self.travel_limits(), dt_s);
         Wanted::Fly(self.motion(self.shaper.velocity_m_s))
+    }
+
+    /// Where the nose points when nothing else says so.
+    fn nose_by_rule(&self, target_m: Vec3<Ned>) -> Option<f64> {
+        let here = self.estimate.position_m;
+        let home = self.status.home_m.unwrap_or(here);
+        let returning = self.status.mode == Mode::Return
+            || self.status.mode == Mode::Mission && self.mission.step() == Some(MissionStep::Return);
+        match self.tuning.rules.heading {
+            Heading::TargetExceptReturn if returning => None,
+            Heading::Target | Heading::TargetExceptReturn => heading_of(target_m - here, TURN_BEYOND_M),
+            Heading::Home => heading_of(home - here, TURN_BEYOND_M),
+            Heading::AwayFromHome => heading_of(here - home, TURN_BEYOND_M),
+            Heading::Path => heading_of(self.estimate.velocity_m_s, TURN_ABOVE_M_S),
+            Heading::Fixed => None,
+        }
     }
 
     pub(super) fn take_off(&mut self, now: SimTime, dt_s: f64) -> Wanted {
@@ -64,7 +123,24 @@ impl Autopilot {
             self.course.target_m = target;
             self.course.takeoff_up_m = None;
         }
-        self.go_within(None, self.tuning.takeoff_speed_m_s, self.tuning.descend_m_s, dt_s)
+        let wanted = self.climb_away(None, dt_s);
+        self.status.climbing_out = self.status.mode == Mode::Takeoff;
+        wanted
+    }
+
+    /// Climbs to a take-off's height at the take-off's rate.
+    pub(super) fn climb_away(&mut self, speed: Option<f64>, dt_s: f64) -> Wanted {
+        self.status.climbing_out = true;
+        let up = self.course.ground_down_m - self.estimate.position_m.down();
+        let slow = !self.tuning.takeoff_at_climb_speed && up < TAKEOFF_SLOW_BELOW_M;
+        let rate = if slow { self.tuning.takeoff_speed_m_s.min(self.tuning.climb_m_s) } else { self.tuning.climb_m_s };
+        self.go_within(speed, rate, self.tuning.descend_m_s, dt_s)
+    }
+
+    /// A take-off leads up: from the ground at least so far that the vehicle leaves it.
+    pub(super) fn above_ground(&self, up_m: f64) -> f64 {
+        let standing = matches!(self.status.landed, Landed::OnGround | Landed::TakingOff);
+        if standing { up_m.max(TAKEOFF_LEAST_M - self.estimate.position_m.down()) } else { up_m }
     }
 
     pub(super) fn land(&mut self, dt_s: f64) -> Wanted {
@@ -80,7 +156,7 @@ impl Autopilot {
         let over = Vec3::new(self.course.target_m.north(), self.course.target_m.east(), here.down());
         let flat = towards(&self.gains, here, over, LOCK_SPEED_M_S, 0.0, 0.0);
         let wish = Vec3::new(flat.north(), flat.east(), speed);
-        self.shaper.advance(wish, &self.auto_limits(), dt_s);
+        self.shaper.advance(wish, &self.travel_limits(), dt_s);
         self.status.target_m = Some(over);
         Wanted::Fly(self.motion(self.shaper.velocity_m_s))
     }
@@ -90,7 +166,12 @@ impl Autopilot {
         let over_home = home - self.estimate.position_m.down();
         let below = self.seen.range_down_m.unwrap_or(over_home) - self.airframe.standing_m;
         let slow = below < self.tuning.land_slow_below_m;
-        if slow { self.tuning.land_speed_m_s } else { self.tuning.descend_m_s.min(self.airframe.limits.descend_m_s) }
+        if slow {
+            return self.tuning.land_speed_m_s;
+        }
+        let set = self.tuning.rules.envelope.landing_m_s;
+        let wanted = if set.is_finite() { set } else { self.tuning.descend_m_s };
+        wanted.min(self.airframe.limits.descend_m_s)
     }
 
     /// Level and down: all that is left without position.
@@ -118,20 +199,54 @@ impl Autopilot {
                 self.course.target_m = Vec3::new(home.north(), home.east(), self.course.target_m.down());
                 let speed = self.estimate.velocity_m_s.horizontal_norm();
                 if (here - home).horizontal_norm() < 0.5 && speed < 0.5 {
-                    self.course.phase = ReturnPhase::Land;
-                    let rally = self.status.home_m != Some(home);
-                    self.say(Severity::Info, if rally { "Rally point reached, landing" } else { "Home reached, landing" });
+                    self.arrive_home(home);
                 }
             }
+            ReturnPhase::Wait => self.wait_over_home(home),
+            ReturnPhase::Stay => {}
             ReturnPhase::Land => {
                 self.course.target_m = home;
                 return self.land(dt_s);
             }
         }
-        self.go(None, dt_s)
+        self.go(self.tuning.rules.homeward.speed_m_s.or(Some(self.cruise_m_s())), dt_s)
     }
 
-    pub(super) fn follow(&mut self, now: SimTime, dt_s: f64) -> Wanted {
+    /// Over the place: it waits there, or lands.
+    fn arrive_home(&mut self, home: Vec3<Ned>) {
+        let rules = self.tuning.rules.homeward;
+        let waits = rules.wait_s != 0.0 || rules.final_height_m > 0.0;
+        let place = if self.status.home_m == Some(home) { "Home" } else { "Rally point" };
+        self.say(Severity::Info, format!("{place} reached, {}", if waits { "waiting" } else { "landing" }));
+        self.course.phase = if waits { ReturnPhase::Wait } else { ReturnPhase::Land };
+        self.course.wait_until = None;
+        if let Some(height_m) = rules.wait_height_m.filter(|_| waits) {
+            let down = self.estimate.position_m.down().max(home.down() - height_m);
+            self.course.target_m = Vec3::new(home.north(), home.east(), down);
+        }
+    }
+
+    fn wait_over_home(&mut self, home: Vec3<Ned>) {
+        let rules = self.tuning.rules.homeward;
+        if (self.course.target_m.down() - self.estimate.position_m.down()).abs() > HEIGHT_REACHED_M || rules.wait_s < 0.0 {
+            return;
+        }
+        let until = *self.course.wait_until.get_or_insert(self.last_step + SimTime::from_s(rules.wait_s));
+        if self.last_step < until {
+            return;
+        }
+        if rules.final_height_m > 0.0 {
+            self.course.phase = ReturnPhase::Stay;
+            let down = self.estimate.position_m.down().max(home.down() - rules.final_height_m);
+            self.course.target_m = Vec3::new(home.north(), home.east(), down);
+            self.say(Severity::Info, "Staying at the final height");
+        } else {
+            self.course.phase = ReturnPhase::Land;
+            self.say(Severity::Info, "Landing");
+        }
+    }
+
+    pub(super) fn fly_setpoint(&mut self, now: SimTime, dt_s: f64) -> Wanted {
         let Some((setpoint, _)) =
             self.links.offboard.filter(|_| self.links.offboard_fresh(self.tuning.offboard_patience_s(), now))
         else {
@@ -141,6 +256,9 @@ impl Autopilot {
             Some(rate) if setpoint.yaw_rad.is_none() => self.turn_at(rate, dt_s),
             // Where a set-point leaves the heading open, a command may say it, as in ArduPilot's GUIDED.
             _ => self.turn_to(setpoint.yaw_rad.or(self.course.target_yaw_rad), dt_s),
+        }
+        if let Some(up_m_s) = setpoint.climb_m_s {
+            return self.climb_at(&setpoint, up_m_s, dt_s);
         }
         if let Some((attitude, thrust)) = setpoint.attitude {
             let thrust_n = (thrust.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n);
@@ -159,6 +277,24 @@ impl Autopilot {
         let mut motion = self.motion(self.shaper.velocity_m_s);
         self.accelerate(&setpoint, &mut motion);
         Wanted::Fly(motion)
+    }
+
+    /// An attitude or body rates with a climb rate in place of the thrust (ArduCopter).
+    fn climb_at(&mut self, setpoint: &OffboardSetpoint, up_m_s: f64, dt_s: f64) -> Wanted {
+        let wish = Vec3::new(0.0, 0.0, -up_m_s);
+        self.shaper.advance(wish, &self.auto_limits(), dt_s);
+        let motion = self.motion(self.shaper.velocity_m_s);
+        if let Some((attitude, _)) = setpoint.attitude {
+            let (roll, pitch, yaw) = attitude.euler();
+            self.course.yaw_rad = yaw;
+            let motion = Motion { yaw_rad: yaw, ..motion };
+            return Wanted::Level { motion, tilt: (roll, pitch) };
+        }
+        let (mass_kg, rates) = (self.airframe.mass_kg, setpoint.rates.map_or(Vec3::zero(), |(rates, _)| rates));
+        let level = self.velocity_loop.fly_level(&self.gains, mass_kg, &self.estimate, &motion, (0.0, 0.0), dt_s);
+        self.contact.wanted_down_m_s = -up_m_s;
+        self.course.yaw_rad = self.estimate.attitude.yaw_rad();
+        Wanted::Spin { rates_rad_s: rates, thrust_n: level.thrust_n }
     }
 
     fn spin(&mut self, rates_rad_s: Vec3<Frd>, thrust: f64) -> Wanted {

@@ -1,7 +1,8 @@
 //! Requests and their answers.
 
 use super::core::{Autopilot, Severity};
-use super::{Landed, Mode, Outcome, Request};
+use super::operator_rules::MissionNeeds;
+use super::{Landed, MissionStep, Mode, Outcome, Request, Turn};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::SimTime;
 
@@ -18,12 +19,15 @@ impl Autopilot {
             Request::Takeoff { height_m } => self.request_takeoff(height_m, now),
             Request::Land => self.set_mode(Mode::Land, now),
             Request::GoTo { north_east_m, up_m, yaw_rad, speed_m_s } => self.go_to(north_east_m, up_m, yaw_rad, speed_m_s, now),
-            Request::Turn { yaw_rad } => self.turn_by_command(yaw_rad),
+            Request::Turn(turn) => self.turn_by_command(turn),
             Request::StartMission { first } => self.start_mission(first, now),
             Request::SetSpeed(speed) => self.set_speed(speed),
             Request::SetHome(home) => self.set_home(home),
             Request::EnableFence(on) => self.enable_fence(on),
             Request::Orbit(wish) => self.request_orbit(wish, now),
+            Request::CircleAhead => self.request_circle_ahead(now),
+            Request::LandingSequence => self.request_landing_sequence(now),
+            Request::Pause(pause) => self.pause(pause, now),
             Request::LookAt(place) => {
                 self.look_at_m = place;
                 Outcome::Accepted
@@ -45,6 +49,7 @@ impl Autopilot {
         self.status.landed = Landed::OnGround;
         self.watch.standing_since = now;
         self.watch.flown = false;
+        self.watch.begin_flight();
         self.watch.upset_since = None;
         self.watch.aim_cosine = 1.0;
         self.status.health.obeys = true;
@@ -75,6 +80,9 @@ impl Autopilot {
             return refusal;
         }
         let again = self.watch.intended == mode && self.status.mode == mode;
+        if mode == Mode::Mission && !again && self.tuning.rules.mission_restarts {
+            self.mission.restart();
+        }
         self.watch.intended = mode;
         self.watch.overridden = false;
         if mode == Mode::Mission {
@@ -82,6 +90,8 @@ impl Autopilot {
         }
         if !again {
             self.enter(mode, now);
+        } else if mode == Mode::Mission {
+            self.resume(now);
         }
         Outcome::Accepted
     }
@@ -96,6 +106,11 @@ impl Autopilot {
         {
             return Some(Outcome::Denied(why));
         }
+        if mode == Mode::Mission
+            && let Some(why) = self.mission_lacks()
+        {
+            return Some(Outcome::Denied(why));
+        }
         if mode == Mode::Orbit && self.orbit.is_none() {
             return Some(Outcome::Denied("Nothing to circle: DO_ORBIT says what".into()));
         }
@@ -105,10 +120,40 @@ impl Autopilot {
         if flying && mode.needs_position() && !self.estimate.position_valid {
             return Some(Outcome::TemporarilyRejected("No position estimate".into()));
         }
+        if mode == Mode::SmartReturn && flying && self.trail.is_empty() {
+            return Some(Outcome::Denied("No path recorded since take-off".into()));
+        }
+        if mode == Mode::Follow && !self.tuning.follow.enabled {
+            return Some(Outcome::Denied("Set FOLL_ENABLE = 1".into()));
+        }
         if mode == Mode::Return && self.status.home_m.is_none() {
             return Some(Outcome::TemporarilyRejected("No home position".into()));
         }
         None
+    }
+
+    /// What the mission lacks of what the operator asks of one.
+    fn mission_lacks(&self) -> Option<String> {
+        let rules = &self.tuning.rules;
+        let takeoff = self.mission.all().any(|(_, step)| matches!(step, MissionStep::Takeoff { .. }));
+        let landing = self.mission.all().any(|(_, step)| matches!(step, MissionStep::Land { .. } | MissionStep::Return));
+        let (needs_takeoff, needs_landing) = match rules.mission_needs {
+            MissionNeeds::Nothing => (false, false),
+            MissionNeeds::Takeoff => (true, false),
+            MissionNeeds::Landing => (false, true),
+            MissionNeeds::Both => (true, true),
+            MissionNeeds::BothOrNeither => (landing, takeoff),
+        };
+        if needs_takeoff && !takeoff {
+            return Some("Mission has no take-off item".into());
+        }
+        if needs_landing && !landing {
+            return Some("Mission has no landing item".into());
+        }
+        let home = self.status.home_m?;
+        let away_m = (self.mission.first_place()? - home).horizontal_norm();
+        let too_far = rules.first_waypoint_m > 0.0 && away_m > rules.first_waypoint_m;
+        too_far.then(|| format!("First waypoint too far from home: {away_m:.0} m, limit {:.0} m", rules.first_waypoint_m))
     }
 
     fn restart_finished_mission(&mut self) {
@@ -186,13 +231,14 @@ impl Autopilot {
     }
 
     /// The mode stays: a mission flies on, a person keeps the sticks.
-    fn turn_by_command(&mut self, yaw_rad: f64) -> Outcome {
+    fn turn_by_command(&mut self, turn: Turn) -> Outcome {
         let automatic = matches!(self.status.mode, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Mission | Mode::Offboard);
         if !self.status.armed || self.status.landed == Landed::OnGround || !automatic {
             return Outcome::TemporarilyRejected("Not flying by itself".into());
         }
         self.look_at_m = None;
-        self.course.target_yaw_rad = Some(yaw_rad);
+        self.course.target_yaw_rad = Some(turn.yaw_rad);
+        self.course.turn = Some(turn);
         Outcome::Accepted
     }
 
@@ -203,7 +249,23 @@ impl Autopilot {
         if first.is_some_and(|index| !self.set_mission_current(index, false)) {
             return Outcome::Denied("No such mission item".into());
         }
-        self.set_mode(Mode::Mission, now)
+        let outcome = self.set_mode(Mode::Mission, now);
+        self.watch.mission_started = outcome == Outcome::Accepted;
+        outcome
+    }
+
+    /// The landing sequence nearest to here.
+    fn request_landing_sequence(&mut self, now: SimTime) -> Outcome {
+        let here = self.estimate.position_m;
+        let Some(index) = self.mission.landing_sequence(here) else {
+            return Outcome::Failed("No return path or landing sequence found".into());
+        };
+        self.set_mission_current(index, false);
+        let outcome = self.set_mode(Mode::Mission, now);
+        if outcome == Outcome::Accepted {
+            self.enter(Mode::Mission, now);
+        }
+        outcome
     }
 
     fn set_speed(&mut self, speed_m_s: Option<f64>) -> Outcome {

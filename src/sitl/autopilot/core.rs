@@ -3,16 +3,20 @@
 use super::attitude::{AttitudeLoop, within_limits};
 use super::estimator::Estimator;
 use super::fence::{Fence, FenceState, Refuge};
+use super::follow::Follower;
 use super::gains::Gains;
 use super::landed::GroundContact;
 use super::link::Links;
-use super::mission::Mission;
+use super::mission::{Mission, Unnamed};
 use super::mixer::{Demand, Given, Mixer};
 use super::modes::{Course, Wanted};
+use super::operator_rules::{Envelope, JOB_BATTERY};
 use super::orbit::Orbit;
-use super::senses::{Health, Senses};
+use super::senses::{Health, Senses, SensorChange};
 use super::shaper::Shaper;
+use super::smart_return::Trail;
 use super::supervise::Watch;
+use super::trajectory::Trajectory;
 use super::velocity::{Motion, Pull, VelocityLoop};
 use super::{Estimate, Landed, MissionStep, Mode, OffboardSetpoint, Status, Sticks, Tuning};
 use crate::base::frames::{Frd, Ned, Rotation, Vec3};
@@ -60,6 +64,8 @@ pub struct Event {
     pub severity: Severity,
     /// Words.
     pub text: String,
+    /// The sensor's change that the words announce; a flavour has words of its own for it.
+    pub sensor: Option<SensorChange>,
 }
 
 /// What the autopilot knows of its aircraft beyond the gains.
@@ -89,7 +95,6 @@ pub struct Autopilot {
     pub tuning: Tuning,
     pub(super) gains: Gains,
     pub(super) airframe: Airframe,
-    pub(super) low_battery_return: bool,
     pub(super) estimator: Estimator,
     pub(super) estimate: Estimate,
     pub(super) velocity_loop: VelocityLoop,
@@ -99,8 +104,14 @@ pub struct Autopilot {
     pub(super) shaper: Shaper,
     pub(super) course: Course,
     pub(super) mission: Mission,
+    /// The planned way through the mission's waypoints, while one is flown.
+    pub(super) way: Option<Trajectory>,
     pub(super) fence: Fence,
     pub(super) orbit: Option<Orbit>,
+    /// The path flown since take-off.
+    pub(super) trail: Trail,
+    /// The target that is followed.
+    pub(super) follower: Follower,
     /// Automatic modes turn towards this place, m.
     pub(super) look_at_m: Option<Vec3<Ned>>,
     /// Cruise speed of a command, for this flight, m/s.
@@ -122,7 +133,10 @@ pub struct Autopilot {
 impl Autopilot {
     /// Boots on the ground. `origin` is where the local frame lies (for the magnetic model).
     #[must_use]
-    pub fn new(vehicle: &Vehicle, rules: &Rules, origin: Geo, tuning: Tuning) -> Self {
+    pub fn new(vehicle: &Vehicle, rules: &Rules, origin: Geo, mut tuning: Tuning) -> Self {
+        if rules.low_battery_return {
+            tuning.rules.responses.battery = JOB_BATTERY;
+        }
         let gains = Gains::new(vehicle);
         let battery = &vehicle.battery;
         let standing_m = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max);
@@ -137,7 +151,6 @@ impl Autopilot {
                 sags: rules.battery == BatteryModel::Physical,
                 standing_m,
             },
-            low_battery_return: rules.low_battery_return,
             estimate: estimator.estimate(),
             estimator,
             velocity_loop: VelocityLoop::default(),
@@ -147,15 +160,18 @@ impl Autopilot {
             shaper: Shaper::default(),
             course: Course::default(),
             mission: Mission::default(),
+            way: None,
             fence: Fence::default(),
             orbit: None,
+            trail: Trail::default(),
+            follower: Follower::default(),
             look_at_m: None,
             commanded_m_s: None,
             home_is_set: false,
             refuges: Vec::new(),
             links: Links::default(),
             seen: Seen::default(),
-            senses: Senses::default(),
+            senses: Senses::new(&vehicle.sensors),
             watch: Watch::default(),
             contact: GroundContact::default(),
             status: boot_status(),
@@ -170,10 +186,40 @@ impl Autopilot {
         Tuning { battery_low_pct: rules.low_battery_pct, battery_critical_pct: rules.critical_battery_pct, ..Tuning::default() }
     }
 
+    /// Armed with no sticks coming in.
+    #[must_use]
+    pub fn is_unattended(&self, now: SimTime) -> bool {
+        self.status.armed && !self.links.sticks_fresh(self.tuning.manual_patience_s(), now)
+    }
+
     /// The pilot's sticks, as often as they come. Values beyond [-1, 1] are limited, not-a-numbers are centred.
     pub fn sticks(&mut self, sticks: Sticks, now: SimTime) {
         self.links.take_sticks(sticks, self.tuning.stick_deadband, now);
         self.take_over(now);
+    }
+
+    /// The sticks were let go of on purpose: that is no loss.
+    pub fn let_go_of_sticks(&mut self) {
+        self.watch.sticks_seen = false;
+        if !self.watch.intended.is_manual() {
+            self.links.sticks_at = None;
+        }
+    }
+
+    /// The limits of the airframe itself, where the parameters leave them alone.
+    #[must_use]
+    pub fn airframe_envelope(&self) -> Envelope {
+        let (limits, automatic) = (&self.airframe.limits, self.airframe_auto_limits());
+        Envelope {
+            manual_m_s: limits.forward_m_s,
+            manual_up_m_s: limits.climb_m_s,
+            manual_down_m_s: limits.descend_m_s,
+            manual_yaw_rad_s: limits.yaw_rate_rad_s,
+            manual_tilt_rad: self.gains.tilt_rad,
+            acceleration_m_s2: automatic.horizontal_m_s2,
+            climb_acceleration_m_s2: automatic.vertical_m_s2,
+            landing_m_s: limits.descend_m_s,
+        }
     }
 
     /// An external set-point.
@@ -209,6 +255,11 @@ impl Autopilot {
         self.mission.hang_on_home(over_home);
     }
 
+    /// Names what steps of the mission take from where the vehicle is when they begin; given right after the mission.
+    pub fn leave_mission_open(&mut self, unnamed: Vec<Unnamed>) {
+        self.mission.leave_open(unnamed);
+    }
+
     /// Jumps to a mission item, with `anew` as if nothing had been flown before it; false when there is none.
     pub fn set_mission_current(&mut self, index: usize, anew: bool) -> bool {
         let known = self.mission.jump(index);
@@ -227,10 +278,13 @@ impl Autopilot {
     pub fn step(&mut self, readings: &Readings, now: SimTime) -> Actuators {
         let dt_s = (now - self.last_step).s().clamp(0.0, 0.05);
         self.last_step = now;
+        self.estimator.no_aid_s = self.tuning.rules.no_aid_s;
+        let readings = &self.senses.screen(readings, now);
+        self.estimator.set_parked(!self.status.armed);
         self.estimator.step(readings, now);
         self.estimate = self.estimator.estimate();
         self.see(readings);
-        self.listen(readings, now);
+        self.watch_sensors(now);
         self.supervise(now);
         self.status.intended = self.watch.intended;
         let t = &self.tuning;
@@ -244,6 +298,7 @@ impl Autopilot {
         if !self.status.armed {
             return self.mixer.stop();
         }
+        self.record_trail();
         let wanted = self.wanted(now, dt_s);
         self.drive(wanted, now, dt_s)
     }
@@ -285,7 +340,7 @@ impl Autopilot {
         let thrust_n = self.eased(pull.thrust_n, now);
         self.status.attitude_target = pull.attitude;
         self.watch.aim_cosine = alignment(self.estimate.attitude, pull.attitude);
-        let (g, feed) = (&self.gains, self.course.yaw_rate_rad_s);
+        let (g, feed) = (&self.gains, self.course.yaw_rate_rad_s + self.course.yaw_brake_rad_s);
         let torque_n_m = self.attitude_loop.torque(g, &self.estimate, pull.attitude, feed, self.given, dt_s);
         self.mix(&Demand { torque_n_m, thrust_n }, dt_s)
     }
@@ -332,6 +387,7 @@ impl Autopilot {
         // It is in the air: its next landing is one.
         self.watch.flown = true;
         self.status.health.obeys = true;
+        self.trail.cut_back_to(position_m);
         let mode = if self.watch.intended.is_manual() { self.watch.intended } else { Mode::Hold };
         self.reset_loops();
         self.course.left_ground = now - SimTime::from_s(SPOOL_UP_S);
@@ -348,7 +404,7 @@ impl Autopilot {
     }
 
     pub(super) fn say(&mut self, severity: Severity, text: impl Into<String>) {
-        self.events.push(Event { severity, text: text.into() });
+        self.events.push(Event { severity, text: text.into(), sensor: None });
     }
 
     /// What the estimator believes.
@@ -400,6 +456,7 @@ fn boot_status() -> Status {
         battery_low_pct: 0.0,
         battery_critical_pct: 0.0,
         landed: Landed::OnGround,
+        climbing_out: false,
         arming_reasons: vec!["Booting".into()],
         failsafe: None,
         home_m: None,

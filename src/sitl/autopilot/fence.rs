@@ -89,6 +89,8 @@ pub struct Refuge {
 /// What was breached, by the numbers of MAVLink's FENCE_BREACH.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Breach {
+    /// Too low over home (1).
+    Floor,
     /// Too high over home (2).
     Height,
     /// Out of an area, or too far from home (3).
@@ -188,22 +190,29 @@ impl Autopilot {
         }
         let home = self.status.home_m.unwrap_or_default();
         let from_home = place_m - home;
-        if t.fence_height_m > 0.0 && -from_home.down() > t.fence_height_m {
+        let parts = t.rules.fence;
+        if parts.height && t.fence_height_m > 0.0 && -from_home.down() > t.fence_height_m {
             return Some(Breach::Height);
         }
-        let far = t.fence_distance_m > 0.0 && from_home.horizontal_norm() > t.fence_distance_m;
-        (far || !self.fence.allows((place_m.north(), place_m.east()))).then_some(Breach::Boundary)
+        let far = parts.distance && t.fence_distance_m > 0.0 && from_home.horizontal_norm() > t.fence_distance_m;
+        (far || parts.areas && !self.fence.allows((place_m.north(), place_m.east()))).then_some(Breach::Boundary)
     }
 
     /// Why a target is refused, if it is.
     pub(super) fn fence_refusal(&self, target_m: Vec3<Ned>) -> Option<Outcome> {
         let here = self.estimate.position_m;
-        if self.breach_at(target_m).is_some() {
+        if self.breach_at(target_m).is_some() || self.below_floor(target_m) {
             return Some(Outcome::Denied("Target lies outside the geofence".into()));
         }
         // Who is out may come back in.
         let out = self.estimate.position_valid && self.breach_at(here).is_none() && self.leaves_between(here, target_m);
         out.then(|| Outcome::Denied("The way there leaves the geofence".into()))
+    }
+
+    /// Lower over home than the fence allows.
+    fn below_floor(&self, place_m: Vec3<Ned>) -> bool {
+        let home = self.status.home_m.unwrap_or_default();
+        self.acts() && self.tuning.rules.fence.floor_m.is_some_and(|floor_m| home.down() - place_m.down() < floor_m)
     }
 
     /// Why a circle is refused, if it is.
@@ -213,7 +222,9 @@ impl Autopilot {
 
     /// A straight way between two places that are within leads out between them.
     fn leaves_between(&self, from: Vec3<Ned>, to: Vec3<Ned>) -> bool {
-        self.acts() && !self.fence.allows_way((from.north(), from.east()), (to.north(), to.east()))
+        self.acts()
+            && self.tuning.rules.fence.areas
+            && !self.fence.allows_way((from.north(), from.east()), (to.north(), to.east()))
     }
 
     fn ring_leaves(&self, centre_m: Vec3<Ned>, radius_m: f64) -> bool {
@@ -265,8 +276,10 @@ impl Autopilot {
     /// Whether there is a fence at all.
     pub(super) fn note_fence(&mut self) {
         let t = &self.tuning;
-        let limits = t.fence_height_m > 0.0 || t.fence_distance_m > 0.0;
-        self.status.fence.set = self.acts() && (limits || !self.fence.zones.is_empty());
+        let parts = t.rules.fence;
+        let limits = parts.height && t.fence_height_m > 0.0 || parts.distance && t.fence_distance_m > 0.0;
+        let areas = parts.areas && !self.fence.zones.is_empty();
+        self.status.fence.set = self.acts() && (limits || areas || parts.floor_m.is_some());
     }
 
     /// Acts when a breach begins: once, so that the pilot can fly back in by hand.
@@ -274,7 +287,13 @@ impl Autopilot {
         if !self.estimate.position_valid {
             return;
         }
-        let breach = self.breach_at(self.estimate.position_m);
+        let here = self.estimate.position_m;
+        // The floor counts from when it was first above it, and not on the way down to land.
+        let low = self.below_floor(here);
+        self.watch.above_floor |= !low;
+        let coming_down = matches!(self.status.mode, Mode::Land | Mode::Return) || self.status.landed == Landed::Landing;
+        let floor = (low && self.watch.above_floor && !coming_down).then_some(Breach::Floor);
+        let breach = self.breach_at(here).or(floor);
         let before = std::mem::replace(&mut self.status.fence.breach, breach);
         match (before, breach) {
             (None, Some(breach)) => self.breached(breach, now),
@@ -294,7 +313,11 @@ impl Autopilot {
             FenceAction::Land => (", landing", Some(Mode::Land)),
             FenceAction::Terminate => (", motors off", None),
         };
-        let what = if breach == Breach::Height { "too high" } else { "out of bounds" };
+        let what = match breach {
+            Breach::Floor => "too low",
+            Breach::Height => "too high",
+            Breach::Boundary => "out of bounds",
+        };
         self.say(Severity::Critical, format!("Geofence breached: {what}{consequence}"));
         if self.tuning.fence_action == FenceAction::Terminate {
             self.disarm("Disarmed: geofence");

@@ -82,6 +82,7 @@ impl Autopilot {
         self.course.ground_down_m = self.estimate.position_m.down();
         self.contact = GroundContact::default();
         self.watch.flown = true;
+        self.trail.begin(self.estimate.position_m);
         self.begin_course(now);
     }
 

@@ -2,7 +2,7 @@
 
 use super::core::Autopilot;
 use super::modes::Wanted;
-use super::shaper::{Limits, stopping_point};
+use super::shaper::{JERK_S, Limits, stopping_point};
 use super::velocity::Pull;
 use super::{Mode, Sticks};
 use crate::base::frames::{Ned, Rotation, Vec3};
@@ -15,6 +15,9 @@ const YAW_LEAD_RAD: f64 = 0.6;
 /// While it turns faster than this the rate is held, not the heading, rad/s; the lead is then at most this, rad.
 const TURNING_RAD_S: f64 = 0.1;
 const TURNING_LEAD_RAD: f64 = 0.08;
+/// Slower than this the nose has come to rest and the heading is captured, rad/s: at the yaw loop's lag of some tenths of a second it
+/// moves on by less than half a degree.
+const CAPTURED_RAD_S: f64 = 0.02;
 /// Slower than this the position is locked once the sticks are centred, m/s.
 const LOCK_M_S: f64 = 0.15;
 /// Without position the sticks tilt at most this share of the largest tilt.
@@ -26,13 +29,36 @@ pub(super) const LOCK_SPEED_M_S: f64 = 2.0;
 
 impl Autopilot {
     pub(super) fn stick_yaw(&mut self, dt_s: f64) {
-        let rate = self.links.sticks.yaw * self.airframe.limits.yaw_rate_rad_s;
+        let most = self.airframe.limits.yaw_rate_rad_s.min(self.tuning.rules.envelope.manual_yaw_rad_s);
+        let rate = self.links.sticks.yaw * most;
         self.turn_at(rate, dt_s);
     }
 
+    /// Turns at a rate, rad/s. Once that is zero, the heading is captured where the nose comes to rest: captured earlier, it would lie
+    /// behind the nose, which then swings back.
     pub(super) fn turn_at(&mut self, rate: f64, dt_s: f64) {
+        let turning = (self.estimate.attitude * self.estimate.rates_rad_s).down();
+        let c = &mut self.course;
+        if rate != 0.0 {
+            c.heading_free = true;
+        } else if turning.abs() < CAPTURED_RAD_S && c.yaw_rate_rad_s.abs() < CAPTURED_RAD_S {
+            c.heading_free = false;
+        }
+        let before = self.course.yaw_rate_rad_s;
+        self.advance_heading(rate, dt_s);
+        if rate == 0.0 && self.course.heading_free {
+            self.course.yaw_rad = self.estimate.attitude.yaw_rad();
+            // The rate loop lags by the inverse of its gain: ahead by that, the nose brakes as planned.
+            let braking = if dt_s > 0.0 { (self.course.yaw_rate_rad_s - before) / dt_s } else { 0.0 };
+            self.course.yaw_brake_rad_s = braking / self.gains.yaw_rate;
+        }
+    }
+
+    /// Moves the wanted heading on at a rate that builds up gradually, rad/s.
+    pub(super) fn advance_heading(&mut self, rate: f64, dt_s: f64) {
         let step = self.airframe.limits.yaw_rate_rad_s / YAW_SPOOL_S * dt_s;
         let c = &mut self.course;
+        c.yaw_brake_rad_s = 0.0;
         c.yaw_rate_rad_s += (rate - c.yaw_rate_rad_s).clamp(-step, step);
         let nose = self.estimate.attitude.yaw_rad();
         let most = if c.yaw_rate_rad_s.abs() > TURNING_RAD_S { TURNING_LEAD_RAD } else { YAW_LEAD_RAD };
@@ -41,14 +67,15 @@ impl Autopilot {
     }
 
     pub(super) fn stick_climb(&self) -> f64 {
-        let (up, l) = (self.links.sticks.up, &self.airframe.limits);
-        if up > 0.0 { -up * l.climb_m_s } else { -up * l.descend_m_s }
+        let (up, l, set) = (self.links.sticks.up, &self.airframe.limits, &self.tuning.rules.envelope);
+        if up > 0.0 { -up * l.climb_m_s.min(set.manual_up_m_s) } else { -up * l.descend_m_s.min(set.manual_down_m_s) }
     }
 
     /// Roll and pitch by the sticks, rad: both together lean no further than one alone.
     fn stick_tilt(&self, share: f64) -> (f64, f64) {
         let Sticks { forward, right, .. } = self.links.sticks;
-        let most = self.gains.tilt_rad * share / math::hypot(forward, right).max(1.0);
+        let most =
+            self.gains.tilt_rad.min(self.tuning.rules.envelope.manual_tilt_rad) * share / math::hypot(forward, right).max(1.0);
         (right * most, -forward * most)
     }
 
@@ -82,7 +109,8 @@ impl Autopilot {
         self.stick_yaw(dt_s);
         let (s, l) = (self.links.sticks, self.airframe.limits);
         let (sine, cosine) = math::sin_cos(self.estimate.attitude.yaw_rad());
-        let (forward, right) = (s.forward * l.forward_m_s, s.right * l.sideward_m_s);
+        let most = self.tuning.rules.envelope.manual_m_s;
+        let (forward, right) = (s.forward * l.forward_m_s.min(most), s.right * l.sideward_m_s.min(most));
         let wish = Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb());
         let limits = self.stick_limits();
         let centred = s.forward == 0.0 && s.right == 0.0;
@@ -99,6 +127,7 @@ impl Autopilot {
         Limits {
             horizontal_m_s2: (l.forward_m_s.max(l.sideward_m_s) / plan_s).min(self.gains.acceleration_m_s2),
             vertical_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(self.gains.climb_acceleration_m_s2),
+            build_up_s: JERK_S,
         }
     }
 

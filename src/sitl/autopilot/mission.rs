@@ -2,11 +2,15 @@
 
 use super::MissionStep;
 use super::modes::ReturnPhase;
+use super::trajectory::Waypoint;
 use crate::base::frames::{Ned, Vec3};
 use crate::base::time::SimTime;
 
 /// Steps without flight that follow each other in one tick; more of them go on in the next.
 const GO_ON_MAX: usize = 64;
+/// A way is planned this far ahead, m, and through at most so many waypoints: further than any aircraft brakes.
+const AHEAD_M: f64 = 80.0;
+const AHEAD_MOST: usize = 24;
 
 /// The course of a step that was left: take-off, landing and return go on with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,12 +23,34 @@ pub struct LeftCourse {
     pub refuge_m: Option<Vec3<Ned>>,
 }
 
+/// What a step takes from where the vehicle is when it begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Unnamed {
+    /// Its place.
+    pub place: bool,
+    /// Its height.
+    pub height: bool,
+}
+
+impl Unnamed {
+    /// A place with what is open taken from another, m.
+    #[must_use]
+    pub fn filled(self, place_m: Vec3<Ned>, from_m: Vec3<Ned>) -> Vec3<Ned> {
+        let over = if self.place { from_m } else { place_m };
+        Vec3::new(over.north(), over.east(), if self.height { from_m.down() } else { place_m.down() })
+    }
+}
+
 /// The list and its progress.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mission {
     steps: Vec<MissionStep>,
     /// Steps whose heights count from home; the others' from the origin.
     over_home: Vec<bool>,
+    /// What steps leave open.
+    unnamed: Vec<Unnamed>,
+    /// Where the vehicle was when the current step began that leaves something open, m.
+    began_m: Option<Vec3<Ned>>,
     /// Home has risen by this much since the list came, m.
     home_rise_m: f64,
     jumps_done: Vec<u32>,
@@ -40,6 +66,8 @@ pub struct Mission {
     pub begun: bool,
     /// Steps that were passed and order something of the autopilot, not yet carried out.
     pub orders: Vec<MissionStep>,
+    /// It has left the ground without a take-off step and climbs to this place first, m.
+    pub lift_to: Option<Vec3<Ned>>,
     /// Where it was left on its way, m: it goes on from there.
     pub left_at: Option<Vec3<Ned>>,
     /// What was left then of the current step's waiting.
@@ -51,13 +79,28 @@ pub struct Mission {
 }
 
 impl MissionStep {
+    /// Where it flies to, m, if it names a place.
+    pub fn place_mut(&mut self) -> Option<&mut Vec3<Ned>> {
+        match self {
+            Self::Waypoint { position_m, .. } | Self::Land { position_m: Some(position_m) } => Some(position_m),
+            Self::Circle { centre_m, .. } => Some(centre_m),
+            _ => None,
+        }
+    }
+
+    /// It flies along the planned way, or waits at its end.
+    pub(super) fn rests_on_way(&self) -> bool {
+        matches!(self, Self::Waypoint { .. } | Self::Near(_) | Self::Delay(_) | Self::Turn { .. })
+    }
+
     /// It takes its time: left in the middle it goes on there.
     pub(super) fn goes_on(&self) -> bool {
         use MissionStep as S;
         match self {
-            S::Waypoint { .. } | S::Takeoff { .. } | S::Land { .. } | S::Return | S::Delay(_) => true,
+            S::Waypoint { .. } | S::Takeoff { .. } | S::Land { .. } | S::Return | S::Delay(_) | S::DelayUntil(_) => true,
             S::Circle { .. } | S::Turn { .. } | S::Near(_) => true,
-            S::Speed(_) | S::Jump { .. } | S::LookAt(_) | S::Home(_) | S::Fence(_) | S::Payload => false,
+            S::Speed(_) | S::Jump { .. } | S::LookAt(_) | S::Home(_) | S::Fence(_) => false,
+            S::LandingSequence | S::Payload => false,
         }
     }
 }
@@ -72,6 +115,16 @@ impl Mission {
     /// Names the steps whose heights count from home: they rise and sink with it.
     pub fn hang_on_home(&mut self, over_home: Vec<bool>) {
         self.over_home = over_home;
+    }
+
+    /// Names what steps take from where the vehicle is when they begin.
+    pub fn leave_open(&mut self, unnamed: Vec<Unnamed>) {
+        self.unnamed = unnamed;
+    }
+
+    /// The vehicle is here when the current step begins, m.
+    pub fn begin_at(&mut self, here_m: Vec3<Ned>) {
+        self.began_m.get_or_insert(here_m);
     }
 
     /// Home has moved up by so much, m.
@@ -96,6 +149,20 @@ impl Mission {
     /// What was left of the current step counts no more.
     pub fn begin_anew(&mut self) {
         (self.left_at, self.left_wait, self.left_rad, self.left_course) = (None, None, None, None);
+        self.lift_to = None;
+    }
+
+    /// Where the mission lands, m: the last landing that has a place.
+    #[must_use]
+    pub fn landing(&self) -> Option<Vec3<Ned>> {
+        let lands = |k: &usize| matches!(self.step_at(*k), Some(MissionStep::Land { position_m: Some(_) }));
+        (0..self.steps.len()).rev().find(lands).and_then(|k| self.place_at(k))
+    }
+
+    /// The first place on the way, m.
+    #[must_use]
+    pub fn first_place(&self) -> Option<Vec3<Ned>> {
+        (0..self.steps.len()).find_map(|k| self.place_at(k))
     }
 
     fn place_at(&self, index: usize) -> Option<Vec3<Ned>> {
@@ -111,6 +178,51 @@ impl Mission {
     #[must_use]
     pub fn next_place(&self) -> Option<Vec3<Ned>> {
         (self.current + 1..self.steps.len()).find_map(|k| self.place_at(k))
+    }
+
+    /// The waypoints that are flown through from the current step on, up to the first at which the vehicle stops. `accept_m` is the
+    /// radius of those that name none.
+    #[must_use]
+    pub fn ahead(&self, accept_m: f64) -> Vec<Waypoint> {
+        let (mut at, mut jumps, mut speed) = (self.current, self.jumps_done.clone(), self.speed_m_s);
+        // What follows a distance is done on the way: the leg begins with the speed before it.
+        let mut leg_speed: Option<Option<f64>> = None;
+        let (mut ahead, mut length_m): (Vec<Waypoint>, f64) = (Vec::new(), 0.0);
+        for _ in 0..GO_ON_MAX {
+            let here = at;
+            at += 1;
+            match self.step_at(here) {
+                Some(MissionStep::Waypoint { position_m, accept_m: own_m, hold_s, .. }) => {
+                    length_m += ahead.last().map_or(0.0, |last: &Waypoint| (position_m - last.position_m).norm());
+                    let accept_m = if own_m > 0.0 { own_m } else { accept_m };
+                    ahead.push(Waypoint { position_m, speed_m_s: leg_speed.take().unwrap_or(speed), accept_m });
+                    if hold_s > 0.0 || ahead.len() >= AHEAD_MOST || length_m > AHEAD_M {
+                        break;
+                    }
+                }
+                Some(MissionStep::Speed(other)) => speed = other,
+                Some(MissionStep::Jump { to, times }) if jumps[here] < times && to < self.steps.len() => {
+                    jumps[here] += 1;
+                    at = to;
+                }
+                Some(MissionStep::Jump { .. }) => jumps[here] = 0,
+                Some(MissionStep::Near(_)) => leg_speed = leg_speed.or(Some(speed)),
+                Some(MissionStep::Payload | MissionStep::LookAt(_) | MissionStep::Fence(_)) => {}
+                _ => break,
+            }
+        }
+        ahead
+    }
+
+    /// The landing sequence whose first place is nearest to `here_m`.
+    #[must_use]
+    pub fn landing_sequence(&self, here_m: Vec3<Ned>) -> Option<usize> {
+        let away = |start: &usize| {
+            let first = (*start + 1..self.steps.len()).find_map(|k| self.place_at(k));
+            first.map_or(f64::INFINITY, |place| (place - here_m).horizontal_norm())
+        };
+        let starts = (0..self.steps.len()).filter(|k| self.steps[*k] == MissionStep::LandingSequence);
+        starts.min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     /// All steps with their numbers.
@@ -139,7 +251,7 @@ impl Mission {
     fn step_at(&self, index: usize) -> Option<MissionStep> {
         let hangs = self.over_home.get(index).copied().unwrap_or(false);
         let rise_m = if hangs { self.home_rise_m } else { 0.0 };
-        Some(match *self.steps.get(index)? {
+        let mut step = match *self.steps.get(index)? {
             MissionStep::Waypoint { position_m, accept_m, hold_s, yaw_rad } => {
                 MissionStep::Waypoint { position_m: position_m - Vec3::new(0.0, 0.0, rise_m), accept_m, hold_s, yaw_rad }
             }
@@ -151,7 +263,12 @@ impl Mission {
                 MissionStep::Land { position_m: Some(place - Vec3::new(0.0, 0.0, rise_m)) }
             }
             other => other,
-        })
+        };
+        let open = self.unnamed.get(index).copied().unwrap_or_default();
+        if let (Some(place_m), Some(began_m)) = (step.place_mut(), self.began_m.filter(|_| index == self.current)) {
+            *place_m = open.filled(*place_m, began_m);
+        }
+        Some(step)
     }
 
     /// Goes to a step; false when there is none.
@@ -159,6 +276,7 @@ impl Mission {
         let known = index < self.steps.len();
         if known {
             self.current = index;
+            self.began_m = None;
             self.wait_until = None;
             self.begun = false;
             self.begin_anew();
@@ -185,7 +303,7 @@ impl Mission {
                     self.orders.push(order);
                     self.next();
                 }
-                Some(MissionStep::Payload) => self.next(),
+                Some(MissionStep::Payload | MissionStep::LandingSequence) => self.next(),
                 Some(MissionStep::Jump { to, times }) => self.repeat(to, times),
                 Some(MissionStep::Delay(s)) => {
                     self.wait_until = self.wait_until.or(Some(now + SimTime::from_s(s.clamp(0.0, 86_400.0))));
@@ -200,6 +318,7 @@ impl Mission {
     fn next(&mut self) {
         self.reached.push(self.current);
         self.current += 1;
+        self.began_m = None;
         self.wait_until = None;
         self.begun = false;
         self.begin_anew();

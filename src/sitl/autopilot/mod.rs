@@ -1,6 +1,7 @@
 //! The built-in autopilot: estimator, rate, attitude, velocity, position, modes, failsafes, mission. Sees sensor readings,
 //! stick intents and requests; never the truth.
 
+mod acro;
 pub mod attitude;
 mod automatic;
 mod commands;
@@ -8,6 +9,7 @@ pub mod core;
 mod errand;
 pub mod estimator;
 pub mod fence;
+pub mod follow;
 pub mod gains;
 pub mod landed;
 pub mod link;
@@ -15,17 +17,22 @@ mod manual;
 pub mod mission;
 pub mod mixer;
 pub mod modes;
+pub mod operator_rules;
 pub mod orbit;
+mod pause;
 pub mod senses;
 pub mod shaper;
+pub mod smart_return;
 pub mod supervise;
 #[cfg(test)]
 pub(crate) mod testing;
+pub mod trajectory;
 pub mod tuning;
 pub mod velocity;
 
 pub use self::core::{Autopilot, CONTROL_HZ, Event, Severity};
 pub use self::fence::FenceAction;
+pub use self::operator_rules::OperatorRules;
 pub use self::tuning::{LinkLoss, Tuning};
 
 use crate::base::frames::{Frd, Ned, Rotation, Vec3};
@@ -53,6 +60,12 @@ pub enum Mode {
     Offboard,
     /// Circle a place.
     Orbit,
+    /// Sticks command body rates and thrust.
+    Acro,
+    /// Return to the take-off point along the path flown, and land.
+    SmartReturn,
+    /// Follow a moving target.
+    Follow,
 }
 
 /// Stick intent, each in [-1, 1]: forward, right, up, clockwise positive.
@@ -101,11 +114,8 @@ pub enum Request {
         /// Ground speed, m/s.
         speed_m_s: Option<f64>,
     },
-    /// Turn to a heading in the automatic mode that is flown, rad.
-    Turn {
-        /// Heading.
-        yaw_rad: f64,
-    },
+    /// Turn to a heading in the automatic mode that is flown.
+    Turn(Turn),
     /// Start or go on with the mission at an item.
     StartMission {
         /// First item, or `None` to go on.
@@ -121,6 +131,23 @@ pub enum Request {
     LookAt(Option<Vec3<Ned>>),
     /// The geofence on or off.
     EnableFence(bool),
+    /// Circle a point one radius ahead of the nose.
+    CircleAhead,
+    /// Fly the mission from its landing sequence on.
+    LandingSequence,
+    /// Pause (true) or resume what is flown, without leaving the mode.
+    Pause(bool),
+}
+
+/// A turn to a heading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// Heading, rad.
+    pub yaw_rad: f64,
+    /// Turn rate, rad/s; `None`: the vehicle's own.
+    pub rate_rad_s: Option<f64>,
+    /// Direction of rotation; `None`: the shorter way.
+    pub clockwise: Option<bool>,
 }
 
 /// An offboard set-point; `None` axes are not controlled by it.
@@ -140,6 +167,8 @@ pub struct OffboardSetpoint {
     pub attitude: Option<(Rotation<Frd, Ned>, f64)>,
     /// Body rates, rad/s, and thrust (0..1) instead of all else.
     pub rates: Option<(Vec3<Frd>, f64)>,
+    /// Climb rate in place of the thrust of an attitude or of body rates, m/s up.
+    pub climb_m_s: Option<f64>,
 }
 
 /// The answer to a [`Request`]; maps one to one to MAV_RESULT.
@@ -172,6 +201,10 @@ pub struct Estimate {
     pub horizontal_m: f64,
     /// Vertical position accuracy, m (1 sigma).
     pub vertical_m: f64,
+    /// Where the estimator was initialized, about the origin, m: the origin of MAVLink's local frame.
+    pub local_origin_m: Vec3<Ned>,
+    /// The local frame's origin is known and stays.
+    pub local_origin_set: bool,
     /// Horizontal position and velocity are usable for control.
     pub position_valid: bool,
     /// Attitude is aligned.
@@ -206,6 +239,8 @@ pub struct Status {
     pub battery_critical_pct: f64,
     /// Ground or air.
     pub landed: Landed,
+    /// A take-off climbs to its height, as a mode or as a mission's step.
+    pub climbing_out: bool,
     /// Why arming would be refused now; empty when it would not.
     pub arming_reasons: Vec<String>,
     /// A failsafe acts; its reason.
@@ -264,6 +299,8 @@ pub enum MissionStep {
     Speed(Option<f64>),
     /// Wait, s.
     Delay(f64),
+    /// Wait until a time of day in UTC.
+    DelayUntil(TimeOfDay),
     /// Go to another item a number of times.
     Jump {
         /// Item index.
@@ -288,6 +325,8 @@ pub enum MissionStep {
         yaw_rad: f64,
         /// From the present heading.
         relative: bool,
+        /// Turn rate, rad/s; `None`: the vehicle's own.
+        rate_rad_s: Option<f64>,
     },
     /// Fly on towards the next place until this near to it, m: what follows is done on the way.
     Near(f64),
@@ -295,6 +334,37 @@ pub enum MissionStep {
     Home(Option<Vec3<Ned>>),
     /// The geofence on or off from here on.
     Fence(bool),
+    /// The landing sequence begins after this step.
+    LandingSequence,
     /// Something for the payload that the endpoint does when this item becomes current.
     Payload,
+}
+
+/// A time of day, UTC. A part that is `None` matches whatever the clock shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TimeOfDay {
+    /// Hour, 0 to 23.
+    pub hour: Option<u8>,
+    /// Minute, 0 to 59.
+    pub minute: Option<u8>,
+    /// Second, 0 to 59.
+    pub second: Option<u8>,
+}
+
+impl TimeOfDay {
+    const HOUR_S: i64 = 3_600;
+    const MINUTE_S: i64 = 60;
+    const DAY_S: i64 = 86_400;
+
+    /// Seconds from a UTC time (Unix seconds) until the next moment that matches; 0 if it matches now.
+    #[must_use]
+    pub fn wait_s(self, unix_s: i64) -> i64 {
+        let fits = |part: Option<u8>, value: i64| part.is_none_or(|part| i64::from(part) == value);
+        let matches = |at: i64| {
+            let s = at.rem_euclid(Self::DAY_S);
+            let (hour, minute, second) = (s / Self::HOUR_S, s % Self::HOUR_S / Self::MINUTE_S, s % Self::MINUTE_S);
+            fits(self.hour, hour) && fits(self.minute, minute) && fits(self.second, second)
+        };
+        (0..Self::DAY_S).find(|wait| matches(unix_s + wait)).unwrap_or(0)
+    }
 }

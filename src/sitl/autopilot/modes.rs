@@ -3,14 +3,12 @@
 use super::core::Autopilot;
 use super::fence::Refuge;
 use super::mission::LeftCourse;
+use super::pause::Pause;
 use super::shaper::stopping_point;
 use super::velocity::{Motion, Pull};
-use super::{Landed, MissionStep, Mode, OffboardSetpoint};
+use super::{Landed, MissionStep, Mode, OffboardSetpoint, Turn};
 use crate::base::frames::{Frd, Ned, Vec3};
 use crate::base::time::SimTime;
-
-/// The return climbs only when further from home than this, m.
-const NEAR_HOME_M: f64 = 5.0;
 
 /// What a mode asks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +43,10 @@ pub enum ReturnPhase {
     Climb,
     /// Over to home.
     Cruise,
+    /// Waiting over home.
+    Wait,
+    /// Staying over home instead of landing.
+    Stay,
     /// Down.
     Land,
 }
@@ -66,6 +68,10 @@ pub struct Course {
     pub yaw_rad: f64,
     /// Wanted heading rate, rad/s.
     pub yaw_rate_rad_s: f64,
+    /// Added to the wanted heading rate while a turn is braked, rad/s.
+    pub yaw_brake_rad_s: f64,
+    /// No heading is held: the nose turns at a rate, or has not come to rest since.
+    pub heading_free: bool,
     /// Asked take-off height, m up about the origin.
     pub takeoff_up_m: Option<f64>,
     /// Height of the ground where it last stood, m down.
@@ -76,19 +82,25 @@ pub struct Course {
     pub phase: ReturnPhase,
     /// Where a return goes, m.
     pub refuge_m: Option<Vec3<Ned>>,
+    /// The wait over home ends at this time.
+    pub wait_until: Option<SimTime>,
+    /// A commanded turn.
+    pub turn: Option<Turn>,
+    /// What is flown is paused.
+    pub paused: Option<Pause>,
 }
 
 impl Mode {
     /// Sticks fly.
     #[must_use]
     pub fn is_manual(self) -> bool {
-        matches!(self, Self::Stabilized | Self::Altitude | Self::Position)
+        matches!(self, Self::Stabilized | Self::Altitude | Self::Position | Self::Acro)
     }
 
     /// Cannot be flown without horizontal position.
     #[must_use]
     pub fn needs_position(self) -> bool {
-        !matches!(self, Self::Stabilized | Self::Altitude | Self::Land | Self::Offboard)
+        !matches!(self, Self::Stabilized | Self::Altitude | Self::Acro | Self::Land | Self::Offboard)
     }
 }
 
@@ -127,17 +139,23 @@ impl Autopilot {
         let c = &mut self.course;
         c.target_m = stopping_point(&self.gains, e.position_m, e.velocity_m_s);
         c.target_yaw_rad = None;
+        (c.turn, c.paused) = (None, None);
         c.speed_m_s = None;
         c.lock_flat = None;
         c.lock_down = None;
         c.yaw_rad = e.attitude.yaw_rad();
+        c.heading_free = true;
         c.phase = ReturnPhase::Climb;
+        self.way = None;
         self.shaper.start(e.velocity_m_s);
         match self.status.mode {
             Mode::Takeoff => self.begin_takeoff(),
             Mode::Return => self.begin_return(),
+            Mode::SmartReturn => self.begin_smart_return(),
+            Mode::Follow => self.begin_follow(),
             Mode::Mission => {
                 self.mission.begun = false;
+                self.mission.lift_to = None;
                 self.mission.wait_until = None;
                 if !self.mission.skip(now) {
                     self.end_mission(now);
@@ -151,7 +169,7 @@ impl Autopilot {
     }
 
     fn begin_takeoff(&mut self) {
-        let up = self.course.takeoff_up_m.unwrap_or_else(|| self.usual_takeoff_up_m());
+        let up = self.above_ground(self.course.takeoff_up_m.unwrap_or_else(|| self.usual_takeoff_up_m()));
         let here = self.estimate.position_m;
         self.course.target_m = Vec3::new(here.north(), here.east(), (-up).min(here.down()));
     }
@@ -161,15 +179,17 @@ impl Autopilot {
         self.status.home_m.map_or(0.0, |h| -h.down()) + self.tuning.takeoff_height_m
     }
 
-    /// Home or the nearest rally point.
+    /// The nearest of the places that a return may go to; home where there is none.
     fn nearest_refuge(&self) -> Vec3<Ned> {
         let here = self.estimate.position_m;
         let home = self.status.home_m.unwrap_or(here);
-        let nearer = |best: Vec3<Ned>, refuge: &Refuge| {
-            let place = refuge.place_m;
-            if (place - here).horizontal_norm() < (best - here).horizontal_norm() { place } else { best }
-        };
-        self.refuges.iter().fold(home, nearer)
+        let allowed = self.tuning.rules.homeward.places;
+        let rally = self.refuges.iter().filter(|_| allowed.rally).map(|refuge: &Refuge| refuge.place_m);
+        let landing = self.mission.landing().filter(|_| allowed.mission_landing);
+        let places = allowed.home.then_some(home).into_iter().chain(rally).chain(landing);
+        let away = |place: &Vec3<Ned>| (*place - here).horizontal_norm();
+        // Of two that are as near the first counts: home.
+        places.reduce(|best, place| if away(&place) < away(&best) { place } else { best }).unwrap_or(home)
     }
 
     pub(super) fn begin_return(&mut self) {
@@ -177,46 +197,67 @@ impl Autopilot {
         let home = self.nearest_refuge();
         self.course.refuge_m = Some(home);
         let away = (here - home).horizontal_norm();
-        let up = -home.down() + self.tuning.return_height_m;
-        let phase = if away < NEAR_HOME_M { ReturnPhase::Cruise } else { ReturnPhase::Climb };
-        let down = if away < NEAR_HOME_M { here.down() } else { (-up).min(here.down()) };
+        let rules = self.tuning.rules.homeward;
+        let up = -home.down() + self.return_height_over(away);
+        let near = away < rules.near_m;
+        let phase = if near { ReturnPhase::Cruise } else { ReturnPhase::Climb };
+        let down = if near { here.down() } else { (-up).min(here.down() - rules.climb_min_m) };
         self.course.phase = phase;
         self.course.target_m = Vec3::new(here.north(), here.east(), down);
+    }
+
+    /// Height of a return over its place, m: less within the cone around the place.
+    fn return_height_over(&self, away_m: f64) -> f64 {
+        let rules = self.tuning.rules.homeward;
+        if rules.cone_slope <= 0.0 {
+            return self.tuning.return_height_m;
+        }
+        let least_m = rules.wait_height_m.unwrap_or(0.0);
+        (away_m * rules.cone_slope).max(least_m).min(self.tuning.return_height_m)
     }
 
     /// Standing on the ground, the mode wants to leave it.
     pub(super) fn wants_to_fly(&self, now: SimTime) -> bool {
         match self.status.mode {
-            Mode::Stabilized | Mode::Altitude | Mode::Position => {
+            Mode::Stabilized | Mode::Altitude | Mode::Position | Mode::Acro => {
                 self.links.sticks.up > 0.1 && self.links.sticks_fresh(self.tuning.manual_patience_s(), now)
             }
             Mode::Takeoff => true,
             Mode::Mission => {
                 use MissionStep as S;
-                matches!(self.mission.step(), Some(S::Takeoff { .. } | S::Waypoint { .. } | S::Circle { .. } | S::Near(_)))
+                let raised = self.links.sticks.up > 0.1 && self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
+                let go = self.tuning.rules.mission_starts_armed || self.watch.mission_started || raised;
+                go && matches!(self.mission.step(), Some(S::Takeoff { .. } | S::Waypoint { .. } | S::Circle { .. } | S::Near(_)))
             }
             Mode::Offboard => self.links.offboard.is_some_and(|(s, _)| rises(&s, self.estimate.position_m.down())),
-            Mode::Hold | Mode::Land | Mode::Return | Mode::Orbit => false,
+            Mode::Hold | Mode::Land | Mode::Return | Mode::Orbit | Mode::SmartReturn | Mode::Follow => false,
         }
     }
 
     pub(super) fn wanted(&mut self, now: SimTime, dt_s: f64) -> Wanted {
         self.status.target_m = None;
+        self.status.climbing_out = false;
         if self.status.landed == Landed::OnGround {
             return Wanted::Rest;
         }
         let blind = !self.estimate.position_valid;
+        if let Some(pause) = self.course.paused.filter(|_| !blind) {
+            return self.hold_paused(pause, dt_s);
+        }
         match self.status.mode {
             Mode::Stabilized => self.stabilized(dt_s),
+            Mode::Acro => self.acro(),
             Mode::Position if !blind => self.position(dt_s),
             Mode::Altitude | Mode::Position => self.altitude(dt_s),
             Mode::Land => self.land(dt_s),
-            Mode::Offboard => self.follow(now, dt_s),
+            Mode::Offboard => self.fly_setpoint(now, dt_s),
             _ if blind => self.sink_blind(dt_s),
             Mode::Hold => self.go(self.course.speed_m_s, dt_s),
             Mode::Orbit => self.fly_orbit(now, dt_s),
             Mode::Takeoff => self.take_off(now, dt_s),
             Mode::Return => self.go_home(dt_s),
+            Mode::SmartReturn => self.fly_trail_back(dt_s),
+            Mode::Follow => self.follow_target(now, dt_s),
             Mode::Mission => self.fly_mission(now, dt_s),
         }
     }

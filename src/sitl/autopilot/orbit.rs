@@ -2,6 +2,7 @@
 
 use super::core::{Autopilot, Severity};
 use super::modes::Wanted;
+use super::shaper::stopping_point;
 use super::{Landed, Mode, Outcome};
 use crate::base::frames::{Ned, Vec3};
 use crate::base::math;
@@ -18,8 +19,7 @@ const TURN_SHARE: f64 = 0.5;
 const RADII_M: std::ops::RangeInclusive<f64> = 1.0..=1_000.0;
 /// Nearer than this the heading towards a place is kept, m.
 const TOO_NEAR_M: f64 = 0.5;
-/// Radius and speed where none are given, m, m/s.
-const RADIUS_M: f64 = 5.0;
+/// Speed where none is given, m/s.
 const SPEED_M_S: f64 = 2.0;
 
 /// Where the nose points on a circle, by the numbers of MAVLink's ORBIT_YAW_BEHAVIOUR.
@@ -28,7 +28,7 @@ pub enum OrbitYaw {
     /// To the middle (0).
     #[default]
     Centre,
-    /// As at the start (1), or as it may be (2, 5).
+    /// As at the start (1), or as it may be (2).
     Keep,
     /// Along the way (3).
     Tangent,
@@ -40,7 +40,7 @@ impl OrbitYaw {
     /// From the command's number.
     #[must_use]
     pub fn from_number(n: i64) -> Option<Self> {
-        [Self::Centre, Self::Keep, Self::Keep, Self::Tangent, Self::Stick, Self::Keep].get(usize::try_from(n).ok()?).copied()
+        [Self::Centre, Self::Keep, Self::Keep, Self::Tangent, Self::Stick].get(usize::try_from(n).ok()?).copied()
     }
 }
 
@@ -72,8 +72,8 @@ pub struct OrbitWish {
     pub radius_m: Option<f64>,
     /// Speed, m/s.
     pub speed_m_s: Option<f64>,
-    /// Where the nose points.
-    pub yaw: OrbitYaw,
+    /// Where the nose points; `None`: as on the circle that is flown, otherwise to the middle.
+    pub yaw: Option<OrbitYaw>,
     /// How far round, rad; 0: without end.
     pub arc_rad: f64,
 }
@@ -87,11 +87,13 @@ impl Autopilot {
             return Outcome::TemporarilyRejected("No position estimate".into());
         }
         let here = self.estimate.position_m;
-        let before = self.orbit.map_or((RADIUS_M, SPEED_M_S), |orbit| (orbit.radius_m, orbit.speed_m_s.abs()));
+        let before =
+            self.orbit.map_or((self.tuning.rules.orbit_radius_m, SPEED_M_S), |orbit| (orbit.radius_m, orbit.speed_m_s.abs()));
         let radius = wish.radius_m.unwrap_or(before.0);
         if !RADII_M.contains(&radius.abs()) {
             return Outcome::Denied(format!("Orbit radius out of range ({} to {} m)", RADII_M.start(), RADII_M.end()));
         }
+        let yaw = wish.yaw.or(self.orbit.filter(|_| self.status.mode == Mode::Orbit).map(|orbit| orbit.yaw)).unwrap_or_default();
         let top = self.fastest_on(radius.abs());
         let speed = wish.speed_m_s.unwrap_or(before.1);
         if !speed.is_finite() || speed == 0.0 {
@@ -104,11 +106,35 @@ impl Autopilot {
         }
         let signed = speed.abs().min(top) * radius.signum() * speed.signum();
         let left_rad = if wish.arc_rad > 0.0 { wish.arc_rad } else { f64::INFINITY };
-        self.orbit = Some(Orbit { centre_m, radius_m: radius.abs(), speed_m_s: signed, yaw: wish.yaw, left_rad, trim_m_s: 0.0 });
+        self.orbit = Some(Orbit { centre_m, radius_m: radius.abs(), speed_m_s: signed, yaw, left_rad, trim_m_s: 0.0 });
         self.watch.intended = Mode::Orbit;
         self.watch.overridden = false;
         self.enter(Mode::Orbit, now);
         Outcome::Accepted
+    }
+
+    /// A circle ahead of the nose, at once where it flies; on the ground the mode alone is taken.
+    pub(super) fn request_circle_ahead(&mut self, now: SimTime) -> Outcome {
+        if !self.status.armed || self.status.landed == Landed::OnGround {
+            (self.watch.intended, self.orbit) = (Mode::Orbit, None);
+            self.enter(Mode::Orbit, now);
+            return Outcome::Accepted;
+        }
+        let radius = self.tuning.circle_radius_m.abs().clamp(*RADII_M.start(), *RADII_M.end());
+        let rest = stopping_point(&self.gains, self.estimate.position_m, self.estimate.velocity_m_s);
+        let (s, c) = math::sin_cos(self.estimate.attitude.yaw_rad());
+        let rate = self.tuning.circle_rate_rad_s;
+        self.request_orbit(
+            OrbitWish {
+                centre_m: Some((rest.north() + radius * c, rest.east() + radius * s)),
+                up_m: Some(-rest.down()),
+                radius_m: Some(radius),
+                speed_m_s: Some(rate * radius),
+                yaw: Some(OrbitYaw::Centre),
+                arc_rad: 0.0,
+            },
+            now,
+        )
     }
 
     fn fastest_on(&self, radius_m: f64) -> f64 {

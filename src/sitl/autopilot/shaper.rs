@@ -7,7 +7,9 @@ use crate::base::math;
 /// The wanted velocity is approached with this time constant near the end, s.
 const APPROACH_S: f64 = 0.25;
 /// Time to build up the full acceleration, s.
-const JERK_S: f64 = 0.15;
+pub const JERK_S: f64 = 0.15;
+/// The same horizontally on the way of a mission or a return, s (estimate: about 50 deg/s of tilt).
+pub const CALM_JERK_S: f64 = 0.5;
 
 /// Limits of a shaped motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +18,8 @@ pub struct Limits {
     pub horizontal_m_s2: f64,
     /// Vertical acceleration, m/s².
     pub vertical_m_s2: f64,
+    /// Time to build up the full horizontal acceleration, s.
+    pub build_up_s: f64,
 }
 
 /// Velocity and acceleration that are asked of the velocity loop.
@@ -39,7 +43,8 @@ impl Shaper {
         let flat = Vec3::<Ned>::new(wish.north(), wish.east(), 0.0).limited(limits.horizontal_m_s2);
         let down = wish.down().clamp(-limits.vertical_m_s2, limits.vertical_m_s2);
         let step = flat + Vec3::new(0.0, 0.0, down) - self.acceleration_m_s2;
-        let horizontal = Vec3::<Ned>::new(step.north(), step.east(), 0.0).limited(limits.horizontal_m_s2 / JERK_S * dt_s);
+        let horizontal =
+            Vec3::<Ned>::new(step.north(), step.east(), 0.0).limited(limits.horizontal_m_s2 / limits.build_up_s * dt_s);
         let most = limits.vertical_m_s2 / JERK_S * dt_s;
         self.acceleration_m_s2 += horizontal + Vec3::new(0.0, 0.0, step.down().clamp(-most, most));
         self.velocity_m_s += self.acceleration_m_s2 * dt_s;
@@ -106,7 +111,7 @@ mod tests {
 
     #[test]
     fn prop_a_shaped_stop_has_no_overshoot() {
-        let limits = Limits { horizontal_m_s2: 4.0, vertical_m_s2: 2.0 };
+        let limits = Limits { horizontal_m_s2: 4.0, vertical_m_s2: 2.0, build_up_s: JERK_S };
         let mut shaper = Shaper::default();
         shaper.start(Vec3::new(8.0, 0.0, 0.0));
         let mut least: f64 = 8.0;

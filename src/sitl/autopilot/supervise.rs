@@ -1,15 +1,15 @@
 //! Failsafes, arming checks, battery warnings, and the pilot's hand on the sticks.
 
 use super::core::{Autopilot, Severity};
+use super::operator_rules::{OffboardLoss, Response};
 use super::{Landed, LinkLoss, Mode, OffboardSetpoint};
 use crate::base::frames::{Frd, Vec3};
 use crate::base::time::SimTime;
 
 /// Failsafes and checks run this often.
 const PERIOD: SimTime = SimTime::from_ms(50);
-/// Sticks count as centred for arming within this, and take over from automatic modes beyond that.
+/// Sticks count as centred for arming within this.
 const CENTRED: f64 = 0.2;
-const TAKE_OVER: f64 = 0.3;
 /// Level enough to arm, cosine of the tilt (20 degrees).
 const LEVEL: f64 = 0.94;
 /// Something this near above forbids arming, m.
@@ -48,9 +48,24 @@ pub struct Watch {
     blind_since: Option<SimTime>,
     low_warned: bool,
     critical_warned: bool,
-    /// The low and the critical battery's failsafe have acted in this flight: each does so once, the pilot has the last word.
-    low_acted: bool,
-    critical_acted: bool,
+    /// The gravest battery level (1 low, 2 critical, 3 emergency) whose failsafe has acted in this flight: each does so once, the pilot has the
+    /// last word.
+    battery_acted: usize,
+    /// Below the low and the critical voltage since.
+    low_voltage_since: [Option<SimTime>; 2],
+    /// Sticks have come since arming: their loss counts in automatic modes, too.
+    pub sticks_seen: bool,
+    /// The mission was started by a command in this flight.
+    pub mission_started: bool,
+    /// It has been above the fence's floor in this flight.
+    pub above_floor: bool,
+}
+
+impl Watch {
+    /// Motors are armed: nothing has happened yet.
+    pub(super) fn begin_flight(&mut self) {
+        (self.sticks_seen, self.mission_started, self.above_floor) = (false, false, false);
+    }
 }
 
 impl Default for Watch {
@@ -68,8 +83,11 @@ impl Default for Watch {
             blind_since: None,
             low_warned: false,
             critical_warned: false,
-            low_acted: false,
-            critical_acted: false,
+            battery_acted: 0,
+            low_voltage_since: [None; 2],
+            sticks_seen: false,
+            mission_started: false,
+            above_floor: false,
         }
     }
 }
@@ -140,7 +158,8 @@ impl Autopilot {
         }
         let since = *self.watch.blind_since.get_or_insert(now);
         let pilot = self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
-        match (pilot, self.watch.intended) {
+        let lands = self.tuning.rules.responses.blind_lands;
+        match (pilot && !lands, self.watch.intended) {
             (true, _) if self.watch.intended.is_manual() || (now - since).s() > BLIND_S => {
                 Some((Mode::Altitude, "position lost, holding height only"))
             }
@@ -151,7 +170,11 @@ impl Autopilot {
 
     fn manual_lost(&mut self, now: SimTime) -> Action {
         let fresh = self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
-        if fresh || !self.watch.intended.is_manual() {
+        self.watch.sticks_seen |= fresh;
+        let intended = self.watch.intended;
+        let except = self.tuning.rules.responses.manual_loss_except;
+        let counts = intended.is_manual() || self.watch.sticks_seen && !except.cover(intended);
+        if fresh || !counts {
             self.watch.manual_lost = None;
             return None;
         }
@@ -161,13 +184,22 @@ impl Autopilot {
         if (now - since).s() < self.tuning.failsafe_delay_s {
             return Some((hold, why));
         }
-        Some((self.loss_mode(self.tuning.manual_loss, hold), why))
+        self.lost(self.tuning.manual_loss, hold, why)
+    }
+
+    /// What a lost link leads to.
+    fn lost(&mut self, loss: LinkLoss, hold: Mode, why: &'static str) -> Action {
+        if loss == LinkLoss::Terminate {
+            self.disarm(&format!("Disarmed: {why}"));
+            return None;
+        }
+        Some((self.loss_mode(loss, hold), why))
     }
 
     fn loss_mode(&self, loss: LinkLoss, hold: Mode) -> Mode {
         match loss {
             LinkLoss::Return if self.estimate.position_valid => Mode::Return,
-            LinkLoss::Return | LinkLoss::Land => Mode::Land,
+            LinkLoss::Return | LinkLoss::Land | LinkLoss::Terminate => Mode::Land,
             LinkLoss::Ignore | LinkLoss::Hold => hold,
         }
     }
@@ -180,17 +212,34 @@ impl Autopilot {
                 self.end_errand(now);
                 return None;
             }
-            let mode = if self.estimate.position_valid { Mode::Hold } else { Mode::Land };
-            return Some((mode, "external set-points lost"));
+            return self.offboard_lost(now);
         }
-        if t.data_link_loss != LinkLoss::Ignore && silent(self.links.ground_station, t.data_link_patience_s()) {
-            return Some((self.loss_mode(t.data_link_loss, Mode::Hold), "ground station lost"));
+        let counts = t.data_link_loss != LinkLoss::Ignore && !t.rules.responses.data_link_loss_except.cover(self.watch.intended);
+        if counts && silent(self.links.ground_station, t.data_link_patience_s()) {
+            return self.lost(t.data_link_loss, Mode::Hold, "ground station lost");
         }
         None
     }
 
+    fn offboard_lost(&mut self, now: SimTime) -> Action {
+        let why = "external set-points lost";
+        let located = self.estimate.position_valid;
+        let hold = if located { Mode::Hold } else { Mode::Land };
+        match self.tuning.rules.responses.offboard_loss {
+            OffboardLoss::Sticks(mode) => {
+                let pilot = self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
+                let flown = pilot && (located || !mode.needs_position());
+                if flown { Some((mode, why)) } else { self.lost(self.tuning.manual_loss, hold, why) }
+            }
+            OffboardLoss::Fixed(Response::Terminate) => self.lost(LinkLoss::Terminate, hold, why),
+            OffboardLoss::Fixed(Response::Return) => Some((self.loss_mode(LinkLoss::Return, hold), why)),
+            OffboardLoss::Fixed(Response::Land) => Some((Mode::Land, why)),
+            OffboardLoss::Fixed(Response::Hold | Response::Warn) => Some((hold, why)),
+        }
+    }
+
     /// To the place of the last set-point, where it had one; else it stops.
-    fn end_errand(&mut self, now: SimTime) {
+    pub(super) fn end_errand(&mut self, now: SimTime) {
         self.watch.intended = Mode::Hold;
         self.enter(Mode::Hold, now);
         if let Some((OffboardSetpoint { position_m: [Some(n), Some(e), Some(d)], yaw_rad, .. }, _)) = self.links.offboard {
@@ -216,26 +265,67 @@ impl Autopilot {
             self.watch.critical_warned = false;
         }
         let flying = self.status.armed && self.status.landed != Landed::OnGround;
-        if !flying {
-            (self.watch.low_acted, self.watch.critical_acted) = (false, false);
-        } else if self.low_battery_return {
+        if flying {
             self.act_on_battery(left);
+        } else {
+            (self.watch.battery_acted, self.watch.low_voltage_since) = (0, [None; 2]);
+        }
+    }
+
+    /// How grave the battery's state is: 0 good, 1 low, 2 critical, 3 emergency.
+    fn battery_level(&mut self, left_pct: f64) -> usize {
+        let rules = self.tuning.rules.responses;
+        let voltage_v = self.seen.battery.map_or(f64::INFINITY, |b| b.voltage_v);
+        let now = self.last_step;
+        let mut sagged = [false; 2];
+        for (k, limit_v) in rules.battery_low_v.into_iter().enumerate() {
+            let since = &mut self.watch.low_voltage_since[k];
+            *since = if voltage_v < limit_v { since.or(Some(now)) } else { None };
+            sagged[k] = since.is_some_and(|since| (now - since).s() >= rules.battery_low_s);
+        }
+        match left_pct {
+            left if left < rules.battery_emergency_pct.min(self.tuning.battery_critical_pct) => 3,
+            left if left < self.tuning.battery_critical_pct || sagged[1] => 2,
+            left if left < self.tuning.battery_low_pct || sagged[0] => 1,
+            _ => 0,
         }
     }
 
     /// Who took off with a low battery, or lost the position when it became low, is brought back too.
     fn act_on_battery(&mut self, left_pct: f64) {
-        if left_pct < self.tuning.battery_critical_pct && !self.watch.critical_acted {
-            (self.watch.low_acted, self.watch.critical_acted) = (true, true);
-            self.say(Severity::Critical, "Failsafe: critical battery, landing");
-            self.watch.intended = Mode::Land;
-            self.enter(Mode::Land, self.last_step);
-        } else if left_pct < self.tuning.battery_low_pct && !self.watch.low_acted && self.estimate.position_valid {
-            self.watch.low_acted = true;
-            self.say(Severity::Warning, "Failsafe: low battery, returning");
-            self.watch.intended = Mode::Return;
-            self.enter(Mode::Return, self.last_step);
+        const NAMES: [&str; 4] = ["", "low battery", "critical battery", "battery emergency"];
+        let level = self.battery_level(left_pct);
+        if level <= self.watch.battery_acted {
+            return;
         }
+        // The gravest reaction that is set at or below this level.
+        let set = self.tuning.rules.responses.battery;
+        let Some((level, response)) = (self.watch.battery_acted + 1..=level).rev().find_map(|k| Some((k, set[k - 1]?))) else {
+            return;
+        };
+        if response == Response::Return && !self.estimate.position_valid {
+            return;
+        }
+        self.watch.battery_acted = level;
+        self.respond(response, NAMES[level], if level == 1 { Severity::Warning } else { Severity::Critical });
+    }
+
+    /// Carries out a reaction that stays: the pilot has the last word.
+    fn respond(&mut self, response: Response, why: &str, severity: Severity) {
+        let located = self.estimate.position_valid;
+        let (mode, what) = match response {
+            Response::Warn => return,
+            Response::Hold if located => (Mode::Hold, "holding"),
+            Response::Return if located => (Mode::Return, "returning"),
+            Response::Hold | Response::Return | Response::Land => (Mode::Land, "landing"),
+            Response::Terminate => {
+                self.disarm(&format!("Disarmed: {why}"));
+                return;
+            }
+        };
+        self.say(severity, format!("Failsafe: {why}, {what}"));
+        self.watch.intended = mode;
+        self.enter(mode, self.last_step);
     }
 
     /// In the air it does not turn as it is told: a motor or propeller has failed, or something holds it. Told once in a flight.
@@ -248,13 +338,15 @@ impl Autopilot {
         if self.status.health.obeys && (now - since).s() > ASTRAY_S {
             self.status.health.obeys = false;
             self.say(Severity::Critical, "Attitude lost: motor or propeller failure?");
+            self.respond(self.tuning.rules.responses.motor_failure, "motor failure", Severity::Critical);
         }
     }
 
     /// Lying somewhere in an attitude that the rotors cannot mend: they stop.
     fn watch_attitude(&mut self, now: SimTime) {
         let moving = self.estimate.velocity_m_s.norm() > UPSET_SPEED_M_S;
-        if self.watch.aim_cosine > UPSET_COSINE || moving || self.status.landed == Landed::OnGround {
+        let checked = self.tuning.rules.responses.crash_check;
+        if !checked || self.watch.aim_cosine > UPSET_COSINE || moving || self.status.landed == Landed::OnGround {
             self.watch.upset_since = None;
             return;
         }
@@ -269,7 +361,7 @@ impl Autopilot {
     #[must_use]
     pub fn arming_reasons(&self, now: SimTime) -> Vec<String> {
         let mut out: Vec<String> = Vec::new();
-        let e = &self.estimate;
+        let (e, rules) = (&self.estimate, &self.tuning.rules.responses);
         out.extend(self.missing_sensors());
         if !e.attitude_valid {
             out.push("Attitude not aligned".into());
@@ -285,8 +377,14 @@ impl Autopilot {
         }
         match self.seen.battery {
             None => out.push("Battery not measured".into()),
-            Some(b) if b.remaining_pct < self.tuning.battery_critical_pct => out.push("Battery too low".into()),
+            Some(b) if b.remaining_pct < self.tuning.battery_critical_pct.max(rules.arm_charge_pct) => {
+                out.push("Battery too low".into());
+            }
+            Some(b) if b.voltage_v < rules.arm_voltage_v => out.push("Battery voltage too low".into()),
             Some(_) => {}
+        }
+        if rules.arm_needs_mission && self.mission.is_empty() {
+            out.push("No mission".into());
         }
         if self.links.sticks_fresh(self.tuning.manual_patience_s(), now)
             && self.links.deflection(self.tuning.arm_throttle_down) > CENTRED
@@ -304,10 +402,11 @@ impl Autopilot {
 
     /// Moved sticks take over from automatic flight.
     pub(super) fn take_over(&mut self, now: SimTime) {
-        let automatic =
-            matches!(self.watch.intended, Mode::Hold | Mode::Takeoff | Mode::Land | Mode::Return | Mode::Mission | Mode::Orbit);
+        let automatic = self.watch.intended != Mode::Offboard && !self.watch.intended.is_manual();
+        let rules = &self.tuning.rules.responses;
+        let takes = automatic && self.tuning.stick_takeover || self.watch.intended == Mode::Offboard && rules.takeover_offboard;
         let flying = self.status.armed && matches!(self.status.landed, Landed::InAir | Landed::Landing);
-        if self.tuning.stick_takeover && automatic && flying && !self.watch.overridden && self.links.moved(TAKE_OVER) {
+        if takes && flying && !self.watch.overridden && self.links.moved(rules.takeover_share) {
             let mission = self.status.mode == Mode::Mission;
             self.say(
                 Severity::Info,

@@ -11,13 +11,22 @@ pub enum LinkLoss {
     Return,
     /// Land here.
     Land,
+    /// Motors off.
+    Terminate,
 }
 
 impl LinkLoss {
-    /// From a parameter's number: 0 nothing, 1 hold, 2 return, 3 land.
+    /// From a parameter's number: 0 nothing, 1 hold, 2 return, 3 land, 5 and 6 motors off.
     #[must_use]
     pub fn from_number(n: i32) -> Option<Self> {
-        [Self::Ignore, Self::Hold, Self::Return, Self::Land].get(usize::try_from(n).ok()?).copied()
+        Some(match n {
+            0 => Self::Ignore,
+            1 => Self::Hold,
+            2 => Self::Return,
+            3 => Self::Land,
+            5 | 6 => Self::Terminate,
+            _ => return None,
+        })
     }
 
     /// The parameter's number.
@@ -28,6 +37,7 @@ impl LinkLoss {
             Self::Hold => 1,
             Self::Return => 2,
             Self::Land => 3,
+            Self::Terminate => 5,
         }
     }
 }
@@ -45,6 +55,8 @@ pub struct Tuning {
     pub descend_m_s: f64,
     /// `MPC_TKO_SPEED`: climb at take-off, m/s.
     pub takeoff_speed_m_s: f64,
+    /// Take-offs climb at `climb_m_s` from the ground on. (ArduPilot: WPNAV_SPEED_UP)
+    pub takeoff_at_climb_speed: bool,
     /// `MPC_LAND_SPEED`: last metres of a landing, m/s.
     pub land_speed_m_s: f64,
     /// `MPC_LAND_ALT2`: below this height over the ground (or home) the landing is slow, m.
@@ -95,8 +107,18 @@ pub struct Tuning {
     pub arm_throttle_down: bool,
     /// The number that people give the mission's first step: 1 where home is 0. (ArduPilot)
     pub first_item: usize,
+    /// `CIRCLE_RADIUS` (ArduPilot): radius of a circle entered by its mode alone, m.
+    pub circle_radius_m: f64,
+    /// `CIRCLE_RATE` (ArduPilot): rate around that circle, rad/s, clockwise positive.
+    pub circle_rate_rad_s: f64,
+    /// How a target is followed.
+    pub follow: super::follow::FollowRule,
+    /// UTC at simulation start, Unix seconds.
+    pub start_unix_s: i64,
     /// `MPC_HOLD_DZ`: sticks within this share of their travel count as centred.
     pub stick_deadband: f64,
+    /// What an operator sets beyond these.
+    pub rules: super::OperatorRules,
 }
 
 impl Tuning {
@@ -127,6 +149,7 @@ impl Default for Tuning {
             climb_m_s: 3.0,
             descend_m_s: 1.5,
             takeoff_speed_m_s: 1.5,
+            takeoff_at_climb_speed: false,
             land_speed_m_s: 0.7,
             land_slow_below_m: 5.0,
             takeoff_height_m: 2.5,
@@ -152,7 +175,13 @@ impl Default for Tuning {
             setpoints_end: false,
             arm_throttle_down: false,
             first_item: 0,
+            // ArduCopter's defaults: 10 m, 20 deg/s.
+            circle_radius_m: 10.0,
+            circle_rate_rad_s: 0.349,
+            follow: super::follow::FollowRule::default(),
+            start_unix_s: 0,
             stick_deadband: 0.03,
+            rules: super::OperatorRules::default(),
         }
     }
 }

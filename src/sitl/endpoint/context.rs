@@ -1,12 +1,14 @@
 //! What a command works on, and what it may order of the simulation.
 
 use super::MOST_TEXTS;
+use super::calibration::Calibration;
 use super::link::Link;
 use super::params::Params;
 use super::payload::Payload;
 use super::storage::Storage;
 use super::view::View;
-use crate::mav::dialect::{MavMessage, MavResult, MavSeverity};
+use crate::mav::codec::Framed;
+use crate::mav::dialect::{MavResult, MavSeverity};
 use crate::sitl::autopilot::Autopilot;
 use crate::sitl::faults::{Kind, Unit};
 use std::collections::VecDeque;
@@ -33,6 +35,10 @@ pub struct Context<'a, 'v> {
     pub faults: &'a mut VecDeque<Injection>,
     /// The flavour's number of the mode that was asked for last.
     pub chosen: &'a mut u32,
+    /// Arming checks are to be reported as events.
+    pub report: &'a mut bool,
+    /// The calibration that runs.
+    pub calibration: &'a mut Option<Calibration>,
 }
 
 /// A fault to put in, or with no kind to take out; the instance counts from 1, 0 is all.
@@ -51,6 +57,13 @@ impl Context<'_, '_> {
     pub fn tell(&mut self, text: &str) {
         if self.texts.len() < MOST_TEXTS {
             self.texts.push((MavSeverity::MAV_SEVERITY_CRITICAL, text.to_string()));
+        }
+    }
+
+    /// Informs everybody.
+    pub fn inform(&mut self, text: &str) {
+        if self.texts.len() < MOST_TEXTS {
+            self.texts.push((MavSeverity::MAV_SEVERITY_INFO, text.to_string()));
         }
     }
 
@@ -75,7 +88,7 @@ impl Context<'_, '_> {
     }
 
     /// Answers the link that asked.
-    pub fn answer(&mut self, component: u8, message: &MavMessage) -> MavResult {
+    pub fn answer(&mut self, component: u8, message: &impl Framed) -> MavResult {
         self.link.send(component, message);
         MavResult::MAV_RESULT_ACCEPTED
     }

@@ -6,24 +6,32 @@ use super::arrival::Arrival;
 use super::buttons::{self, Seen};
 use super::commands;
 use super::gimbal::{Aim, DEVICE, Gimbal};
+use super::manual;
 use super::offboard::{self, Reading};
-use crate::base::frames::{Frd, Ned, Rotation};
+use crate::base::frames::{Frd, Ned, Rotation, Vec3};
 use crate::mav::dialect::{
-    GIMBAL_DEVICE_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA,
-    GIMBAL_MANAGER_SET_PITCHYAW_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavModeFlag, MavResult, MavSeverity, MavType,
-    RC_CHANNELS_OVERRIDE_DATA, SET_ATTITUDE_TARGET_DATA, SET_MODE_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA,
-    SET_POSITION_TARGET_LOCAL_NED_DATA,
+    FOLLOW_TARGET_DATA, GIMBAL_DEVICE_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_ATTITUDE_DATA,
+    GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA, GIMBAL_MANAGER_SET_PITCHYAW_DATA, GLOBAL_POSITION_INT_DATA, HEARTBEAT_DATA,
+    MANUAL_CONTROL_DATA, MavModeFlag, MavResult, MavSeverity, MavType, RC_CHANNELS_OVERRIDE_DATA, SET_ATTITUDE_TARGET_DATA,
+    SET_MODE_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
+use crate::mav::units;
+use crate::sitl::autopilot::follow::Target;
 use crate::sitl::autopilot::{Landed, Mode, Outcome, Request};
 
-pub(super) fn heartbeat(_: &mut Endpoint, beat: &HEARTBEAT_DATA, a: &mut Arrival) {
-    if beat.mavtype == MavType::MAV_TYPE_GCS {
+pub(super) fn heartbeat(e: &mut Endpoint, beat: &HEARTBEAT_DATA, a: &mut Arrival) {
+    if beat.mavtype == MavType::MAV_TYPE_GCS && counts(e, a) {
         a.autopilot.ground_station_alive(a.view.now);
     }
 }
 
+/// Whether the sender is the ground station, where a parameter names one.
+fn counts(e: &Endpoint, a: &Arrival) -> bool {
+    e.params.ground_station().is_none_or(|system| system == a.from.0)
+}
+
 pub(super) fn manual_control(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut Arrival) {
-    if !e.sticks_pass {
+    if !e.sticks_pass || !counts(e, a) {
         return;
     }
     let from = (a.link, a.from);
@@ -43,14 +51,91 @@ pub(super) fn manual_control(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut 
 }
 
 pub(super) fn channels(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut Arrival) {
-    if !e.sticks_pass {
+    // A receiver reports a lost transmitter by a throttle pulse below all others: its sticks are no sticks.
+    let lost = e.params.throttle_loss_us().is_some_and(|least| c.chan3_raw > 0 && c.chan3_raw < least);
+    if !e.sticks_pass || !counts(e, a) || lost {
         return;
     }
-    if let Some(sticks) = e.manual.channels((a.link, a.from), c, a.view.now) {
+    let from = (a.link, a.from);
+    let held = e.manual.is_holder(from);
+    if let Some(sticks) = e.manual.channels(from, c, a.view.now) {
         a.autopilot.sticks(sticks, a.view.now);
+    } else if held && !e.manual.is_holder((a.link, a.from)) {
+        a.autopilot.let_go_of_sticks();
     }
+    e.manual.take_aux(from, c, a.view.now);
+    turn_mode_switch(e, c, a);
     tell_hands(e);
 }
+
+/// Upper ends of the first five positions of a six-position mode switch, microseconds (ArduPilot: RC_Channel, read_6pos_switch).
+const POSITIONS_US: [u16; 5] = [1230, 1360, 1490, 1620, 1749];
+const MODE_OF_POSITION: [&str; 6] = ["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"];
+
+/// A new position of the mode switch (FLTMODE_CH) enters its mode.
+fn turn_mode_switch(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut Arrival) {
+    let pulses = [
+        c.chan5_raw,
+        c.chan6_raw,
+        c.chan7_raw,
+        c.chan8_raw,
+        c.chan9_raw,
+        c.chan10_raw,
+        c.chan11_raw,
+        c.chan12_raw,
+        c.chan13_raw,
+        c.chan14_raw,
+        c.chan15_raw,
+        c.chan16_raw,
+    ];
+    let channel = e.params.whole("FLTMODE_CH").and_then(|channel| usize::try_from(channel - 5).ok());
+    let Some(pulse) = channel.and_then(|k| pulses.get(k)).filter(|us| manual::PULSES_US.contains(us)) else { return };
+    let position = POSITIONS_US.iter().filter(|end| *pulse > **end).count();
+    if e.mode_switch.replace(position) == Some(position) {
+        return;
+    }
+    if let Some(mode) = e.params.whole(MODE_OF_POSITION[position]) {
+        enter_mode(e, mode.unsigned_abs(), a);
+    }
+}
+
+/// A target that reports itself to everybody (PX4, ArduPilot).
+pub(super) fn follow_target(_: &mut Endpoint, t: &FOLLOW_TARGET_DATA, a: &mut Arrival) {
+    // As PX4 does, a velocity counts whatever the bits say (MAVSDK sets that of the position alone); one that is zero without its bit is none.
+    let given = t.est_capabilities & FOLLOW_VELOCITY != 0 || t.vel != [0.0; 3];
+    let velocity = Some(t.vel.map(f64::from)).filter(|v| given && v.iter().all(|c| c.is_finite()));
+    if t.est_capabilities & FOLLOW_POSITION != 0 {
+        report_target(a, (t.lat, t.lon, f64::from(t.alt)), velocity.map(|[n, e, d]| Vec3::new(n, e, d)), None);
+    }
+}
+
+/// Bits of FOLLOW_TARGET.est_capabilities.
+const FOLLOW_POSITION: u8 = 1;
+const FOLLOW_VELOCITY: u8 = 2;
+
+/// Another vehicle's position, where the flavour follows by it (ArduPilot: FOLL_SYSID, 0 for whichever is heard).
+pub(super) fn other_position(e: &mut Endpoint, p: &GLOBAL_POSITION_INT_DATA, a: &mut Arrival) {
+    let Some(followed) = e.params.whole("FOLL_SYSID") else { return };
+    if a.from.0 == e.system_id || (followed != 0 && i32::from(a.from.0) != followed) {
+        return;
+    }
+    let velocity = Vec3::new(f64::from(p.vx), f64::from(p.vy), f64::from(p.vz)) * 0.01;
+    let heading_rad = (p.hdg != u16::MAX).then(|| (f64::from(p.hdg) * 0.01).to_radians());
+    report_target(a, (p.lat, p.lon, f64::from(p.alt) * 0.001), Some(velocity), heading_rad);
+}
+
+fn report_target(a: &mut Arrival, (lat, lon, alt_m): (i32, i32, f64), velocity_m_s: Option<Vec3<Ned>>, heading_rad: Option<f64>) {
+    let Some(geo) = units::geo(lat, lon, alt_m).filter(|_| alt_m.is_finite()) else { return };
+    let position_m = a.view.plane.enu_from_geo(geo).ned();
+    let velocity_m_s = velocity_m_s.unwrap_or_else(|| a.autopilot.target_velocity(position_m, a.view.now));
+    if position_m.norm() < FAR_M && velocity_m_s.norm() < FAST_M_S {
+        a.autopilot.report_target(Target { position_m, velocity_m_s, heading_rad }, a.view.now);
+    }
+}
+
+/// A target farther from the origin, or faster, is a mistake, m, m/s.
+const FAR_M: f64 = 20_000.0;
+const FAST_M_S: f64 = 1_000.0;
 
 fn press_buttons(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut Arrival) {
     for button in e.manual.presses.of(m) {
@@ -124,7 +209,7 @@ pub(super) fn global_target(e: &mut Endpoint, t: &SET_POSITION_TARGET_GLOBAL_INT
 }
 
 pub(super) fn attitude_target(e: &mut Endpoint, t: &SET_ATTITUDE_TARGET_DATA, a: &mut Arrival) {
-    fly(e, offboard::attitude(t), a);
+    fly(e, offboard::attitude(t, a.view, &a.autopilot.tuning), a);
 }
 
 /// The gimbal as the message's sender may move it: none for another device, or while somebody else is in control.

@@ -4,7 +4,7 @@
 use super::Endpoint;
 use super::arrival::Arrival;
 use super::homes;
-use super::mission::{Reply, ack};
+use super::mission::{Form, Reply, ack};
 use super::params::{HASH, Refusal, Told};
 use super::streams::{self, AUTOPILOT};
 use super::view::View;
@@ -157,6 +157,11 @@ pub(super) fn mission_count(e: &mut Endpoint, c: &MISSION_COUNT_DATA, a: &mut Ar
 }
 
 pub(super) fn mission_receive_int(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut Arrival) {
+    e.plans.note_form(a.from, Form::Int);
+    take_item(e, item, a);
+}
+
+fn take_item(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut Arrival) {
     if e.flavour.errands.is_some() && homes::is_errand(item) {
         let result = homes::go(e, item, a);
         e.answer(a.link, &ack(a.from, item.mission_type, result));
@@ -186,7 +191,8 @@ pub(super) fn mission_receive(e: &mut Endpoint, item: &MISSION_ITEM_DATA, a: &mu
         autocontinue: item.autocontinue,
         mission_type: item.mission_type,
     };
-    mission_receive_int(e, &whole, a);
+    e.plans.note_form(a.from, Form::Float);
+    take_item(e, &whole, a);
 }
 
 pub(super) fn mission_clear(e: &mut Endpoint, c: &MISSION_CLEAR_ALL_DATA, a: &mut Arrival) {
@@ -194,8 +200,13 @@ pub(super) fn mission_clear(e: &mut Endpoint, c: &MISSION_CLEAR_ALL_DATA, a: &mu
     carry_out(e, reply, a);
 }
 
-pub(super) fn mission_ack(e: &mut Endpoint, _: &MISSION_ACK_DATA, a: &mut Arrival) {
-    e.plans.acknowledged(a.from);
+/// An uploader that does not know the form in which it is asked says so, and is asked in the other one (as PX4 does).
+pub(super) fn mission_ack(e: &mut Endpoint, m: &MISSION_ACK_DATA, a: &mut Arrival) {
+    if m.mavtype != MavMissionResult::MAV_MISSION_UNSUPPORTED {
+        e.plans.acknowledged(a.from);
+    } else if let Some(question) = e.plans.ask_otherwise(a.from, a.view.now) {
+        e.answer(a.link, &question);
+    }
 }
 
 /// Answered by MISSION_CURRENT, after a refusal where there is no such item.
@@ -207,7 +218,7 @@ pub(super) fn mission_set_current(e: &mut Endpoint, c: &MISSION_SET_CURRENT_DATA
     }
     let now = super::view::View { status: a.autopilot.status(), ..*a.view };
     for (_, row) in streams::rows_of(MISSION_CURRENT_DATA::ID) {
-        if let Some(message) = (row.build)(&now) {
+        if let Some(message) = row.build(&now) {
             e.broadcast(AUTOPILOT, &message);
         }
     }
@@ -259,7 +270,8 @@ pub(super) fn hand_over(e: &mut Endpoint, kind: MavMissionType, view: &View, aut
     let is = |one| kind == one || kind == MavMissionType::MAV_MISSION_TYPE_ALL;
     let home_up = view.status.home_m.map_or(0.0, |h| -h.down());
     if is(MavMissionType::MAV_MISSION_TYPE_MISSION) {
-        autopilot.set_mission(e.plans.steps(view.plane, home_up));
+        autopilot.set_mission(e.plans.steps(view.plane, view.status.home_m));
+        autopilot.leave_mission_open(e.plans.unnamed());
         autopilot.hang_mission_on_home(e.plans.over_home());
     }
     if is(MavMissionType::MAV_MISSION_TYPE_FENCE) {
@@ -276,7 +288,9 @@ pub(super) fn timesync(e: &mut Endpoint, sync: &TIMESYNC_DATA, a: &mut Arrival) 
         return;
     }
     let (target_system, target_component) = a.from;
-    let tc1 = a.view.now.ns().max(1);
+    let Some(link) = e.links.get(&a.link) else { return };
+    // The same clock as the times of our messages, so that a client can convert them.
+    let tc1 = a.view.towards(link.kind).since_boot(a.view.now).ns().max(1);
     e.answer(a.link, &MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: sync.ts1, target_system, target_component }));
 }
 

@@ -6,7 +6,7 @@ use super::commands::payload;
 use super::places::{HIGHEST_M, flyable, place, placeless, relative};
 use crate::base::geodesy::LocalPlane;
 use crate::mav::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavFrame, MavMissionResult, MavMissionType};
-use crate::sitl::autopilot::MissionStep;
+use crate::sitl::autopilot::{MissionStep, TimeOfDay};
 
 /// Longest stay of an item, s.
 const LONGEST_S: f32 = 86_400.0;
@@ -51,7 +51,7 @@ pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, p
             span(item.z, (-HIGHEST_M, HIGHEST_M), R::MAV_MISSION_INVALID_PARAM7)
         }
         MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND => flyable(item, plane),
-        // Waiting for a time of day (-1) is refused: the vehicle's day is the scenario's.
+        MavCmd::MAV_CMD_NAV_DELAY if item.param1 == -1.0 => time_of_day(item).map(|_| ()),
         MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY | MavCmd::MAV_CMD_CONDITION_DISTANCE => {
             span(item.param1, (0.0, LONGEST_S), R::MAV_MISSION_INVALID_PARAM1)
         }
@@ -82,6 +82,21 @@ pub(super) fn legal(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, p
     }
 }
 
+/// Parameters 2 to 4 hour, minute and second in UTC, each -1 where any will do.
+fn time_of_day(item: &MISSION_ITEM_INT_DATA) -> Result<TimeOfDay, MavMissionResult> {
+    use MavMissionResult as R;
+    let part = |value: f32, most: f32, wrong: R| match value {
+        -1.0 => Ok(None),
+        value if (0.0..=most).contains(&value) && value.fract() == 0.0 => Ok(Some(value as u8)),
+        _ => Err(wrong),
+    };
+    Ok(TimeOfDay {
+        hour: part(item.param2, 23.0, R::MAV_MISSION_INVALID_PARAM2)?,
+        minute: part(item.param3, 59.0, R::MAV_MISSION_INVALID_PARAM3)?,
+        second: part(item.param4, 59.0, R::MAV_MISSION_INVALID_PARAM4)?,
+    })
+}
+
 /// Parameter 1 how often, 3 the radius, negative for counter-clockwise; 0 or none for the usual one.
 fn circle(item: &MISSION_ITEM_INT_DATA) -> Legal {
     span(item.param1, (0.0, 1_000.0), MavMissionResult::MAV_MISSION_INVALID_PARAM1)?;
@@ -90,7 +105,7 @@ fn circle(item: &MISSION_ITEM_INT_DATA) -> Legal {
     if known { Ok(()) } else { Err(MavMissionResult::MAV_MISSION_INVALID_PARAM3) }
 }
 
-/// Parameter 1 the angle in degrees, 2 the rate (the vehicle's own is flown), 3 the way round, 4 whether from the present heading.
+/// Parameter 1 the angle in degrees, 2 the rate in deg/s (0: the vehicle's own), 3 the way round, 4 whether from the present heading.
 fn turn(item: &MISSION_ITEM_INT_DATA) -> Legal {
     use MavMissionResult as R;
     if !(-360.0..=360.0).contains(&item.param1) {
@@ -201,6 +216,10 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
         MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH => MissionStep::Return,
         MavCmd::MAV_CMD_DO_CHANGE_SPEED if item.param2 > 0.0 => MissionStep::Speed(Some(number(item.param2, 5.0))),
         MavCmd::MAV_CMD_DO_CHANGE_SPEED if item.param2 == -2.0 => MissionStep::Speed(None),
+        MavCmd::MAV_CMD_NAV_DELAY if item.param1 == -1.0 => {
+            time_of_day(item).map_or(MissionStep::Payload, MissionStep::DelayUntil)
+        }
+        MavCmd::MAV_CMD_DO_LAND_START => MissionStep::LandingSequence,
         MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY => MissionStep::Delay(number(item.param1, 0.0).max(0.0)),
         MavCmd::MAV_CMD_CONDITION_DISTANCE => MissionStep::Near(number(item.param1, 0.0)),
         MavCmd::MAV_CMD_CONDITION_YAW => heading(item),
@@ -238,7 +257,8 @@ fn waypoint(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) ->
 fn heading(item: &MISSION_ITEM_INT_DATA) -> MissionStep {
     let relative = item.param4 == 1.0;
     let angle = f64::from(item.param1).to_radians();
-    MissionStep::Turn { yaw_rad: if relative && item.param3 < 0.0 { -angle } else { angle }, relative }
+    let rate_rad_s = Some(item.param2).filter(|rate| *rate > 0.0 && rate.is_finite()).map(|rate| f64::from(rate).to_radians());
+    MissionStep::Turn { yaw_rad: if relative && item.param3 < 0.0 { -angle } else { angle }, relative, rate_rad_s }
 }
 
 #[cfg(test)]

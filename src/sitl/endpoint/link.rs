@@ -2,10 +2,9 @@
 
 use super::LinkKind;
 use super::budget::Budget;
-use super::streams::STREAMS;
+use super::streams::{AUTOPILOT, CAMERA, STREAMS};
 use crate::base::time::SimTime;
-use crate::mav::codec::{Decoder, Encoder};
-use crate::mav::dialect::MavMessage;
+use crate::mav::codec::{Decoder, Encoder, Framed};
 use crate::mav::signing::Signing;
 use std::collections::{BTreeMap, VecDeque};
 
@@ -21,8 +20,21 @@ const MOST_WAITING: usize = 4_194_304;
 const HANDED_ON_A_TICK: usize = 16;
 /// Heartbeats are never slowed: clients tell by them that we are there.
 const HEARTBEAT: u32 = 0;
+/// Between heartbeats of a component (MAVLink: 1 Hz).
+const BEAT: SimTime = SimTime::from_ms(1_000);
 /// HIL_STATE_QUATERNION.
 const TRUTH: u32 = 115;
+
+/// How far a peer is that is to be kept in step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Step {
+    /// Time waits for its first answer.
+    Awaited,
+    /// It has not answered yet, and is served in real time until it does.
+    Late,
+    /// It answers, and time waits for it.
+    Joined,
+}
 
 /// One peer.
 #[derive(Debug, Clone)]
@@ -31,6 +43,12 @@ pub struct Link {
     pub kind: LinkKind,
     /// It is kept in step.
     pub lockstep: bool,
+    /// Only answers go out: no heartbeat has come in yet.
+    pub quiet: bool,
+    /// How far it is with that.
+    pub step: Step,
+    /// Something has come from it.
+    pub heard: bool,
     /// The token of its last question for step.
     pub asked: Option<i64>,
     /// Incoming bytes.
@@ -52,6 +70,8 @@ pub struct Link {
     pub pictures: std::ops::Range<usize>,
     /// Nothing but heartbeats until it asks.
     must_ask: bool,
+    /// Somebody behind it has spoken to the camera.
+    uses_camera: bool,
 }
 
 impl Link {
@@ -63,6 +83,9 @@ impl Link {
         Self {
             kind,
             lockstep,
+            quiet: false,
+            step: Step::Awaited,
+            heard: false,
             asked: None,
             decoder: Decoder::new(),
             system_id,
@@ -79,6 +102,7 @@ impl Link {
             stamp: 0,
             pictures: 0..0,
             must_ask,
+            uses_camera: false,
         }
     }
 
@@ -86,6 +110,21 @@ impl Link {
     pub fn limit(&mut self, bytes_s: f64, now: SimTime) {
         let frames_s = self.every.iter().flatten().map(|every| 1.0 / every.s()).sum();
         self.budget = Some(Budget::new(bytes_s, frames_s, now));
+    }
+
+    /// Whether time waits for it.
+    #[must_use]
+    pub fn is_waited_for(&self) -> bool {
+        self.lockstep && self.step != Step::Late
+    }
+
+    /// Whether this token answers a question of ours: the last one, or any before it of a peer that time does not wait for.
+    #[must_use]
+    pub fn is_answer(&self, token: i64) -> bool {
+        match self.step {
+            Step::Late => self.lockstep && self.asked.is_some_and(|asked| (1..=asked).contains(&token)),
+            Step::Awaited | Step::Joined => self.asked == Some(token),
+        }
     }
 
     /// It has a limit.
@@ -168,6 +207,39 @@ impl Link {
         self.every = (0..STREAMS.len()).map(|row| usual(row, self.kind, self.must_ask)).collect();
         self.next.fill(now);
         self.soonest = now;
+        if std::mem::take(&mut self.uses_camera) {
+            self.use_camera();
+        }
+    }
+
+    /// Somebody behind the link speaks to the camera: he hears it as often as MAVLink asks of a component, in step with the autopilot.
+    pub fn use_camera(&mut self) {
+        if self.uses_camera {
+            return;
+        }
+        self.uses_camera = true;
+        let row_of = |component| STREAMS.iter().position(|row| row.id == HEARTBEAT && row.component == component);
+        if let (Some(camera), Some(autopilot)) = (row_of(CAMERA), row_of(AUTOPILOT))
+            && self.every[camera].is_some_and(|every| every > BEAT)
+        {
+            self.every[camera] = Some(BEAT);
+            self.next[camera] = self.next[autopilot];
+            self.soonest = self.soonest.min(self.next[camera]);
+        }
+    }
+
+    /// Somebody behind the link has spoken to the camera.
+    #[must_use]
+    pub fn uses_camera(&self) -> bool {
+        self.uses_camera
+    }
+
+    /// Its first heartbeat has come in: streams begin now.
+    pub fn wake(&mut self, now: SimTime) {
+        if std::mem::take(&mut self.quiet) {
+            self.next.fill(now);
+            self.soonest = now;
+        }
     }
 
     /// Signs what our components say from now on.
@@ -176,7 +248,7 @@ impl Link {
     }
 
     /// Queues a message of a stream.
-    pub fn stream(&mut self, component: u8, message: &MavMessage) {
+    pub fn stream(&mut self, component: u8, message: &impl Framed) {
         let before = self.waiting;
         self.send(component, message);
         if let Some(budget) = &mut self.budget {
@@ -205,8 +277,8 @@ impl Link {
     }
 
     /// Queues a message of one of our components.
-    pub fn send(&mut self, component: u8, message: &MavMessage) {
-        let frame = self.encoder(component).encode(message);
+    pub fn send(&mut self, component: u8, message: &impl Framed) {
+        let frame = message.frame(self.encoder(component));
         self.queue_own(frame);
     }
 

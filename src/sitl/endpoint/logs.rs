@@ -124,6 +124,12 @@ impl Logs {
         self.go_on();
     }
 
+    /// The action of the next job.
+    #[must_use]
+    pub fn next_action(&self) -> Option<&Action> {
+        self.jobs.front().map(|job| &job.action)
+    }
+
     /// The next job.
     pub fn poll_job(&mut self) -> Option<Job> {
         self.jobs.pop_front()

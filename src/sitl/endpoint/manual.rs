@@ -14,8 +14,14 @@ const UNUSED: i16 = i16::MAX;
 /// Somebody whose sticks are ignored is told so this often, s.
 const TELL_EVERY_S: f64 = 5.0;
 /// Pulse lengths of a transmitter's channel, microseconds; what lies outside is no stick (ArduPilot passes it on; we do not).
-const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
+pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
 const MIDDLE_US: u16 = 1500;
+/// Channels beside the sticks.
+pub const AUX: usize = 12;
+/// Channels 5 to 16 that nobody overrides, microseconds (ArduPilot's SITL: SIM RC defaults).
+const AUX_US: [u16; AUX] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
+/// Value that releases channels 9 and up; 0 releases those before (MAVLink common).
+const RELEASE_HIGH: u16 = 65_534;
 /// Senders with a throttle from -1000 that are remembered; a flood of names must not fill the memory.
 const FULL_RANGE_MAX: usize = 64;
 /// The gimbal's axis acts when it has moved by more than this share of its way.
@@ -37,6 +43,7 @@ pub struct Manual {
     heard: SimTime,
     sticks: Sticks,
     pulses_us: [u16; 4],
+    aux_us: [u16; AUX],
     /// Senders whose throttle counts from -1000 to 1000.
     full_range: Vec<Sender>,
     gimbal: Option<f64>,
@@ -55,6 +62,7 @@ impl Default for Manual {
             heard: SimTime::ZERO,
             sticks: Sticks::default(),
             pulses_us: [MIDDLE_US; 4],
+            aux_us: AUX_US,
             full_range: Vec::new(),
             gimbal: None,
             told: None,
@@ -75,6 +83,30 @@ impl Manual {
     #[must_use]
     pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
         self.holds(now).then_some(self.pulses_us)
+    }
+
+    /// Channels 5 to 16, microseconds.
+    #[must_use]
+    pub fn aux_us(&self) -> [u16; AUX] {
+        self.aux_us
+    }
+
+    /// Channels 5 to 16 of an override, from whoever may have the sticks.
+    pub fn take_aux(&mut self, from: Sender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
+        if self.policy == Policy::FirstKeeps && self.holder.is_some_and(|holder| holder != from) && self.holds(now) {
+            return;
+        }
+        let low = [c.chan5_raw, c.chan6_raw, c.chan7_raw, c.chan8_raw];
+        let high =
+            [c.chan9_raw, c.chan10_raw, c.chan11_raw, c.chan12_raw, c.chan13_raw, c.chan14_raw, c.chan15_raw, c.chan16_raw];
+        for (k, us) in low.into_iter().chain(high).enumerate() {
+            let released = if k < low.len() { us == 0 } else { us == RELEASE_HIGH };
+            if released {
+                self.aux_us[k] = AUX_US[k];
+            } else if PULSES_US.contains(&us) {
+                self.aux_us[k] = us;
+            }
+        }
     }
 
     /// A link is gone: another sender may get its number.

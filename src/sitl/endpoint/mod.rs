@@ -4,11 +4,13 @@ mod areas;
 mod arrival;
 pub mod budget;
 pub mod buttons;
+pub mod calibration;
 pub mod camera;
 mod camera_params;
 pub mod commands;
 mod context;
 mod control;
+pub mod events;
 mod exchange;
 pub mod files;
 pub mod flavour;
@@ -29,10 +31,12 @@ mod persistence;
 mod places;
 mod receive;
 mod scoring;
+mod shell;
 mod speak;
 mod storage;
 pub mod streams;
 mod texts;
+mod unnamed;
 pub mod view;
 
 use crate::base::time::SimTime;
@@ -43,8 +47,9 @@ pub use context::{Context, Injection};
 use flavour::Flavour;
 use guard::Guard;
 use link::Link;
+pub use link::Step;
 use manual::Manual;
-use mission::Plans;
+use mission::{Form, Plans};
 use params::{Pack, Params};
 pub use payload::Payload;
 pub use receive::HANDLED;
@@ -123,6 +128,16 @@ pub struct Endpoint {
     flight: view::Flight,
     was_armed: bool,
     fence_took: u16,
+    /// What has acted on the vehicle and is not in the digest yet.
+    acted: Vec<u8>,
+    /// The last position of the mode switch, from 0.
+    mode_switch: Option<usize>,
+    /// The calibration that runs.
+    calibration: Option<calibration::Calibration>,
+    /// Events sent to ground stations.
+    events: events::Events,
+    /// The console.
+    shell: shell::Shell,
 }
 
 /// Texts that wait for the next tick; a flood of refusals says no more than these.
@@ -150,7 +165,10 @@ impl Endpoint {
             injections: VecDeque::new(),
             sticks_pass: true,
             params,
-            plans: Plans::led_by(u16::from(flavour.home_item)).with_splines(flavour.splines),
+            plans: Plans::led_by(u16::from(flavour.home_item))
+                .with_splines(flavour.splines)
+                .with_zero_as_here(flavour.zero_is_here)
+                .asking_by(if flavour.float_items { Form::Float } else { Form::Int }),
             manual: Manual::default(),
             payload: Payload::new(),
             texts: Vec::new(),
@@ -167,6 +185,11 @@ impl Endpoint {
             flight: view::Flight::default(),
             was_armed: false,
             fence_took: 0,
+            acted: Vec::new(),
+            mode_switch: None,
+            calibration: None,
+            events: events::Events::default(),
+            shell: shell::Shell::default(),
         }
     }
 
@@ -175,6 +198,19 @@ impl Endpoint {
         let mut link = Link::new(kind, lockstep, self.system_id, self.flavour.must_ask(kind), now);
         link.sign_with(self.guard.as_ref().map(|guard| guard.signer(id.0 as u8)));
         self.links.insert(id, link);
+    }
+
+    /// Nothing but answers goes out on a link until a heartbeat has come over it: its sender's address may be forged, and streams would
+    /// make a flood of every datagram.
+    pub fn await_heartbeat(&mut self, id: LinkId) {
+        if let Some(link) = self.links.get_mut(&id) {
+            link.quiet = true;
+        }
+    }
+
+    /// The links that get what nobody has asked for.
+    fn listeners(&mut self) -> impl Iterator<Item = &mut Link> {
+        self.links.values_mut().filter(|link| !link.quiet)
     }
 
     /// A link carries no more than so many bytes a second: streams slow down, lists wait, the values for the scoring are left out.
@@ -199,6 +235,7 @@ impl Endpoint {
         self.camera_files.forget(id);
         self.logs.forget(id);
         self.manual.forget(id);
+        self.shell.forget(id);
     }
 
     /// Names and present values of all parameters, in the order of their names.
@@ -269,9 +306,35 @@ impl Endpoint {
         self.tell(MavSeverity::MAV_SEVERITY_INFO, "Autopilot restarted");
     }
 
-    /// Links that are kept in step.
+    /// Links that time waits for.
     pub fn in_step(&self) -> impl Iterator<Item = LinkId> {
-        self.links.iter().filter(|(_, link)| link.lockstep).map(|(id, _)| *id)
+        self.links.iter().filter(|(_, link)| link.is_waited_for()).map(|(id, _)| *id)
+    }
+
+    /// Links that are kept in step, or will be from their first answer on: how far each is, and whether anything has come from it.
+    pub fn stepped(&self) -> impl Iterator<Item = (LinkId, Step, bool)> {
+        self.links.iter().filter(|(_, link)| link.lockstep).map(|(id, link)| (*id, link.step, link.heard))
+    }
+
+    /// A peer has answered: time waits for it from now on.
+    pub fn join(&mut self, id: LinkId) {
+        if let Some(link) = self.links.get_mut(&id) {
+            link.step = Step::Joined;
+        }
+    }
+
+    /// Time does not wait for a peer's first answer any longer.
+    pub fn serve_in_real_time(&mut self, id: LinkId) {
+        if let Some(link) = self.links.get_mut(&id).filter(|link| link.step == Step::Awaited) {
+            link.step = Step::Late;
+        }
+    }
+
+    /// Something has come from a peer.
+    pub fn note_heard(&mut self, id: LinkId) {
+        if let Some(link) = self.links.get_mut(&id) {
+            link.heard = true;
+        }
     }
 
     /// Bytes that belonged to no frame, all links together.
@@ -296,6 +359,12 @@ impl Endpoint {
     #[must_use]
     pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
         self.manual.pulses_us(now)
+    }
+
+    /// Channels 5 to 16 of a transmitter, microseconds.
+    #[must_use]
+    pub fn aux_us(&self) -> [u16; manual::AUX] {
+        self.manual.aux_us()
     }
 
     /// Seconds of simulation time in a second of the clients' time. The limits of clients that are not kept in step grow by it, and every
@@ -340,8 +409,8 @@ impl Endpoint {
 /// A file server with nothing but what describes the vehicle.
 fn metadata_server(flavour: &Flavour) -> files::Server {
     let mut server = files::Server::default();
-    let params::metadata::Files { general, parameter } = params::metadata::files(flavour.params);
-    for file in [general, parameter] {
+    let params::metadata::Files { general, parameter, events } = params::metadata::files(flavour.params);
+    for file in [general, parameter].into_iter().chain(events) {
         server.make_up(file.path, file.bytes.clone());
     }
     server

@@ -10,7 +10,7 @@ use crate::mav::dialect::{
     SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
 use crate::mav::units;
-use crate::sitl::autopilot::OffboardSetpoint;
+use crate::sitl::autopilot::{OffboardSetpoint, Tuning};
 
 /// Numbers beyond this are mistakes, m, m/s and m/s².
 const FAR: f32 = 1e5;
@@ -92,8 +92,8 @@ fn checked(s: OffboardSetpoint) -> Reading {
     if wanted { Ok(s) } else { Err("Set-point without position, velocity or acceleration") }
 }
 
-/// SET_POSITION_TARGET_LOCAL_NED. In the frames that move with the vehicle velocity and acceleration turn with its heading, and a
-/// position has no meaning (as in PX4).
+/// SET_POSITION_TARGET_LOCAL_NED. In the frames that move with the vehicle velocity and acceleration turn with its heading. A position in
+/// them has no meaning (PX4), or counts from where the vehicle is (ArduPilot).
 pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &View) -> Reading {
     use MavFrame as F;
     let mask = Mask::of(t.type_mask)?;
@@ -102,17 +102,40 @@ pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &View) -> Reading {
     let (yaw_rad, yaw_rate_rad_s) = (angle(t.yaw, mask.yaw), rate(t.yaw_rate, mask.yaw_rate));
     let fixed = OffboardSetpoint { velocity_m_s, acceleration_m_s2, yaw_rad, yaw_rate_rad_s, ..OffboardSetpoint::default() };
     match t.coordinate_frame {
-        F::MAV_FRAME_LOCAL_NED => checked(OffboardSetpoint { position_m: axes([t.x, t.y, t.z], mask.position)?, ..fixed }),
+        F::MAV_FRAME_LOCAL_NED => {
+            let position_m = from_local(axes([t.x, t.y, t.z], mask.position)?, view);
+            checked(OffboardSetpoint { position_m, ..fixed })
+        }
+        F::MAV_FRAME_LOCAL_OFFSET_NED if view.flavour.offsets => {
+            let offset = axes([t.x, t.y, t.z], mask.position)?;
+            checked(OffboardSetpoint { position_m: from_here(offset, view), ..fixed })
+        }
         F::MAV_FRAME_BODY_NED | F::MAV_FRAME_BODY_OFFSET_NED | F::MAV_FRAME_BODY_FRD => {
             let heading = view.estimate.attitude.yaw_rad();
+            let offsets = view.flavour.offsets && t.coordinate_frame != F::MAV_FRAME_BODY_FRD;
+            let offset = if offsets { turned(axes([t.x, t.y, t.z], mask.position)?, heading)? } else { [None; 3] };
             checked(OffboardSetpoint {
+                position_m: from_here(offset, view),
                 velocity_m_s: turned(velocity_m_s, heading)?,
                 acceleration_m_s2: turned(acceleration_m_s2, heading)?,
+                yaw_rad: if offsets { yaw_rad.map(|yaw| math::wrap_pi(heading + yaw)) } else { yaw_rad },
                 ..fixed
             })
         }
         _ => Err("Set-point in a frame that is not supported"),
     }
+}
+
+/// A position of MAVLink's local frame in the site frame, axis by axis.
+fn from_local(local_m: Axes, view: &View) -> Axes {
+    let site_m = view.site_from_local(Vec3::assume(local_m.map(|axis| axis.unwrap_or(0.0)).into())).array();
+    std::array::from_fn(|k| local_m[k].map(|_| site_m[k]))
+}
+
+/// A place at an offset from the vehicle.
+fn from_here(offset: Axes, view: &View) -> Axes {
+    let here = view.estimate.position_m.array();
+    std::array::from_fn(|k| offset[k].map(|offset| here[k] + offset))
 }
 
 /// Forward, right, down to north, east, down. Of forward and right both or neither must be given.
@@ -165,7 +188,8 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &View) -> Reading {
 }
 
 /// SET_ATTITUDE_TARGET: an attitude with a yaw rate beside it, or body rates where the attitude is ignored; thrust 0 to 1.
-pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA) -> Reading {
+/// Where the flavour reads the thrust as a climb rate, 0.5 keeps the height and the ends are the vertical speeds of automatic modes.
+pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, view: &View, tuning: &Tuning) -> Reading {
     use AttitudeTargetTypemask as A;
     let has = |flag: A| t.type_mask.contains(flag);
     if has(A::ATTITUDE_TARGET_TYPEMASK_THRUST_BODY_SET) {
@@ -175,10 +199,19 @@ pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA) -> Reading {
         return Err("Set-point without thrust");
     }
     let thrust = f64::from(t.thrust);
+    let climb_m_s = view.flavour.thrust_climbs.then(|| {
+        let share = 2.0 * (thrust.clamp(0.0, 1.0) - 0.5);
+        share * if share > 0.0 { tuning.climb_m_s } else { tuning.descend_m_s }
+    });
     let yaw_rate_rad_s = rate(t.body_yaw_rate, has(A::ATTITUDE_TARGET_TYPEMASK_BODY_YAW_RATE_IGNORE));
     if !has(A::ATTITUDE_TARGET_TYPEMASK_ATTITUDE_IGNORE) {
         let attitude = Rotation::from_wxyz(t.q.map(f64::from)).ok_or("Set-point without an attitude")?;
-        return Ok(OffboardSetpoint { attitude: Some((attitude, thrust)), yaw_rate_rad_s, ..OffboardSetpoint::default() });
+        return Ok(OffboardSetpoint {
+            attitude: Some((attitude, thrust)),
+            yaw_rate_rad_s,
+            climb_m_s,
+            ..OffboardSetpoint::default()
+        });
     }
     let roll = rate(t.body_roll_rate, has(A::ATTITUDE_TARGET_TYPEMASK_BODY_ROLL_RATE_IGNORE));
     let pitch = rate(t.body_pitch_rate, has(A::ATTITUDE_TARGET_TYPEMASK_BODY_PITCH_RATE_IGNORE));
@@ -187,5 +220,5 @@ pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA) -> Reading {
     }
     let still = |axis: Option<f64>| axis.unwrap_or(0.0);
     let rates = Vec3::new(still(roll), still(pitch), still(yaw_rate_rad_s));
-    Ok(OffboardSetpoint { rates: Some((rates, thrust)), ..OffboardSetpoint::default() })
+    Ok(OffboardSetpoint { rates: Some((rates, thrust)), climb_m_s, ..OffboardSetpoint::default() })
 }

@@ -60,6 +60,7 @@ impl Endpoint {
         (self.flavour.tune)(&mut autopilot.tuning);
         self.manual.let_go_s = autopilot.tuning.manual_patience_s();
         self.manual.policy = self.params.stick_policy();
+        self.payload.camera.announced.parameter = self.params.camera_announced();
     }
 
     /// Many parameters may have changed: they act, and every link gets the whole list.

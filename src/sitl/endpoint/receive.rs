@@ -5,9 +5,10 @@ use super::arrival::Arrival;
 use super::camera::stream;
 use super::commands::{self, Command};
 use super::guard::Admitted;
+use super::link::Link;
 use super::streams::{AUTOPILOT, CAMERA};
 use super::view::View;
-use super::{Context, Endpoint, LinkId, camera_params, control, exchange, ftp};
+use super::{Context, Endpoint, LinkId, camera_params, control, events, exchange, ftp, shell};
 use crate::base::time::SimTime;
 use crate::mav::codec::{Decoder, Received};
 use crate::mav::dialect::*;
@@ -43,6 +44,10 @@ handlers! {
     GIMBAL_MANAGER_SET_PITCHYAW GIMBAL_MANAGER_SET_PITCHYAW_DATA control::gimbal_pitch_yaw,
     GIMBAL_DEVICE_SET_ATTITUDE GIMBAL_DEVICE_SET_ATTITUDE_DATA control::gimbal_device,
     GIMBAL_MANAGER_SET_MANUAL_CONTROL GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA control::gimbal_manual,
+    FOLLOW_TARGET FOLLOW_TARGET_DATA control::follow_target,
+    GLOBAL_POSITION_INT GLOBAL_POSITION_INT_DATA control::other_position,
+    REQUEST_EVENT REQUEST_EVENT_DATA events::request,
+    SERIAL_CONTROL SERIAL_CONTROL_DATA shell::bytes,
     TIMESYNC TIMESYNC_DATA exchange::timesync,
     PING PING_DATA exchange::ping,
     REQUEST_DATA_STREAM REQUEST_DATA_STREAM_DATA exchange::data_stream,
@@ -82,38 +87,49 @@ impl Endpoint {
         let frames = Decoder::new().datagram(bytes);
         frames
             .iter()
-            .filter_map(|frame| Some((frame, self.step_token(link.asked, frame)?)))
+            .filter_map(|frame| Some((frame, self.step_token(link, frame)?)))
             .filter(|(frame, _)| admitted(frame) == Admitted::Acts)
             .map(|(_, token)| token)
             .collect()
     }
 
-    /// The token of a frame that answers our last question on a link in step; answers to others go their way.
-    fn step_token(&self, asked: Option<i64>, frame: &Received) -> Option<i64> {
+    /// The token of a frame that answers our question on a link in step; answers to others go their way.
+    fn step_token(&self, link: &Link, frame: &Received) -> Option<i64> {
         let Some(MavMessage::TIMESYNC(sync)) = &frame.message else { return None };
         let (system, component) = router::target(frame);
         let ours = system == 0 || (system == self.system_id && matches!(component, 0 | AUTOPILOT));
-        Some(sync.ts1).filter(|token| ours && sync.tc1 != 0 && asked == Some(*token))
+        Some(sync.ts1).filter(|token| ours && sync.tc1 != 0 && link.is_answer(*token))
     }
 
     /// Reads a datagram of a link.
     pub fn receive(&mut self, id: LinkId, bytes: &[u8], view: &View, autopilot: &mut Autopilot) {
         let Some(link) = self.links.get_mut(&id) else { return };
         let before = link.decoder.bad_bytes();
-        let (kind, asked) = (link.kind, link.asked);
+        let kind = link.kind;
         let frames = link.decoder.datagram(bytes);
         self.bad_bytes += link.decoder.bad_bytes() - before;
         for frame in frames {
             let admitted = self.guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(&frame, kind));
-            if admitted == Admitted::Acts && self.step_token(asked, &frame).is_some() {
+            if admitted == Admitted::Acts && self.links.get(&id).is_some_and(|link| self.step_token(link, &frame).is_some()) {
+                self.join(id);
                 continue;
             }
             if admitted != Admitted::No {
+                self.wake(id, &frame, view.now);
                 self.route(id, &frame, view.now);
             }
             if admitted == Admitted::Acts {
                 self.act(id, &frame, view, autopilot);
             }
+        }
+    }
+
+    /// A heartbeat that comes in lets the streams out.
+    fn wake(&mut self, from: LinkId, frame: &Received, now: SimTime) {
+        if frame.message_id == HEARTBEAT_DATA::ID
+            && let Some(link) = self.links.get_mut(&from)
+        {
+            link.wake(now);
         }
     }
 
@@ -129,10 +145,33 @@ impl Endpoint {
             return;
         }
         for onward in onward {
-            if let Some(link) = self.links.get_mut(&onward) {
+            let to_all = router::target(frame).0 == 0;
+            if let Some(link) = self.links.get_mut(&onward).filter(|link| !(link.quiet && to_all)) {
                 link.hand_on(frame.bytes.clone());
             }
         }
+    }
+
+    /// Keeps what acts on the vehicle for the digest: who sent what. Sequence numbers and checksums do nothing, nor do a client's clocks.
+    fn note_act(&mut self, frame: &Received) {
+        let clocked = match frame.message_id {
+            // Questions about clocks: their answers change nothing of the vehicle, and they hold wall time.
+            TIMESYNC_DATA::ID | PING_DATA::ID => return,
+            // time_boot_ms of the sender, at the beginning of the payload.
+            SET_POSITION_TARGET_LOCAL_NED_DATA::ID | SET_POSITION_TARGET_GLOBAL_INT_DATA::ID | SET_ATTITUDE_TARGET_DATA::ID => {
+                size_of::<u32>()
+            }
+            id if HANDLED.contains(&id) => 0,
+            _ => return,
+        };
+        self.acted.extend(frame.message_id.to_le_bytes());
+        self.acted.extend([frame.system_id, frame.component_id]);
+        self.acted.extend(&frame.payload(255)[clocked..]);
+    }
+
+    /// What has acted on the vehicle since the last call, for the digest.
+    pub fn take_acted(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.acted)
     }
 
     /// Everything is the autopilot's component's; the camera's takes commands, and has settings and a file of its own.
@@ -141,6 +180,12 @@ impl Endpoint {
         if system != 0 && system != self.system_id {
             return;
         }
+        if component == CAMERA
+            && let Some(link) = self.links.get_mut(&id)
+        {
+            link.use_camera();
+        }
+        self.note_act(frame);
         let mut arrival = Arrival { link: id, from: (frame.system_id, frame.component_id), view, autopilot };
         match (component, Command::of(frame)) {
             (0 | AUTOPILOT | CAMERA, Some(command)) => self.command(&command, &mut arrival),
@@ -180,6 +225,8 @@ impl Endpoint {
             restart: &mut self.restart,
             faults: &mut self.injections,
             chosen: &mut self.chosen,
+            report: &mut self.events.asked,
+            calibration: &mut self.calibration,
         };
         let before = context.params.changes();
         let result = commands::handle(command, &mut context);

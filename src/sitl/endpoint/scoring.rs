@@ -56,7 +56,7 @@ impl Endpoint {
             out.push(truth::named_float(view, "lux", s.lux));
         }
         self.sent = *s;
-        for link in self.links.values_mut().filter(|link| !link.is_limited() && link.wants_truth()) {
+        for link in self.listeners().filter(|link| !link.is_limited() && link.wants_truth()) {
             out.iter().for_each(|message| link.send(AUTOPILOT, message));
         }
     }

@@ -1,11 +1,24 @@
 //! What the vehicle says in a tick: news, streams, texts, lists, each to whom it concerns.
 
 use super::camera::Shot;
+use super::link::Link;
 use super::streams::{self, AUTOPILOT, CAMERA, STREAMS};
 use super::view::View;
-use super::{Endpoint, LinkId, commands, ftp, items, mission};
+use super::{Endpoint, LinkId, LinkKind, commands, ftp, items, mission};
+use crate::mav::codec::Framed;
 use crate::mav::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity};
 use crate::sitl::autopilot::{Event, Severity};
+
+/// A client that keeps the last heartbeat and has no use for the camera keeps the autopilot's: it follows the camera's in the same datagram.
+fn repeat_autopilot(link: &mut Link, view: &View) {
+    if link.uses_camera() || link.kind == LinkKind::Payload {
+        return;
+    }
+    let rows = streams::rows_of(HEARTBEAT).filter(|(_, row)| row.component == AUTOPILOT);
+    for message in rows.filter_map(|(_, row)| row.build(view)) {
+        link.send(AUTOPILOT, &message);
+    }
+}
 
 /// HEARTBEAT's number.
 const HEARTBEAT: u32 = 0;
@@ -27,7 +40,8 @@ impl Endpoint {
                 Severity::Warning => MavSeverity::MAV_SEVERITY_WARNING,
                 Severity::Info => MavSeverity::MAV_SEVERITY_INFO,
             };
-            self.texts.push((severity, event.text));
+            let own = event.sensor.and_then(self.flavour.sensor_words);
+            self.texts.push(own.unwrap_or((severity, event.text)));
         }
         for seq in reached {
             self.mission_payload(seq, view);
@@ -38,8 +52,12 @@ impl Endpoint {
         self.tell_news(view);
         self.streams(view);
         self.truth(view);
+        self.calibrate(view);
+        self.report_events(view);
         self.say_texts();
+        self.params.note_plans(self.plans.totals());
         self.send_params();
+        self.send_shell();
         ftp::speak(self);
         self.tell_logs();
         self.send_pictures();
@@ -48,13 +66,14 @@ impl Endpoint {
         }
     }
 
-    /// Heartbeats and texts alone: time stands still.
+    /// Heartbeats and texts alone: time stands still. The camera's go to those who use it.
     pub fn beat(&mut self, view: &View) {
         let view = &view.with(&self.payload);
-        for link in self.links.values_mut() {
+        for link in self.listeners() {
             let view = &view.towards(link.kind);
-            for (_, row) in streams::rows_of(HEARTBEAT) {
-                if let Some(message) = (row.build)(view) {
+            let camera = link.uses_camera();
+            for (_, row) in streams::rows_of(HEARTBEAT).filter(|(_, row)| camera || row.component == AUTOPILOT) {
+                if let Some(message) = row.build(view) {
                     link.send(row.component, &message);
                 }
             }
@@ -62,12 +81,13 @@ impl Endpoint {
         self.say_texts();
     }
 
-    /// The flavour's number of the mode that is flown. One that the fence has changed to nobody chose: what flies errands as they come does
+    /// The flavour's number of the mode that is flown. One that the fence or a failsafe has changed to nobody chose: what flies errands as they come does
     /// not go on doing so.
     fn shown(&mut self, view: &View) -> u32 {
         let taken = view.status.fence.taken;
         let changed = std::mem::replace(&mut self.fence_took, taken) != taken;
-        if changed { self.flavour.usual(view.status.mode).number } else { view.mode_row().number }
+        let forced = view.status.failsafe.is_some() && view.status.mode != view.status.intended;
+        if changed || forced { self.flavour.usual(view.status.mode).number } else { view.mode_row().number }
     }
 
     fn take_picture(&mut self, view: &View) {
@@ -91,8 +111,10 @@ impl Endpoint {
     fn tell_news(&mut self, view: &View) {
         let (messages, warnings) = self.payload.news.take();
         for (_, row) in messages.into_iter().flat_map(streams::rows_of) {
-            if let Some(message) = (row.build)(view) {
-                self.broadcast(row.component, &message);
+            for link in self.links.values_mut() {
+                if let Some(message) = row.build(&view.towards(link.kind)) {
+                    link.send(row.component, &message);
+                }
             }
         }
         for warning in warnings {
@@ -124,20 +146,24 @@ impl Endpoint {
 
     fn streams(&mut self, view: &View) {
         let mut rows = std::mem::take(&mut self.row_buffer);
-        for link in self.links.values_mut() {
+        for link in self.listeners() {
             link.due(view.now, &mut rows);
             let view = &view.towards(link.kind);
             for row in &rows {
-                if let Some(message) = (STREAMS[*row].build)(view) {
-                    link.stream(STREAMS[*row].component, &message);
+                let stream = &STREAMS[*row];
+                if let Some(message) = stream.build(view) {
+                    link.stream(stream.component, &message);
+                    if (stream.id, stream.component) == (HEARTBEAT, CAMERA) {
+                        repeat_autopilot(link, view);
+                    }
                 }
             }
         }
         self.row_buffer = rows;
     }
 
-    pub(super) fn broadcast(&mut self, component: u8, message: &MavMessage) {
-        for link in self.links.values_mut() {
+    pub(super) fn broadcast(&mut self, component: u8, message: &impl Framed) {
+        for link in self.listeners() {
             link.send(component, message);
         }
     }

@@ -6,7 +6,7 @@ use super::flavour::{Flavour, ModeRow};
 use super::gimbal::Gimbal;
 use super::lamp::LampState;
 use super::payload::Payload;
-use crate::base::frames::{Frd, Ned, Rotation, Vec3};
+use crate::base::frames::{Frd, LocalNed, Ned, Rotation, Vec3};
 use crate::base::geodesy::{Geo, LocalPlane};
 use crate::base::time::SimTime;
 use crate::sitl::autopilot::{Estimate, Landed, Status, Sticks};
@@ -19,6 +19,8 @@ use crate::vehicle::{Camera, Vehicle};
 pub struct View<'a> {
     /// Simulation time.
     pub now: SimTime,
+    /// When the autopilot's software started, simulation time.
+    pub booted: SimTime,
     /// UTC at simulation start, seconds since the Unix epoch.
     pub start_unix_s: i64,
     /// The aircraft.
@@ -47,6 +49,8 @@ pub struct View<'a> {
     pub sticks: Option<Sticks>,
     /// The same as channels 1 to 4 of a transmitter, microseconds.
     pub pulses_us: Option<[u16; 4]>,
+    /// Channels 5 to 16, microseconds.
+    pub aux_us: [u16; super::manual::AUX],
     /// What stands behind the link that is spoken to.
     pub to: LinkKind,
     /// Gimbal.
@@ -101,6 +105,8 @@ impl Flight {
 /// The camera's counters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraSummary {
+    /// It says heartbeats as a component of its own.
+    pub announced: bool,
     /// Pictures in the image log.
     pub pictures: usize,
     /// Seconds between pictures of a running series.
@@ -160,15 +166,34 @@ impl View<'_> {
         self.flavour.row_of(self.status.mode, self.chosen)
     }
 
-    /// Milliseconds since simulation start.
+    /// A time on the autopilot's clock, which starts again with the autopilot. A sidecar gets simulation time: its scores have one clock.
+    #[must_use]
+    pub fn since_boot(&self, at: SimTime) -> SimTime {
+        if self.to == LinkKind::Payload { at } else { at.saturating_sub(self.booted) }
+    }
+
+    /// Milliseconds since the autopilot's start, modulo 2^32 as MAVLink's field has it.
     #[must_use]
     pub fn boot_ms(&self) -> u32 {
+        self.since_boot(self.now).ms() as u32
+    }
+
+    /// Microseconds since the autopilot's start.
+    #[must_use]
+    pub fn boot_us(&self) -> u64 {
+        self.since_boot(self.now).us().max(0).cast_unsigned()
+    }
+
+    /// Milliseconds since simulation start, modulo 2^32: the clock of the camera and of the scoring's values, which no restart of the autopilot
+    /// sets back.
+    #[must_use]
+    pub fn sim_ms(&self) -> u32 {
         self.now.ms() as u32
     }
 
     /// Microseconds since simulation start.
     #[must_use]
-    pub fn boot_us(&self) -> u64 {
+    pub fn sim_us(&self) -> u64 {
         self.now.us().max(0).cast_unsigned()
     }
 
@@ -188,6 +213,26 @@ impl View<'_> {
     #[must_use]
     pub fn true_geo(&self) -> Geo {
         self.plane.geo_from_enu(self.truth.position_m.enu())
+    }
+
+    /// A position of the site frame in MAVLink's local frame, whose origin is where the estimator was initialized.
+    #[must_use]
+    pub fn local_from_site(&self, site_m: Vec3<Ned>) -> Vec3<LocalNed> {
+        // FRAME: both frames have the same axes; only the origins differ.
+        Vec3::assume((site_m - self.estimate.local_origin_m).raw())
+    }
+
+    /// A position of MAVLink's local frame in the site frame.
+    #[must_use]
+    pub fn site_from_local(&self, local_m: Vec3<LocalNed>) -> Vec3<Ned> {
+        // FRAME: as above.
+        self.estimate.local_origin_m + Vec3::assume(local_m.raw())
+    }
+
+    /// Where MAVLink's local frame has its origin; `None` before the first fixes.
+    #[must_use]
+    pub fn local_origin(&self) -> Option<Geo> {
+        self.estimate.local_origin_set.then(|| self.plane.geo_from_enu(self.estimate.local_origin_m.enu()))
     }
 
     /// The same instant with the payload as it is now.

@@ -27,7 +27,7 @@ impl Log {
     /// Begins a log: what it is, the parameters as they are, and what the rows hold.
     pub fn begin<'a>(view: &View, version: &str, parameters: impl Iterator<Item = (&'a str, Value<'a>)>) -> Self {
         let mut writer = Writer::default();
-        writer.begin(view.boot_us());
+        writer.begin(view.sim_us());
         let hardware = format!("Spandrel SITL, {}", view.vehicle.name);
         writer.information("sys_name", Value::Text("Spandrel"));
         writer.information("ver_sw", Value::Text(version));
@@ -52,7 +52,7 @@ impl Log {
             if !due.fire(view.now) && !last {
                 continue;
             }
-            let mut row = Row::at(view.boot_us());
+            let mut row = Row::at(view.sim_us());
             if (topic.fill)(view, &mut row).is_some() {
                 self.writer.row(number, row.bytes());
             }

@@ -1,6 +1,7 @@
 //! What is logged: one row of the table a topic, with PX4's names, so that PX4's tools draw the usual pictures.
 
 use super::row::Row;
+use crate::base::geodesy::Geo;
 use crate::sitl::autopilot::{Landed, Mode};
 use crate::sitl::endpoint::view::View;
 
@@ -88,8 +89,10 @@ fn attitude_setpoint(v: &View, row: &mut Row) -> Option<()> {
 }
 
 fn local_position(v: &View, row: &mut Row) -> Option<()> {
-    let (e, origin) = (v.estimate, v.plane.origin());
-    row.vec(e.position_m).vec(e.velocity_m_s).f32(e.attitude.yaw_rad());
+    // Without a fix there is no reference: PX4 logs not-a-number then.
+    let nowhere = Geo { latitude_deg: f64::NAN, longitude_deg: f64::NAN, altitude_m: f64::NAN };
+    let (e, origin) = (v.estimate, v.local_origin().unwrap_or(nowhere));
+    row.vec(v.local_from_site(e.position_m)).vec(e.velocity_m_s).f32(e.attitude.yaw_rad());
     row.f64(origin.latitude_deg).f64(origin.longitude_deg).f32(origin.altitude_m).f32(e.horizontal_m).f32(e.vertical_m);
     for valid in [e.position_valid, e.attitude_valid, e.position_valid, e.attitude_valid] {
         row.bool(valid);
@@ -98,7 +101,7 @@ fn local_position(v: &View, row: &mut Row) -> Option<()> {
 }
 
 fn position_setpoint(v: &View, row: &mut Row) -> Option<()> {
-    row.vec(v.status.target_m?);
+    row.vec(v.local_from_site(v.status.target_m?));
     Some(())
 }
 
@@ -195,6 +198,9 @@ fn nav_state(mode: Mode) -> u8 {
         Mode::Stabilized => 15,
         Mode::Takeoff => 17,
         Mode::Land => 18,
+        Mode::Acro => 10,
+        Mode::SmartReturn => 5,
+        Mode::Follow => 19,
     }
 }
 
@@ -207,7 +213,7 @@ fn land_detected(v: &View, row: &mut Row) -> Option<()> {
 fn home(v: &View, row: &mut Row) -> Option<()> {
     let home = v.status.home_m?;
     let geo = v.plane.geo_from_enu(home.enu());
-    row.f64(geo.latitude_deg).f64(geo.longitude_deg).f32(geo.altitude_m).vec(home);
+    row.f64(geo.latitude_deg).f64(geo.longitude_deg).f32(geo.altitude_m).vec(v.local_from_site(home));
     Some(())
 }
 
@@ -227,7 +233,7 @@ fn true_rates(v: &View, row: &mut Row) -> Option<()> {
 }
 
 fn true_position(v: &View, row: &mut Row) -> Option<()> {
-    row.vec(v.truth.position_m).vec(v.truth.velocity_m_s);
+    row.vec(v.local_from_site(v.truth.position_m)).vec(v.truth.velocity_m_s);
     Some(())
 }
 

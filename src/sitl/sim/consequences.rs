@@ -65,7 +65,7 @@ impl Sim {
         self.events.push_back(SimEvent::Crash { what: what.clone(), impact_m_s: report.impact_m_s });
         if matches!(surface, Surface::Person | Surface::Vehicle) {
             self.end(&format!("hit {what}"));
-        } else if self.config.scenario.rules.after_crash == AfterCrash::End {
+        } else if self.config.after_crash() == AfterCrash::End {
             self.end(&format!("crashed into {what}"));
         }
     }
@@ -85,10 +85,18 @@ impl Sim {
         self.state.contact.touching() && down.down() < UPRIGHT
     }
 
-    /// A drone that lies still away from the pad, or touches water, goes back to its last safe hover after a while.
+    /// Landed on its feet, gently, and not in the water: it stays, and may take off again.
+    fn stands(&self) -> bool {
+        let landed = self.backend.builtin().is_some_and(|a| matches!(a.status().landed, Landed::OnGround | Landed::TakingOff));
+        let wet = self.scoring.contact == contact_code(Surface::Water);
+        landed && !wet && !self.hit_hard && !self.lies_upset()
+    }
+
+    /// A drone that has crashed and lies still away from the pad, lies tipped, or touches water goes back to its last safe hover after
+    /// a while.
     fn put_back_when_down(&mut self) {
         let rules = &self.config.scenario.rules;
-        if !self.lifted || self.ended.is_some() || rules.after_crash != AfterCrash::Respawn {
+        if !self.lifted || self.ended.is_some() || self.config.after_crash() != AfterCrash::Respawn {
             return;
         }
         let rigid = &self.state.rigid;
@@ -97,6 +105,14 @@ impl Sim {
         let wet = self.scoring.contact == contact_code(Surface::Water);
         if touching {
             self.touched_at = self.now;
+        }
+        self.hit_hard |= touching && self.state.contact.impact_m_s >= PAD_TOUCH_M_S;
+        if !touching && (self.now - self.touched_at).s() > FLIES_S {
+            self.hit_hard = false;
+        }
+        if self.stands() {
+            self.crashed_since = None;
+            return;
         }
         if !(touching && (still || wet)) {
             let flies = !still || (self.now - self.touched_at).s() > FLIES_S;
@@ -114,6 +130,7 @@ impl Sim {
     fn put_back(&mut self) {
         let (position_m, yaw_rad) = self.safe;
         self.crashed_since = None;
+        self.hit_hard = false;
         self.state.place(position_m, yaw_rad);
         let hover = self.model.hover_rotor_rad_s();
         self.state.rigid.rotor_rad_s = [hover; physics::MAX_ROTORS];
@@ -188,8 +205,10 @@ mod tests {
         let vehicle = include_str!("../../../vehicle-params/phantom2.toml");
         let vehicle = Arc::new(crate::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
         let site = Arc::new(Site::build(&scenario, 1));
-        let mut sim =
-            Sim::new(SimConfig { scenario: Arc::new(scenario), vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR }, site);
+        let mut sim = Sim::new(
+            SimConfig { scenario: Arc::new(scenario), vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR, after_crash: None },
+            site,
+        );
         sim.lifted = true;
         sim.safe = (Vec3::new(SAFE.0, SAFE.1, SAFE.2), 0.3);
         put(&mut sim, Vec3::new(50.0, 0.0, 0.1));
@@ -240,6 +259,26 @@ mod tests {
                 assert_eq!(sim.state.rigid.position_m, Vec3::new(SAFE.0, SAFE.1, SAFE.2));
                 assert_eq!(sim.state.rigid.velocity_m_s.norm(), 0.0);
             }
+        }
+    }
+
+    #[test]
+    fn regress_a_gentle_landing_on_its_feet_is_not_undone() {
+        let tipped = Rotation::from_euler(1.2, 0.0, 0.0);
+        for (surface, impact_m_s, attitude, back) in [
+            (Surface::Terrain, 0.7, None, false),
+            (Surface::Bridge, 0.7, None, false),
+            (Surface::Terrain, 1.5, None, true),
+            (Surface::Terrain, 0.7, Some(tipped), true),
+            (Surface::Water, 0.7, None, true),
+        ] {
+            let mut sim = flown(|_| ());
+            sim.state.rigid.attitude = attitude.unwrap_or(sim.state.rigid.attitude);
+            touches(&mut sim, Some(surface), impact_m_s);
+            pass(&mut sim, 1);
+            touches(&mut sim, Some(surface), 0.0);
+            let events = pass(&mut sim, 10_000);
+            assert_eq!(events.contains(&SimEvent::Respawn), back, "{surface:?} at {impact_m_s} m/s, {attitude:?}");
         }
     }
 

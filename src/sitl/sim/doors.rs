@@ -4,17 +4,30 @@ use super::Sim;
 use crate::mav::signing::Key;
 use crate::site::Site;
 use crate::sitl::backend::Backend;
+use crate::sitl::endpoint::files::allowance::Allowance;
 use crate::sitl::endpoint::files::job::{Done, FileError, Job};
 use crate::sitl::endpoint::logs::Logs;
 use crate::sitl::endpoint::params::text::Problem;
 use crate::sitl::endpoint::{LinkKind, Wish};
 use crate::sitl::log;
 
+/// How the jobs of clients are given out.
+#[derive(Debug, Clone, Default)]
+pub(super) struct FileWork {
+    allowance: Allowance,
+    logs_next: bool,
+}
+
 impl Sim {
     /// What stands and moves around the vehicle.
     #[must_use]
     pub fn site(&self) -> &Site {
         &self.site
+    }
+
+    /// The camera's component says no heartbeats.
+    pub fn silence_camera(&mut self) {
+        self.endpoint.payload.camera.announced.silenced = true;
     }
 
     /// Signs everything and lets nothing act that is not signed with this key, but for unsigned frames on kinds of links that are
@@ -100,9 +113,27 @@ impl Sim {
         self.recorder.poll()
     }
 
-    /// The next thing to do with files for a client.
+    /// The next thing to do with files for a client; no more in a tick than [`Allowance`] covers.
     pub fn poll_file_job(&mut self) -> Option<Job> {
-        self.endpoint.files.poll_job().or_else(|| self.endpoint.logs.poll_job())
+        let logs_turn = self.next_file_job()?;
+        let job = if logs_turn { self.endpoint.logs.poll_job() } else { self.endpoint.files.poll_job() }?;
+        self.file_work.allowance.spend(&job.action, self.now);
+        self.file_work.logs_next = !logs_turn;
+        Some(job)
+    }
+
+    /// Work on files waits that may be done now.
+    #[must_use]
+    pub fn has_file_job(&self) -> bool {
+        self.next_file_job().is_some()
+    }
+
+    /// Whether the next job that may be done now is the logs'; they and the file server take turns.
+    fn next_file_job(&self) -> Option<bool> {
+        let (files, logs) = (self.endpoint.files.next_action(), self.endpoint.logs.next_action());
+        let logs_turn = logs.is_some() && (self.file_work.logs_next || files.is_none());
+        let action = if logs_turn { logs } else { files }?;
+        self.file_work.allowance.covers(action, self.now).then_some(logs_turn)
     }
 
     /// It is done.

@@ -33,8 +33,12 @@ impl Sim {
     fn move_air(&mut self, now: SimTime) {
         if self.wind_due.fire(now) {
             let up = -self.state.rigid.position_m.down();
-            let over_water = up - self.config.scenario.terrain.water_level_m;
-            self.wind.update(now, over_water.max(0.3), self.state.rigid.velocity_m_s);
+            let here = self.state.rigid.position_m.enu();
+            let water_up_m = self.config.scenario.terrain.water_level_m;
+            let ground_up_m = self.site.ground_up_m(here.east(), here.north());
+            self.wind.set_over_ground(ground_up_m > water_up_m);
+            let height_m = (up - ground_up_m.max(water_up_m)).max(0.3);
+            self.wind.update(now, height_m, self.state.rigid.velocity_m_s);
         }
         self.air.velocity_m_s = self.wind.air_velocity(now);
         self.air.force_n = if self.lifted { self.wind.paper_force_n() } else { Vec3::zero() };

@@ -15,7 +15,7 @@ pub use progress::{Curve, OnJob, Progress, Repetition, by_job};
 pub use scores::{Comparison, CrashRow, CrashTable, Distribution, GroupTest, Individual, RepetitionBox, TaskShare};
 pub use tables::{TABLES, table, tables};
 
-use super::record::Record;
+use super::record::{Incomplete, Record};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -30,6 +30,8 @@ pub struct Selection {
     pub scenarios: Vec<String>,
     /// Repetitions that are compared.
     pub repetitions: usize,
+    /// Whether incomplete sessions count.
+    pub incomplete: Incomplete,
 }
 
 /// Everything.
@@ -39,6 +41,8 @@ pub struct Cohort {
     pub scenarios: Vec<String>,
     /// Sessions on it.
     pub sessions: usize,
+    /// Incomplete sessions on it that were left out.
+    pub left_out: usize,
     /// People who flew it.
     pub trainees: usize,
     /// Repetitions that are compared.
@@ -91,8 +95,10 @@ pub(super) type Runs<'a> = BTreeMap<&'a str, Vec<&'a Record>>;
 #[must_use]
 pub fn cohort(records: &[Record], selection: &Selection) -> Cohort {
     let scenarios = scenarios(records, selection);
+    let on_job = records.iter().filter(|record| scenarios.contains(&record.scenario));
+    let (counted, left_out): (Vec<&Record>, Vec<&Record>) = on_job.partition(|record| selection.incomplete.counts(record));
     let mut runs = Runs::new();
-    for record in records.iter().filter(|record| scenarios.contains(&record.scenario)) {
+    for record in counted {
         runs.entry(&record.trainee).or_default().push(record);
     }
     for sessions in runs.values_mut() {
@@ -114,6 +120,7 @@ pub fn cohort(records: &[Record], selection: &Selection) -> Cohort {
     let homogeneity = scores::homogeneity_of(&firsts, &group, &mut warnings);
     Cohort {
         sessions: runs.values().map(Vec::len).sum(),
+        left_out: left_out.len(),
         trainees: runs.len(),
         repetitions,
         group: group.keys().map(|trainee| (*trainee).to_owned()).collect(),
@@ -133,13 +140,14 @@ pub fn cohort(records: &[Record], selection: &Selection) -> Cohort {
     }
 }
 
-/// The scenarios asked for, else the one flown most often (of several the first by name).
+/// The scenarios asked for, else the one flown most often (of several the first by name), by the sessions that count if there are any.
 fn scenarios(records: &[Record], selection: &Selection) -> Vec<String> {
     if !selection.scenarios.is_empty() {
         return selection.scenarios.clone();
     }
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for record in records {
+    let all = !records.iter().any(|record| selection.incomplete.counts(record));
+    for record in records.iter().filter(|record| all || selection.incomplete.counts(record)) {
         *counts.entry(&record.scenario).or_default() += 1;
     }
     let most = counts.values().copied().max();

@@ -1,7 +1,7 @@
 //! One trainee over the repetitions: the paper's figure of participant 18.
 
 use super::SCORES;
-use crate::training::record::{Crashes, Record};
+use crate::training::record::{Crashes, Incomplete, Record};
 use crate::training::statistics::{LearningCurve, learning_curve};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -61,8 +61,10 @@ pub struct OnJob {
     pub scenario: String,
     /// Numbers and names of its tasks, as flown last.
     pub tasks: Vec<(u32, String)>,
-    /// The sessions on it.
+    /// The sessions on it that count; perhaps none.
     pub progress: Progress,
+    /// Incomplete sessions on it that were left out.
+    pub left_out: usize,
 }
 
 impl Repetition {
@@ -82,7 +84,7 @@ impl Repetition {
 
 /// One trainee's sessions apart by scenario: the job with the most tasks first, then by name.
 #[must_use]
-pub fn by_job(records: &[Record]) -> Vec<OnJob> {
+pub fn by_job(records: &[Record], incomplete: Incomplete) -> Vec<OnJob> {
     let mut jobs: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
     for record in records {
         jobs.entry(&record.scenario).or_default().push(record);
@@ -91,7 +93,11 @@ pub fn by_job(records: &[Record]) -> Vec<OnJob> {
         sessions.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
         let last = sessions.last()?;
         let tasks = last.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
-        Some(OnJob { scenario: scenario.to_owned(), tasks, progress: progress(&last.trainee, &sessions) })
+        let trainee = last.trainee.clone();
+        let all = sessions.len();
+        sessions.retain(|record| incomplete.counts(record));
+        let left_out = all - sessions.len();
+        Some(OnJob { scenario: scenario.to_owned(), tasks, progress: progress(&trainee, &sessions), left_out })
     };
     let mut found: Vec<OnJob> = jobs.into_iter().filter_map(on_job).collect();
     found.sort_by_key(|job| std::cmp::Reverse(job.tasks.len()));

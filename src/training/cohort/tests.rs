@@ -1,7 +1,7 @@
 use super::*;
 use crate::base::random::RandomStream;
 use crate::training::questionnaire::{Aspect, Item, Overall, Phase};
-use crate::training::testing::faultless;
+use crate::training::testing::{broken_off, faultless};
 
 /// 22 people, the first eight of them three times, with scores and answers by chance: demand raises strain, strain lowers safety.
 fn pilot() -> Vec<Record> {
@@ -35,7 +35,7 @@ fn pilot() -> Vec<Record> {
 }
 
 fn worked(records: &[Record]) -> Cohort {
-    cohort(records, &Selection { scenarios: Vec::new(), repetitions: 3 })
+    cohort(records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: Incomplete::LeaveOut })
 }
 
 #[test]
@@ -156,14 +156,14 @@ fn exact_one_trainees_jobs_are_kept_apart() {
         record.scores.safety = 10.0;
     }
     records.reverse();
-    let jobs = by_job(&records);
+    let jobs = by_job(&records, Incomplete::LeaveOut);
     let told: Vec<(&str, usize, usize)> =
         jobs.iter().map(|job| (job.scenario.as_str(), job.tasks.len(), job.progress.repetitions.len())).collect();
     assert_eq!(told, [("two-bridges", 4, 4), ("drill-gap", 1, 5)], "the job before its drills");
     assert!(jobs[0].progress.repetitions.iter().all(|one| one.safety == 100.0));
     assert!(jobs[1].progress.repetitions.windows(2).all(|pair| pair[0].started_unix_us < pair[1].started_unix_us));
     assert_eq!((jobs[0].progress.curves.len(), jobs[1].progress.curves.len()), (5, 5));
-    assert!(by_job(&[]).is_empty());
+    assert!(by_job(&[], Incomplete::LeaveOut).is_empty());
 }
 
 #[test]
@@ -192,7 +192,8 @@ fn exact_other_jobs_do_not_count_unless_asked_for() {
     drill.scenario = "drill-gap".into();
     records.push(drill);
     assert_eq!(worked(&records).sessions, 38);
-    let both = Selection { scenarios: vec!["two-bridges".into(), "drill-gap".into()], repetitions: 3 };
+    let both =
+        Selection { scenarios: vec!["two-bridges".into(), "drill-gap".into()], repetitions: 3, incomplete: Incomplete::LeaveOut };
     assert_eq!(cohort(&records, &both).sessions, 39);
 }
 
@@ -208,4 +209,32 @@ fn exact_a_task_is_rated_against_its_own_path() {
     let third = rating.tasks.iter().find(|(id, _)| *id == 3).and_then(|(_, correlation)| *correlation).unwrap();
     assert!(third.r > 0.95, "{third:?}");
     assert_eq!(rating.tasks.iter().find(|(id, _)| *id == 1).unwrap().1, None, "all answered alike");
+}
+
+#[test]
+fn regress_an_abort_is_no_first_session_unless_asked_for() {
+    let records = vec![broken_off("anna", 1), faultless("anna", 2), faultless("ben", 1), broken_off("cleo", 1)];
+    let of = |incomplete: Incomplete| cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete });
+    let (without, with) = (of(Incomplete::LeaveOut), of(Incomplete::Include));
+    assert_eq!((without.trainees, without.sessions, without.left_out), (2, 2, 2));
+    assert_eq!(
+        without.individuals.iter().map(|one| one.session.as_str()).collect::<Vec<_>>(),
+        ["session-anna-002", "session-ben-001"]
+    );
+    assert_eq!(without.progress[0].repetitions.len(), 1);
+    assert_eq!((with.trainees, with.sessions, with.left_out), (3, 4, 0));
+    assert_eq!(with.individuals[0].session, "session-anna-001");
+    let older = vec![Record { completion: None, ..faultless("anna", 1) }];
+    let older = cohort(&older, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut });
+    assert_eq!((older.sessions, older.left_out), (0, 1), "a record that does not say so is not taken for complete");
+}
+
+#[test]
+fn regress_learning_curves_leave_incomplete_sessions_out() {
+    let mut records: Vec<Record> = (1..=4).map(|k| faultless("anna", k)).collect();
+    records.push(broken_off("anna", 5));
+    let (without, with) = (&by_job(&records, Incomplete::LeaveOut)[0], &by_job(&records, Incomplete::Include)[0]);
+    assert_eq!((without.progress.repetitions.len(), without.left_out), (4, 1));
+    assert_eq!((with.progress.repetitions.len(), with.left_out), (5, 0));
+    assert!(without.progress.curves.iter().all(|curve| curve.curve.n == 4));
 }

@@ -7,9 +7,15 @@ mod rules;
 pub use changes::{Change, Changes};
 pub use rules::{Measure, RULES, Rule, Rules, read_rules};
 
-use super::record::{Crashes, Record, TaskRecord};
+use super::record::{Crashes, DefectRecord, Incomplete, Record, TaskRecord};
+use crate::base::numbers::beside_limit;
 use serde::Serialize;
+use std::cmp::Ordering;
 
+/// Condition state from which on a missed defect is severe: poor (AASHTO MBEI).
+const SEVERE_STATE: u8 = 3;
+/// Missed defects named in a reason.
+const DEFECTS_NAMED: usize = 3;
 /// µs in a day.
 const DAY_US: f64 = 86_400e6;
 /// A landing below this is late, % (assessment.md, certification).
@@ -36,6 +42,8 @@ pub struct Plan {
     pub overdue: bool,
     /// Against the session before on the same job, if there is one.
     pub changes: Option<Changes>,
+    /// Incomplete sessions that were left out.
+    pub left_out: usize,
 }
 
 /// One scenario to fly.
@@ -104,7 +112,26 @@ pub fn plan(records: &[Record], rules: &Rules, now_unix_us: u64) -> Option<Plan>
         until_unix_us: after(rules.retention_days),
         overdue,
         changes: changes::changes(records),
+        left_out: 0,
     })
+}
+
+/// The same from those sessions that count. Without one the plan is to fly the job.
+#[must_use]
+pub fn plan_counting(mut records: Vec<Record>, incomplete: Incomplete, rules: &Rules, now_unix_us: u64) -> Option<Plan> {
+    let newest = records.last()?.clone();
+    let all = records.len();
+    records.retain(|record| incomplete.counts(record));
+    let left_out = all - records.len();
+    if let Some(plan) = plan(&records, rules, now_unix_us) {
+        return Some(Plan { left_out, ..plan });
+    }
+    let words = format!("No complete session yet. The last one: {}.", newest.headline());
+    let steps = vec![single(&rules.job, &newest, ("job", words), (0.0, 0.0))];
+    let after = |days: f64| newest.started_unix_us.saturating_add((days * DAY_US) as u64);
+    let (trainee, session) = (newest.trainee.clone(), newest.id.clone());
+    let (from_unix_us, until_unix_us) = (newest.started_unix_us, after(rules.retention_days));
+    Some(Plan { trainee, session, steps, from_unix_us, until_unix_us, overdue: false, changes: None, left_out })
 }
 
 fn add(steps: &mut Vec<Step>, scenario: &str, urgency: f64, reason: Reason) {
@@ -134,6 +161,8 @@ fn findings<'a>(rule: &Rule, records: &'a [Record]) -> Vec<Finding<'a>> {
         Measure::CrashesOutside
         | Measure::CrashesAll
         | Measure::Missed
+        | Measure::MissedSevere
+        | Measure::MissedInView
         | Measure::FalseSnapshots
         | Measure::Overtime
         | Measure::NotLanded
@@ -169,6 +198,8 @@ fn of_task(rule: &Rule, task: &TaskRecord) -> Option<f64> {
         Measure::CrashesOutside
         | Measure::CrashesAll
         | Measure::Missed
+        | Measure::MissedSevere
+        | Measure::MissedInView
         | Measure::FalseSnapshots
         | Measure::Overtime
         | Measure::NotLanded
@@ -187,6 +218,11 @@ fn of_session(rule: &Rule, record: &Record) -> Option<f64> {
             let missed = record.defects.iter().filter(|defect| !defect.found && lacked(&defect.lacked)).count();
             share(missed, record.defects.len())
         }
+        Measure::MissedSevere => Some(missed(rule, record).len() as f64),
+        Measure::MissedInView => {
+            let longest_s = missed(rule, record).iter().filter_map(|defect| defect.in_view_s).fold(0.0, f64::max);
+            Some(longest_s)
+        }
         Measure::FalseSnapshots => share(record.snapshots - record.hits.min(record.snapshots), record.snapshots),
         // The score of 0 to 100 stands for -100 to 100 points; who ran out of battery has no points that tell the time.
         Measure::Overtime => {
@@ -199,6 +235,38 @@ fn of_session(rule: &Rule, record: &Record) -> Option<f64> {
     }
 }
 
+/// The missed defects that a rule is about: the severe ones, or those that were in plain view; the gravest first.
+fn missed<'a>(rule: &Rule, record: &'a Record) -> Vec<&'a DefectRecord> {
+    let about = |defect: &&DefectRecord| match rule.measure {
+        Measure::MissedInView => defect.in_view_s.is_some_and(|seconds| seconds > rule.limit),
+        _ => defect.condition_state >= SEVERE_STATE,
+    };
+    let mut missed: Vec<&DefectRecord> = record.defects.iter().filter(|defect| !defect.found).filter(about).collect();
+    missed.sort_by(|a, b| {
+        (b.condition_state, b.in_view_s.unwrap_or(0.0))
+            .partial_cmp(&(a.condition_state, a.in_view_s.unwrap_or(0.0)))
+            .unwrap_or(Ordering::Equal)
+    });
+    missed
+}
+
+/// The same in words, at most [`DEFECTS_NAMED`] by name.
+fn missed_in_words(rule: &Rule, record: &Record) -> String {
+    let missed = missed(rule, record);
+    let name = |defect: &&DefectRecord| {
+        format!("defect {} ({}, condition state {})", defect.id, defect.kind_name, defect.condition_state)
+    };
+    let mut names: Vec<String> = missed.iter().take(DEFECTS_NAMED).map(name).collect();
+    if missed.len() > DEFECTS_NAMED {
+        names.push(format!("{} more", missed.len() - DEFECTS_NAMED));
+    }
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        Some((last, _)) => last.clone(),
+        None => String::new(),
+    }
+}
+
 fn count(rule: &Rule, crashes: Crashes) -> f64 {
     let counted = crashes.by_kind().into_iter().filter(|(kind, _)| rule.with.is_none_or(|with| with == *kind));
     counted.map(|(_, count)| count as f64).sum()
@@ -208,8 +276,9 @@ fn reason(rule: &Rule, finding: &Finding<'_>) -> Reason {
     let task = finding.task.map_or(String::new(), |task| task.name.clone());
     let fastest = finding.task.map_or(0.0, |task| task.fastest_m_s);
     let axis = finding.task.map_or("", axis);
-    let words =
-        rule.reason.replace("{value}", &shown(rule.measure, finding.value)).replace("{limit}", &shown(rule.measure, rule.limit));
+    let words = rule.reason.replace("{value}", &shown(rule.measure, finding.value, rule.limit));
+    let words = words.replace("{limit}", &shown(rule.measure, rule.limit, rule.limit));
+    let words = words.replace("{defects}", &missed_in_words(rule, finding.record));
     // What a scenario's author wrote comes last, so that braces in it mean nothing.
     let words = words.replace("{axis}", axis).replace("{fastest}", &format!("{fastest:.1} m/s")).replace("{task}", &task);
     Reason { rule: rule.name.clone(), session: finding.record.id.clone(), words, value: finding.value, limit: rule.limit }
@@ -225,15 +294,20 @@ fn axis(task: &TaskRecord) -> &'static str {
     }
 }
 
-fn shown(measure: Measure, value: f64) -> String {
+/// A value with the digits that show on which side of the limit it lies.
+fn shown(measure: Measure, value: f64, limit: f64) -> String {
     match measure {
-        Measure::OffPath | Measure::Speeding | Measure::Missed | Measure::FalseSnapshots => format!("{:.0} %", 100.0 * value),
-        Measure::OffHeight => format!("{value:.1} m"),
-        Measure::Overtime => format!("{value:.1} min"),
+        Measure::OffPath | Measure::Speeding | Measure::Missed | Measure::FalseSnapshots => {
+            format!("{} %", beside_limit(100.0 * value, 100.0 * limit, 0))
+        }
+        Measure::OffHeight => format!("{} m", beside_limit(value, limit, 1)),
+        Measure::Overtime => format!("{} min", beside_limit(value, limit, 1)),
+        Measure::MissedInView => format!("{} s", beside_limit(value, limit, 1)),
         Measure::Crashes
         | Measure::CrashesOutside
         | Measure::CrashesAll
         | Measure::NotAttempted
+        | Measure::MissedSevere
         | Measure::NotLanded
         | Measure::BatteryLow => format!("{value:.0}"),
     }

@@ -27,6 +27,10 @@ pub enum Measure {
     NotAttempted,
     /// Share of the defects that no picture shows.
     Missed,
+    /// Missed defects in condition state 3 (poor) or worse.
+    MissedSevere,
+    /// Longest time that a missed defect was in plain view, s; known in a session's report alone.
+    MissedInView,
     /// Share of the pictures without a new defect.
     FalseSnapshots,
     /// Flight time beyond that for full efficiency, minutes.
@@ -46,6 +50,8 @@ const MEASURES: &[(&str, Measure)] = &[
     ("crashes_all", Measure::CrashesAll),
     ("not_attempted", Measure::NotAttempted),
     ("missed", Measure::Missed),
+    ("missed_severe", Measure::MissedSevere),
+    ("missed_in_view", Measure::MissedInView),
     ("false_snapshots", Measure::FalseSnapshots),
     ("overtime", Measure::Overtime),
     ("not_landed", Measure::NotLanded),

@@ -1,5 +1,5 @@
 use super::*;
-use crate::training::testing::faultless;
+use crate::training::testing::{broken_off, faultless};
 
 const NOW: u64 = 1_700_000_000_000_000 + 864_000_000_000;
 
@@ -41,6 +41,8 @@ fn suffering(rule: &Rule, factor: f64) -> Record {
                 .take(missed)
                 .for_each(|defect| (defect.found, defect.lacked) = (false, vec![lacked.clone()]));
         }
+        Measure::MissedSevere => record.defects[0].found = count == 0,
+        Measure::MissedInView => (record.defects[0].found, record.defects[0].in_view_s) = (false, Some(value)),
         Measure::FalseSnapshots => (record.snapshots, record.hits) = (1000, (1000.0 * (1.0 - value)).round() as usize),
         Measure::Overtime => record.scores.efficiency = 100.0 - value * 5.0,
         Measure::NotLanded => record.end_reason = if count > 0 { "abort".into() } else { "landed".into() },
@@ -138,4 +140,31 @@ fn exact_braces_in_a_tasks_name_mean_nothing() {
     record.tasks[2].on_path = 0.5;
     let plan = plan(&[record], &rules(), NOW).unwrap();
     assert!(plan.steps[0].reasons[0].words.starts_with("{value} {axis}: off the path for 50 %"));
+}
+
+#[test]
+fn regress_plans_leave_incomplete_sessions_out_and_say_so() {
+    let records = vec![faultless("anna", 1), broken_off("anna", 2)];
+    let of = |records: &[Record], incomplete| plan_counting(records.to_vec(), incomplete, &rules(), NOW).unwrap();
+    let without = of(&records, Incomplete::LeaveOut);
+    assert_eq!((without.session.as_str(), without.left_out), ("session-anna-001", 1));
+    let with = of(&records, Incomplete::Include);
+    assert_eq!((with.session.as_str(), with.left_out), ("session-anna-002", 0));
+    let none = of(&records[1..], Incomplete::LeaveOut);
+    assert_eq!((none.steps[0].scenario.as_str(), none.left_out), (rules().job.as_str(), 1));
+    assert!(none.steps[0].reasons[0].words.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{:?}", none.steps);
+}
+
+#[test]
+fn regress_a_severe_defect_missed_in_plain_view_is_named_next() {
+    let mut record = faultless("anna", 1);
+    record.defects[3].found = false;
+    record.defects[3].kind_name = "spalling".into();
+    record.defects[3].in_view_s = Some(5.5);
+    let plan = plan(&[record], &rules(), NOW).unwrap();
+    let words: Vec<&str> = plan.steps.iter().flat_map(|step| &step.reasons).map(|reason| reason.words.as_str()).collect();
+    assert!(words.iter().all(|words| !words.contains("Nothing stands out")), "{words:?}");
+    let plain = words.iter().find(|words| words.contains("In plain view for up to 5.5 s")).unwrap();
+    assert!(plain.contains("defect 4 (spalling, condition state 3)"), "{plain}");
+    assert_eq!(plan.steps[0].scenario, "practice");
 }

@@ -67,6 +67,8 @@ fn one_task(source: &Source<'_>, flown: &Flown<'_>, task: usize, defects: &[Defe
         name: described.name.clone(),
         kind: kind_word(described.kind).to_owned(),
         attempted: result.attempted,
+        state: Some(result.state),
+        covered: Some(result.covered),
         seconds: window.map_or(0, |window| window.frames()) as f64 * flown.frame_s,
         on_path: result.on_path,
         speeding: result.speeding,
@@ -118,6 +120,7 @@ fn one_defect(source: &Source<'_>, paths: &Paths, defect: &PlacedDefect, picture
         task: nearest_task(paths, defect.position_m).map(|task| source.scenario.tasks[task].id),
         found,
         lacked: best.filter(|_| !found).map(|view| view.fails.clone()).unwrap_or_default(),
+        in_view_s: None,
     }
 }
 

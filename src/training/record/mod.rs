@@ -6,13 +6,14 @@ mod causes;
 use super::questionnaire::{Answers, Scales, scales};
 use crate::monitor::Graded;
 use crate::monitor::folder::sha256_hex;
+use crate::monitor::score::completion::{Completion, TaskState, verdict};
 use crate::monitor::score::{SCORER_VERSION, Score};
 use crate::scenario::{PlacedDefect, Scenario, TaskKind};
 use crate::telemetry::Contact;
 use serde::{Deserialize, Serialize};
 
 /// Format of a record; it grows when a record says more, so that older ones are made again.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 /// One session.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,6 +49,9 @@ pub struct Record {
     pub seed: u64,
     /// The paper's scores.
     pub scores: Scores,
+    /// How much of the job was done; absent in a record of format 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub completion: Option<Completion>,
     /// Tasks in file order.
     pub tasks: Vec<TaskRecord>,
     /// Crashes outside all tasks' windows.
@@ -70,6 +74,9 @@ pub struct Record {
     pub covered: f64,
     /// The certification profile is passed.
     pub certified: bool,
+    /// Requirements of the certification profile that failed, in words.
+    #[serde(default)]
+    pub unmet: Vec<String>,
     /// Answers to the questionnaire, perhaps not all; absent when none was begun.
     pub answers: Option<Answers>,
 }
@@ -102,6 +109,12 @@ pub struct TaskRecord {
     pub kind: String,
     /// Its path was entered.
     pub attempted: bool,
+    /// Done, part or not attempted; absent in a record of format 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<TaskState>,
+    /// Share of its path that was flown, 0 to 1; absent in a record of format 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub covered: Option<f64>,
     /// From first to last on-path frame, s.
     pub seconds: f64,
     /// Share of that time on the path, 0 to 1.
@@ -162,6 +175,9 @@ pub struct DefectRecord {
     pub found: bool,
     /// Of one that was not found: what its best picture lacked; empty when no picture was near it.
     pub lacked: Vec<String>,
+    /// Of one that was not found: time for which one press would have been a hit, s. Only a session's report works it out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub in_view_s: Option<f64>,
 }
 
 /// One line of a list of sessions.
@@ -183,6 +199,72 @@ pub struct Listed {
     pub overall_max: f64,
     /// Why it ended.
     pub end_reason: String,
+    /// How much of the job was done; absent in a record of format 1.
+    pub completion: Option<Completion>,
+    /// The certification profile is passed.
+    pub certified: bool,
+    /// Requirements of it that failed, in words.
+    pub unmet: Vec<String>,
+}
+
+/// Whether incomplete sessions count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Incomplete {
+    /// They are left out.
+    #[default]
+    LeaveOut,
+    /// They count as any other.
+    Include,
+}
+
+impl Incomplete {
+    /// From a switch.
+    #[must_use]
+    pub fn included(include: bool) -> Self {
+        if include { Self::Include } else { Self::LeaveOut }
+    }
+
+    /// Whether a session counts.
+    #[must_use]
+    pub fn counts(self, record: &Record) -> bool {
+        self == Self::Include || record.is_complete()
+    }
+}
+
+/// How many incomplete sessions were left out, in words; `None` for none.
+#[must_use]
+pub fn left_out_words(count: usize) -> Option<String> {
+    match count {
+        0 => None,
+        1 => Some("1 incomplete session left out".to_owned()),
+        many => Some(format!("{many} incomplete sessions left out")),
+    }
+}
+
+/// The headline of a session whose record may be older than completion.
+#[must_use]
+pub fn headline(completion: Option<&Completion>) -> String {
+    completion.map_or_else(|| "Completion unknown: import this session again".to_owned(), Completion::headline)
+}
+
+impl Listed {
+    /// The job was done and the drone landed at home.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.completion.is_some_and(|completion| completion.complete)
+    }
+
+    /// How much of the job was done, in words.
+    #[must_use]
+    pub fn headline(&self) -> String {
+        headline(self.completion.as_ref())
+    }
+
+    /// Certified, or the requirement that failed.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        verdict(self.certified, &self.unmet)
+    }
 }
 
 /// What a record is made from.
@@ -270,6 +352,7 @@ pub fn record(source: &Source<'_>) -> Record {
             overall: assessment.scores.overall,
             overall_max: assessment.scores.overall_max,
         },
+        completion: Some(assessment.completion),
         tasks: causes.tasks,
         crashes_outside: causes.crashes_outside,
         defects: causes.defects,
@@ -281,11 +364,30 @@ pub fn record(source: &Source<'_>) -> Record {
         battery_at_end_pct: assessment.certification.battery_at_end_pct,
         covered: assessment.telemetry.covered,
         certified: assessment.certification.passed,
+        unmet: assessment.certification.unmet.clone(),
         answers: source.answers.cloned(),
     }
 }
 
 impl Record {
+    /// The job was done and the drone landed at home; a record of format 1 does not say so.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.completion.is_some_and(|completion| completion.complete)
+    }
+
+    /// How much of the job was done, in words.
+    #[must_use]
+    pub fn headline(&self) -> String {
+        headline(self.completion.as_ref())
+    }
+
+    /// Certified, or the requirement that failed.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        verdict(self.certified, &self.unmet)
+    }
+
     /// Numbers of the tasks.
     #[must_use]
     pub fn task_ids(&self) -> Vec<u32> {
@@ -318,14 +420,20 @@ impl Record {
             ("battery_at_end_pct", Some(self.battery_at_end_pct)),
         ];
         let shares = self.tasks.iter().map(|task| ("tasks.on_path", Some(task.on_path), 1.0));
-        let rest = [("scores.overall", Some(scores.overall), scores.overall_max), ("seconds", Some(self.seconds), 86_400.0)];
-        for (key, value, most) in hundred.into_iter().map(|(key, value)| (key, value, 100.0)).chain(shares).chain(rest) {
+        let covered = self.tasks.iter().map(|task| ("tasks.covered", task.covered, 1.0));
+        let path = ("completion.path_share", self.completion.map(|completion| completion.path_share), 1.0);
+        let rest =
+            [path, ("scores.overall", Some(scores.overall), scores.overall_max), ("seconds", Some(self.seconds), 86_400.0)];
+        for (key, value, most) in
+            hundred.into_iter().map(|(key, value)| (key, value, 100.0)).chain(shares).chain(covered).chain(rest)
+        {
             if let Some(value) = value.filter(|value| !(0.0..=most).contains(value)) {
                 return Err(format!("{key} = {value} (allowed: 0 to {most})"));
             }
         }
-        if self.format != FORMAT {
-            return Err(format!("format = {} (allowed: {FORMAT})", self.format));
+        // What an older format does not say is unknown, and such a session counts as incomplete.
+        if !(1..=FORMAT).contains(&self.format) {
+            return Err(format!("format = {} (allowed: 1 to {FORMAT})", self.format));
         }
         Ok(())
     }

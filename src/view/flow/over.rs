@@ -2,7 +2,7 @@
 
 use super::menu::{self, Deed, Row};
 use super::pipe::{Ended, SCORES};
-use super::sheet::{Pen, SMALL, TEXT, TITLE};
+use super::sheet::{Pen, SMALL, TEXT, TITLE, width_of};
 use crate::view::hud::{Colour, Side};
 
 /// An address that a browser can open.
@@ -29,17 +29,29 @@ pub fn page(pen: &mut Pen, ended: Option<&Ended>, rows: &[Row], focus: usize) {
     let left = 0.04;
     let half = 0.52 * pen.width;
     let Some(ended) = ended else { return };
-    pen.text((left, 0.08), Side::Left, TITLE, Colour::White, "The flight is over");
-    pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL, Colour::Grey, &ended.why);
+    let (title, note) = match &ended.completion {
+        Some(words) if !ended.complete => (words.as_str(), format!("{}. Scores for the part that was flown:", ended.why)),
+        _ => ("The flight is over", ended.why.clone()),
+    };
+    // The headline has to fit on a line: how wide it is depends on the job.
+    let height = TITLE.min((pen.width - 2.0 * left) / width_of(title, 1.0));
+    pen.text((left, 0.08), Side::Left, height, Colour::White, title);
+    pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL, Colour::Grey, &note);
     for (k, (name, score)) in SCORES.iter().zip(&ended.scores).enumerate() {
         bar(pen, (left, 0.21 + 0.085 * k as f64), half, name, score.map(|score| score.pct));
     }
     let overall = match ended.overall {
-        Some((sum, most)) => format!("overall  {sum:.1} of {most:.0}"),
-        None => "no scores".to_owned(),
+        Some((sum, most)) => Some(format!("overall  {sum:.1} of {most:.0}")),
+        None => ended.scores.iter().all(Option::is_none).then(|| "no scores".to_owned()),
     };
-    pen.text((left, 0.59), Side::Left, 1.3 * TEXT, Colour::White, overall);
-    let mut y = 0.68;
+    let mut y = if overall.is_some() { 0.64 } else { 0.58 };
+    if let Some(words) = overall {
+        pen.text((left, 0.59), Side::Left, 1.3 * TEXT, Colour::White, words);
+    }
+    if let Some(verdict) = &ended.verdict {
+        y = pen.lines((left, y), half, SMALL, Colour::White, verdict);
+    }
+    y = y.max(0.68) + 0.02;
     for (name, address) in
         [("report", ended.report.as_deref().unwrap_or("none was written")), ("questionnaire", ended.questionnaire.as_str())]
     {

@@ -101,8 +101,14 @@ pub struct Score {
 pub struct Ended {
     /// Conformity, efficiency, safety, accuracy; none where it does not apply.
     pub scores: [Option<Score>; 4],
-    /// Sum, and the most that it can be here.
+    /// Sum, and the most that it can be here; none when the session is incomplete.
     pub overall: Option<(f64, f64)>,
+    /// How much of the job was done, in words.
+    pub completion: Option<String>,
+    /// The job was done and the drone landed at home.
+    pub complete: bool,
+    /// Certified, or the requirement that failed.
+    pub verdict: Option<String>,
     /// Why it ended, in words; or why there are no scores.
     pub why: String,
     /// Address of the report, where there is one.
@@ -205,6 +211,9 @@ mod tests {
         let ended = Ended {
             scores: [score, None, score, None],
             overall: Some((182.5, 200.0)),
+            completion: Some("Complete: 1 of 1 task, 92 % of the path".into()),
+            complete: true,
+            verdict: Some("Certified".into()),
             why: "landed".into(),
             report: Some("file:///a%20b".into()),
             questionnaire: "spandrel questionnaire x".into(),

@@ -56,7 +56,7 @@ const LEAVES: [Leaf; PAGES] = [
     (
         "defects",
         defects,
-        "The same defects from 1, 3 and 8 m. A photograph counts when the defect is inside the corner marks, lit, not seen \
+        "The same defects from 1, 3 and 8 m, through the same lens. A photograph counts when the defect is inside the corner marks, lit, not seen \
          edge-on, and a crack at least half a pixel wide: go near, or zoom ({camera_zoom_in}) with a camera that can.\n\nStains, form lines, closed cracks, webs and spray paint are no defects. \
          Every photograph that shows nothing new costs accuracy.",
     ),

@@ -8,6 +8,7 @@ use super::pane::Pane;
 use super::state::{Hud, cue};
 use super::status::status;
 use super::{Colour, Item, Side};
+use crate::base::numbers::beside_limit;
 
 /// Distance of blocks from the picture's edges.
 pub(super) const EDGE: f64 = 0.025;
@@ -72,7 +73,10 @@ pub(super) fn speed_words(hud: &Hud) -> (Colour, String) {
 fn speed(hud: &Hud, pane: Pane) -> Vec<Item> {
     let inner = EDGE + 0.016;
     let mph = |m_s: f64| m_s / M_S_PER_MPH;
-    let limit = format!("{:.0} mph, limit {:.0}", mph(hud.speed_m_s), mph(hud.limit_m_s));
+    let (speed_mph, limit_mph) = (mph(hud.speed_m_s), mph(hud.limit_m_s));
+    let over = hud.speed_m_s > hud.limit_m_s;
+    let shown = if over { beside_limit(speed_mph, limit_mph, 0) } else { format!("{speed_mph:.0}") };
+    let limit = format!("{shown} mph, limit {limit_mph:.0}");
     let (colour, words) = speed_words(hud);
     vec![
         pane.panel((EDGE, EDGE), (EDGE + 0.25, EDGE + 0.105)),

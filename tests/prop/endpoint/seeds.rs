@@ -35,6 +35,35 @@ pub fn good(number: u32) -> Vec<MavMessage> {
 fn connection() -> Vec<MavMessage> {
     vec![
         MavMessage::HEARTBEAT(HEARTBEAT_DATA { mavtype: MavType::MAV_TYPE_GCS, mavlink_version: 3, ..Default::default() }),
+        MavMessage::FOLLOW_TARGET(FOLLOW_TARGET_DATA {
+            est_capabilities: 3,
+            lat: HERE.0 + 900,
+            lon: HERE.1,
+            alt: 440.0,
+            vel: [1.5, 0.0, 0.0],
+            ..Default::default()
+        }),
+        MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
+            lat: HERE.0,
+            lon: HERE.1 + 900,
+            alt: 440_000,
+            vy: 150,
+            hdg: 9_000,
+            ..Default::default()
+        }),
+        {
+            let mut data = [0; 70];
+            data[..15].copy_from_slice(b"param show MIS*");
+            data[15] = b'\n';
+            MavMessage::SERIAL_CONTROL(SERIAL_CONTROL_DATA {
+                device: SerialControlDev::SERIAL_CONTROL_DEV_SHELL,
+                flags: SerialControlFlag::SERIAL_CONTROL_FLAG_RESPOND,
+                count: 16,
+                data,
+                ..Default::default()
+            })
+        },
+        MavMessage::REQUEST_EVENT(REQUEST_EVENT_DATA { first_sequence: 1, last_sequence: 3, ..Default::default() }),
         MavMessage::TIMESYNC(TIMESYNC_DATA { ts1: 123_456, ..Default::default() }),
         MavMessage::PING(PING_DATA { seq: 7, ..Default::default() }),
         MavMessage::REQUEST_DATA_STREAM(REQUEST_DATA_STREAM_DATA { req_message_rate: 4, start_stop: 1, ..Default::default() }),

@@ -19,7 +19,7 @@ pub fn every_one(target: &str) {
     // The next test begins with nothing.
     let database = Database::open(target).unwrap();
     for trainee in database.trainees().unwrap() {
-        database.erase(&trainee.pseudonym).unwrap();
+        database.erase(&trainee.pseudonym, &[]).unwrap();
     }
 }
 
@@ -32,7 +32,7 @@ fn what_is_erased_does_not_come_back(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     let flown = [record("erna", 1), record("erna", 2)];
     assert_eq!(here.put(&flown), Ok(2));
-    assert_eq!(here.erase("erna"), Ok((true, 2)));
+    assert_eq!(here.erase("erna", &[]), Ok((true, 2)));
     assert_eq!(there.put(&flown), Ok(0), "an import");
     assert_eq!(there.rebuild(&flown, &[]), Ok(0), "a rebuild");
     assert!(gone(&there, &flown[0].id) && !there.trainees().unwrap().iter().any(|one| one.pseudonym == "erna"));
@@ -41,10 +41,10 @@ fn what_is_erased_does_not_come_back(target: &str) {
     // Who begins anew under the same name is somebody else.
     let anew = Record { started_unix_us: LATER_US, ..record("erna", 3) };
     assert_eq!(there.put(std::slice::from_ref(&anew)), Ok(1));
-    assert_eq!(there.erase("erna"), Ok((true, 1)));
+    assert_eq!(there.erase("erna", &[]), Ok((true, 1)));
     // One session that retention took away stays away, the person's others do not.
     assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2)]), Ok(2));
-    assert_eq!(here.delete_sessions(&["session-fritz-001".into()]), Ok(1));
+    assert_eq!(here.delete_sessions(&["session-fritz-001".into()], &[]), Ok(1));
     assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2), record("fritz", 3)]), Ok(1));
     assert!(gone(&there, "session-fritz-001") && !gone(&there, "session-fritz-003"));
 }
@@ -95,7 +95,7 @@ fn nobodys_change_of_a_person_is_lost(target: &str) {
     assert!(before.is_some() && after.credential().is_some() && before != after.credential());
     there.set_given("hans", Some(Role::Instructor), [None; 3]).unwrap();
     assert_ne!(here.account("hans").unwrap().unwrap().credential(), after.credential(), "another role is another credential");
-    assert_eq!(here.erase("hans"), Ok((true, 0)));
+    assert_eq!(here.erase("hans", &[]), Ok((true, 0)));
 }
 
 fn a_telemetry_is_found_again(target: &str) {
@@ -118,5 +118,5 @@ fn lists_go_on_from_page_to_page(target: &str) {
     let expected: Vec<&str> = expected.into_iter().map(|one| one.id.as_str()).collect();
     assert_eq!([page(Some("jana"), 0), page(Some("jana"), 3), page(Some("jana"), 6)].concat(), expected);
     assert_eq!([page(None, 0), page(None, 3)].concat(), expected[..6], "of all they are the newest");
-    database.erase("jana").unwrap();
+    database.erase("jana", &[]).unwrap();
 }

@@ -70,7 +70,7 @@ fn takes_in_once_and_gives_back_the_same(target: &str) {
     let limit = 1_700_000_000_000_000 + 1_000_001;
     let old = again.older_than(limit).unwrap();
     assert_eq!(old.iter().map(|(id, _)| id.as_str()).collect::<Vec<_>>(), ["session-anna-001", "session-o'brien-001"]);
-    assert_eq!(again.delete_sessions(&["session-anna-002".into(), "nobody-has-this".into()]), Ok(1));
+    assert_eq!(again.delete_sessions(&["session-anna-002".into(), "nobody-has-this".into()], &[]), Ok(1));
     assert_eq!(database.records(Some("anna")).unwrap().len(), 1);
 }
 
@@ -80,8 +80,8 @@ fn keeps_people_and_erases_them(target: &str) {
     database.set_given("anna", Some(Role::Instructor), [Some("25-34"), None, None]).unwrap();
     database.put(&[record("anna", 9)]).unwrap();
     assert_eq!(database.trainees().unwrap(), [someone, Trainee::new("o'brien")], "a new session changes no details");
-    assert_eq!(database.erase("anna"), Ok((true, 2)));
-    assert_eq!(database.erase("anna"), Ok((false, 0)));
+    assert_eq!(database.erase("anna", &[]), Ok((true, 2)));
+    assert_eq!(database.erase("anna", &[]), Ok((false, 0)));
     assert_eq!(database.trainees().unwrap(), [Trainee::new("o'brien")]);
     assert_eq!(database.records(None).unwrap().len(), 1);
 }
@@ -102,11 +102,11 @@ fn lets_people_in_and_forgets_them(target: &str) {
     assert_eq!(again.drop_password("ada"), Ok(false));
     assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "she is known and logs in no more");
     // Who is erased logs in no more, under the same name neither.
-    assert_eq!(database.erase("o'brien"), Ok((true, 1)));
+    assert_eq!(database.erase("o'brien", &[]), Ok((true, 1)));
     assert_eq!((database.with_password().unwrap(), database.account("o'brien").unwrap()), (vec![], None));
     database.set_given("o'brien", None, [None; 3]).unwrap();
     assert_eq!(database.account("o'brien").unwrap().unwrap().hash, None);
-    assert_eq!((database.erase("o'brien"), database.erase("ada")), (Ok((true, 0)), Ok((true, 0))));
+    assert_eq!((database.erase("o'brien", &[]), database.erase("ada", &[])), (Ok((true, 0)), Ok((true, 0))));
 }
 
 fn counts_and_finds_sessions(target: &str) {
@@ -120,7 +120,7 @@ fn counts_and_finds_sessions(target: &str) {
     assert_eq!(counts, [3, 2, 1, 0, 0]);
     assert_eq!(database.record("session-cleo-002").unwrap(), Some(record("cleo", 2)));
     assert_eq!(database.record("session-cleo-003").unwrap(), None);
-    assert_eq!(database.erase("cleo"), Ok((true, 2)));
+    assert_eq!(database.erase("cleo", &[]), Ok((true, 2)));
     assert_eq!((database.count(None), database.record("session-cleo-002")), (Ok(1), Ok(None)));
 }
 
@@ -140,7 +140,7 @@ fn takes_strangers_in_any_order(target: &str) {
     });
     let database = Database::open(target).unwrap();
     assert_eq!(
-        people.iter().map(|one| database.erase(&one.trainee).unwrap()).filter(|gone| *gone == (true, 1)).count(),
+        people.iter().map(|one| database.erase(&one.trainee, &[]).unwrap()).filter(|gone| *gone == (true, 1)).count(),
         STATIONS
     );
 }
@@ -227,7 +227,7 @@ fn exact_what_is_erased_is_gone_from_the_file() {
     let file = folder.path().join("records.sqlite");
     let database = Database::open(&file.display().to_string()).unwrap();
     database.put(&[record("somebody-special", 1), record("other", 1)]).unwrap();
-    database.erase("somebody-special").unwrap();
+    database.erase("somebody-special", &[]).unwrap();
     let traces = |path: PathBuf| std::fs::read(path).unwrap().windows(16).any(|bytes| bytes == b"somebody-special");
     let found: Vec<PathBuf> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert!(!found.into_iter().any(traces));

@@ -205,6 +205,7 @@ impl Seat {
             Ask::LetGo => self.board.let_go(),
             Ask::Fly(vehicle) => {
                 (self.vehicle, self.link, self.touched) = (Some(vehicle), Link::default(), false);
+                self.link.set_arm_key(&self.board.keys().label("arm"));
                 self.stands = false;
                 if let Some(why) = self.desk.why_keys() {
                     tell(teller, format!("{why} Keys fly."));

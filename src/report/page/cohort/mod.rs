@@ -11,6 +11,7 @@ mod repetitions;
 use super::{Moves, document};
 use crate::report::table::download;
 use crate::training::cohort::{Cohort, TABLES, tables};
+use crate::training::record::left_out_words;
 use maud::{Markup, html};
 
 /// People who are listed one by one.
@@ -54,7 +55,8 @@ pub fn cohort(cohort: &Cohort) -> String {
 pub fn in_short(cohort: &Cohort) -> Markup {
     html! {
         p { (cohort.trainees) " trainees, " (cohort.sessions) " sessions of " (cohort.scenarios.join(", ")) ". "
-            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " of them flew " (cohort.repetitions) " times or more." } }
+            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " of them flew " (cohort.repetitions) " times or more." }
+            @if let Some(words) = left_out_words(cohort.left_out) { " " (words) "." } }
     }
 }
 
@@ -120,7 +122,7 @@ fn files(cohort: &Cohort, at: Files<'_>) -> Markup {
 mod tests {
     use super::*;
     use crate::training::cohort::{Selection, cohort as of};
-    use crate::training::record::Record;
+    use crate::training::record::{Incomplete, Record};
     use crate::training::testing::faultless;
 
     fn group() -> Vec<Record> {
@@ -139,7 +141,7 @@ mod tests {
 
     #[test]
     fn exact_the_page_shows_every_figure_and_escapes_names() {
-        let cohort = of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2 });
+        let cohort = of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: Incomplete::LeaveOut });
         let page = super::cohort(&cohort);
         assert!(!page.contains("<script>alert") && page.contains("&lt;script&gt;"));
         for figure in
@@ -154,7 +156,7 @@ mod tests {
     fn exact_a_group_without_answers_or_repetitions_leaves_those_sections_out() {
         let mut records = group();
         records.iter_mut().for_each(|record| record.answers = None);
-        let cohort = of(&records[..1], &Selection { scenarios: Vec::new(), repetitions: 1 });
+        let cohort = of(&records[..1], &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut });
         let ids: Vec<&str> = sections(&cohort, Files::Inside).into_iter().map(|(id, _, _)| id).collect();
         assert!(!ids.contains(&"answers") && !ids.contains(&"repetitions") && ids.contains(&"files"), "{ids:?}");
         assert!(!ids.contains(&"causal") && !ids.contains(&"learning"), "{ids:?}");
@@ -163,7 +165,8 @@ mod tests {
     #[test]
     fn exact_the_causal_model_is_drawn_with_its_warning_or_the_page_says_why_not() {
         // The made-up answers are all alike: nothing can be estimated.
-        let page = super::cohort(&of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2 }));
+        let page =
+            super::cohort(&of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: Incomplete::LeaveOut }));
         assert!(page.contains("No estimate can be made") && !page.contains("class=\"model-drawing\""));
         let mut records: Vec<Record> = (0..20).map(|person| faultless(&format!("t{person}"), 1)).collect();
         let mut chance = crate::base::random::RandomStream::new(3, "made-up answers");
@@ -173,7 +176,7 @@ mod tests {
             }
             record.scores.overall = chance.range(200.0, 400.0);
         }
-        let cohort = of(&records, &Selection { scenarios: Vec::new(), repetitions: 1 });
+        let cohort = of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut });
         assert!(cohort.causal.is_some(), "{:?}", cohort.warnings);
         let page = super::cohort(&cohort);
         assert!(page.contains("class=\"model-drawing\"") && page.contains("With fewer than 78"), "no warning");
@@ -185,7 +188,7 @@ mod tests {
     fn exact_the_learning_curve_stands_where_somebody_flew_often_enough() {
         let flown = |times: usize| {
             let records: Vec<Record> = (1..=times).flat_map(|k| [faultless("anna", k), faultless("ben", k)]).collect();
-            super::cohort(&of(&records, &Selection { scenarios: Vec::new(), repetitions: 1 }))
+            super::cohort(&of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut }))
         };
         let (three, four) = (flown(3), flown(4));
         assert!(three.contains("needs 4 repetitions") && !three.contains("class=\"practice\""));
@@ -198,7 +201,7 @@ mod tests {
         let people = |count: usize| {
             let records: Vec<Record> =
                 (0..count).flat_map(|k| [faultless(&format!("p{k}"), 1), faultless(&format!("p{k}"), 2)]).collect();
-            of(&records, &Selection { scenarios: Vec::new(), repetitions: 2 })
+            of(&records, &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: Incomplete::LeaveOut })
         };
         let few = super::cohort(&people(PEOPLE_SHOWN));
         assert!(few.contains("Person by person") && few.contains("individuals.csv\" href") && few.contains(">p59<"));

@@ -29,7 +29,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 div {
                     p.kicker { "Comparison of two sessions" }
                     h1 { (first.scenario.title) }
-                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.about.trainee) } " · " (review.about.started_utc) " · " (review.vehicle.name) } }
+                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.about.trainee) } " · " (review.about.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline()) } }
                 }
             }
             main {
@@ -86,7 +86,8 @@ fn table(first: &Review, second: &Review) -> Table {
     for ((name, a), (_, b)) in ours.into_iter().zip(theirs) {
         put(name, 1, [a, b].map(|score| score.map(|score| score.pct)));
     }
-    put("Overall", 1, both.map(|review| Some(review.assessment.scores.overall)));
+    put("Overall", 1, both.map(|review| review.assessment.completion.complete.then_some(review.assessment.scores.overall)));
+    put("Path flown, %", 0, both.map(|review| Some(100.0 * review.assessment.completion.path_share)));
     put("Flight time, s", 0, both.map(|review| Some(review.assessment.end.seconds)));
     put("Contacts", 0, both.map(|review| Some(review.crashes.len() as f64)));
     put("Pictures", 0, both.map(|review| Some(review.pictures.len() as f64)));

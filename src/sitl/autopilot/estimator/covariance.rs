@@ -189,6 +189,14 @@ impl Covariance {
         }
     }
 
+    /// Whether a scalar measurement would be fused; arguments as in [`Self::fuse`].
+    #[must_use]
+    pub fn accepts(&self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> bool {
+        let product = |(i, a): &(usize, f64)| slopes.iter().map(|(j, b)| a * b * self.m[*i][*j]).sum::<f64>();
+        let expected = variance + slopes.iter().map(product).sum::<f64>();
+        expected > 0.0 && innovation.is_finite() && innovation * innovation <= gate * gate * expected
+    }
+
     /// Fuses one scalar: `slopes` are the few non-zero derivatives of the measurement by the errors, `innovation` is measured minus
     /// expected. `None` when it lies outside `gate` standard deviations; the covariance then stays.
     pub fn fuse(&mut self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> Option<Correction> {

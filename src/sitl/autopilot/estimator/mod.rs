@@ -2,21 +2,27 @@
 //! biases, the receiver's slow drift, the barometer's offset, the optical flow's scale, the compass's bias; fused from GNSS, barometer, magnetometer and
 //! optical flow.
 //!
-//! The range finder is left out on purpose: what lies below may be a deck, a truck or water.
+//! The range finder is not fused: what lies below may be a deck, a truck or water. It decides where receiver and barometer contradict
+//! each other.
 
 pub mod align;
+mod checks;
 pub mod covariance;
 mod fuse;
+mod ground;
 
 use super::Estimate;
+use super::operator_rules::NO_AID_S;
 use crate::base::frames::{Frd, Ned, Rotation, Vec3};
 use crate::base::geodesy::Geo;
 use crate::base::math;
 use crate::base::time::SimTime;
-use crate::sitl::sensors::{ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
+use crate::sitl::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
 use crate::vehicle;
-use align::{Aligned, Alignment};
+use align::{Aligned, Alignment, Gyro};
+use checks::Checks;
 use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATES, THETA, V};
+use ground::Ground;
 use nalgebra::Vector3;
 
 /// The covariance moves on when this much time has gathered, s.
@@ -29,6 +35,8 @@ const REGAIN_SHARE: f64 = 0.5;
 /// Specific force beyond this is a shock whose direction the sampling blurs, m/s², and the share of it that is distrusted.
 const SHOCK_M_S2: f64 = 40.0;
 const SHOCK_SHARE: f64 = 0.1;
+/// Fixes are averaged this long before the local frame gets its origin, s (estimate; PX4 asks for 10 s of good fixes, EKF2_REQ_GPS_H).
+const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
 
 /// Measurement noise, from the sensors' data sheets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,16 +51,33 @@ struct MeasurementNoise {
     accel_bias_m_s2: f64,
     gyro_bias_rad_s: f64,
     accel_sample: f64,
-    gyro_sample: f64,
 }
 
 /// When a source was last believed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Trust {
-    position: SimTime,
     velocity: SimTime,
+    flow: SimTime,
     height: SimTime,
     heading: SimTime,
+}
+
+impl Trust {
+    /// All sources at once.
+    fn new(now: SimTime) -> Self {
+        Self { velocity: now, flow: now, height: now, heading: now }
+    }
+}
+
+/// Sources that the filter does not use because they contradict the others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Dropped {
+    /// Magnetometer.
+    pub compass: bool,
+    /// Barometer.
+    pub barometer: bool,
+    /// GNSS receiver.
+    pub gnss: bool,
 }
 
 /// The filter: plain data.
@@ -64,6 +89,9 @@ pub struct Estimator {
     alignment: Alignment,
     aligned: bool,
     located: bool,
+    local_origin_m: Vec3<Ned>,
+    local_origin_set: bool,
+    first_fix: Option<SimTime>,
     position_m: Vec3<Ned>,
     velocity_m_s: Vec3<Ned>,
     attitude: Rotation<Frd, Ned>,
@@ -81,6 +109,15 @@ pub struct Estimator {
     acceleration_m_s2: Vec3<Ned>,
     last_imu: Option<SimTime>,
     trust: Trust,
+    checks: Checks,
+    ground: Ground,
+    latest_fix: Option<(GnssReading, SimTime)>,
+    /// Variance of the receiver's height by the multipath that it has claimed lately, m².
+    multipath_m2: f64,
+    /// Motors are off.
+    parked: bool,
+    /// Without a fused velocity for this long the position counts as lost, s.
+    pub(super) no_aid_s: f64,
     usable: bool,
 }
 
@@ -112,12 +149,17 @@ impl Estimator {
                 accel_bias_m_s2: sensors.accel_bias_m_s2,
                 gyro_bias_rad_s: sensors.gyro_bias_rad_s,
                 accel_sample: sensors.accel_noise_density * rate,
-                gyro_sample: sensors.gyro_noise_density * rate,
             },
             field_gauss: magnetometer::earth_field_gauss(origin),
-            alignment: Alignment::default(),
+            alignment: Alignment::new(Gyro {
+                bias_rad_s: sensors.gyro_bias_rad_s,
+                sample_rad_s: sensors.gyro_noise_density * rate,
+            }),
             aligned: false,
             located: false,
+            local_origin_m: Vec3::zero(),
+            local_origin_set: false,
+            first_fix: None,
             position_m: Vec3::zero(),
             velocity_m_s: Vec3::zero(),
             attitude: Rotation::identity(),
@@ -134,7 +176,13 @@ impl Estimator {
             rates_rad_s: Vec3::zero(),
             acceleration_m_s2: Vec3::zero(),
             last_imu: None,
-            trust: Trust { position: SimTime::ZERO, velocity: SimTime::ZERO, height: SimTime::ZERO, heading: SimTime::ZERO },
+            trust: Trust::new(SimTime::ZERO),
+            checks: Checks::default(),
+            ground: Ground::default(),
+            latest_fix: None,
+            multipath_m2: 0.0,
+            parked: true,
+            no_aid_s: NO_AID_S,
             usable: false,
         }
     }
@@ -145,7 +193,7 @@ impl Estimator {
             let dt_s = self.last_imu.map_or(0.0, |last| (now - last).s());
             self.last_imu = Some(now);
             if self.aligned {
-                self.predict(reading, dt_s);
+                self.predict(reading, dt_s, now);
             } else {
                 self.rates_rad_s = reading.rates_rad_s;
                 self.align(reading, readings, dt_s, now);
@@ -154,9 +202,13 @@ impl Estimator {
         if !self.aligned {
             return;
         }
+        if let Some(range_m) = readings.range_down_m {
+            self.ground.see(range_m * (self.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down());
+        }
         if let Some(fix) = readings.gnss.as_ref().filter(|g| g.fix >= 3) {
             self.settle();
             self.fuse_gnss(fix, now);
+            self.place_local_origin(now);
         }
         if let Some(up_m) = readings.baro_up_m {
             self.fuse_baro(up_m, now);
@@ -166,6 +218,15 @@ impl Estimator {
         }
         if let Some(flow) = &readings.flow {
             self.fuse_flow(flow, now);
+        }
+    }
+
+    /// The local frame's origin is where the vehicle is once the first fixes have been averaged.
+    fn place_local_origin(&mut self, now: SimTime) {
+        let first = *self.first_fix.get_or_insert(now);
+        if !self.local_origin_set {
+            self.local_origin_m = self.position_m;
+            self.local_origin_set = (now - first).s() >= LOCAL_ORIGIN_AFTER_S;
         }
     }
 
@@ -190,7 +251,7 @@ impl Estimator {
         self.gyro_bias = aligned.gyro_bias_rad_s;
         let bias = sq(n.accel_bias_m_s2);
         let tilt = (bias + sq(n.accel_sample) / aligned.samples) / sq(math::GRAVITY_M_S2);
-        let gyro = sq(n.gyro_sample) / aligned.samples;
+        let gyro = aligned.gyro_variance;
         let (far, yaw, at_rest, bh) = (1e6, 1.0, sq(0.05), bias);
         let height = sq(baro::START_OFFSET_M);
         let d = self.process.drift;
@@ -225,13 +286,14 @@ impl Estimator {
             self.covariance.set(THETA + 1, BA + j, -r[(0, j)] * bias / math::GRAVITY_M_S2);
         }
         self.aligned = true;
-        self.trust = Trust { position: now, velocity: now, height: now, heading: now };
+        self.local_origin_m = self.position_m;
+        self.trust = Trust::new(now);
         // The heading came from this very measurement: fusing it with no innovation gives the matching covariance.
         let level = aligned.attitude.inverse() * self.field_gauss;
         self.fuse_mag(level, 1.0 / aligned.mag_samples, now);
     }
 
-    fn predict(&mut self, reading: &ImuReading, dt_s: f64) {
+    fn predict(&mut self, reading: &ImuReading, dt_s: f64, now: SimTime) {
         let rates = reading.rates_rad_s - self.gyro_bias;
         let force = reading.specific_force_m_s2 - self.accel_bias;
         let turn = rates * dt_s;
@@ -251,7 +313,7 @@ impl Estimator {
         }
         if self.gathered_s >= COVARIANCE_PERIOD_S {
             self.settle();
-            self.judge();
+            self.judge(now);
         }
     }
 
@@ -269,10 +331,11 @@ impl Estimator {
         self.jolt = 0.0;
     }
 
-    fn judge(&mut self) {
+    fn judge(&mut self, now: SimTime) {
         let share = if self.usable { 1.0 } else { REGAIN_SHARE };
         let (v, p) = (self.velocity_sigma_m_s(), self.horizontal_sigma_m());
-        self.usable = self.located && v < USABLE_VELOCITY_M_S * share && p < USABLE_POSITION_M * share;
+        let aided = (now - self.trust.velocity).s() < self.no_aid_s;
+        self.usable = self.located && aided && v < USABLE_VELOCITY_M_S * share && p < USABLE_POSITION_M * share;
     }
 
     /// Horizontal velocity accuracy, m/s (1 sigma of the worse axis).
@@ -283,6 +346,18 @@ impl Estimator {
 
     fn horizontal_sigma_m(&self) -> f64 {
         self.covariance.variance(P).max(self.covariance.variance(P + 1)).sqrt()
+    }
+
+    /// Sets whether the motors are off: only then may the heading be set to the compass alone.
+    pub fn set_parked(&mut self, parked: bool) {
+        self.parked = parked;
+    }
+
+    /// Sources that are not used because they contradict the others.
+    #[must_use]
+    pub fn dropped(&self) -> Dropped {
+        let c = &self.checks;
+        Dropped { compass: c.mag.dropped(), barometer: c.baro.dropped(), gnss: c.gnss.dropped() || c.gnss_height.dropped() }
     }
 
     /// Starts over at a known place (the vehicle was put there by hand); biases are kept.
@@ -311,10 +386,16 @@ impl Estimator {
         self.covariance.reset(P, 3, 0.25);
         self.covariance.reset(V, 3, 0.04);
         self.covariance.reset(THETA, 3, 0.001);
+        if !self.local_origin_set {
+            self.local_origin_m = position_m;
+            self.local_origin_set = true;
+        }
         self.aligned = true;
         self.located = true;
         self.usable = true;
-        self.trust = Trust { position: now, velocity: now, height: now, heading: now };
+        self.checks = Checks::default();
+        self.ground = Ground::default();
+        self.trust = Trust::new(now);
     }
 
     /// What is believed now.
@@ -327,6 +408,8 @@ impl Estimator {
             rates_rad_s: self.rates_rad_s,
             horizontal_m: self.horizontal_sigma_m(),
             vertical_m: self.covariance.variance(P + 2).max(0.0).sqrt(),
+            local_origin_m: self.local_origin_m,
+            local_origin_set: self.local_origin_set,
             position_valid: self.usable,
             attitude_valid: self.aligned,
         }

@@ -102,6 +102,21 @@ struct Recording {
 /// A command for one picture: who gave it, its number, when.
 type Trigger = ((u8, u8), u32, SimTime);
 
+/// Who lets the camera's component say heartbeats: simple clients take them for the vehicle's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Announced {
+    /// The parameter does.
+    pub parameter: bool,
+    /// Whoever started the program does not.
+    pub silenced: bool,
+}
+
+impl Default for Announced {
+    fn default() -> Self {
+        Self { parameter: true, silenced: false }
+    }
+}
+
 /// The camera's state.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CameraState {
@@ -113,6 +128,8 @@ pub struct CameraState {
     pub settings: Settings,
     /// The live picture.
     pub stream: stream::Told,
+    /// Whether it says heartbeats.
+    pub announced: Announced,
     series: Series,
     card: Card,
     recording: Option<Recording>,
@@ -124,6 +141,7 @@ impl CameraState {
     #[must_use]
     pub fn summary(&self, now: SimTime) -> CameraSummary {
         CameraSummary {
+            announced: self.announced.parameter && !self.announced.silenced,
             pictures: self.card.shots().len(),
             interval_s: self.series.interval_s(),
             series: self.series.is_by_distance(),

@@ -18,7 +18,7 @@ impl Shot {
         Self {
             message: CAMERA_IMAGE_CAPTURED_DATA {
                 time_utc: v.unix_us(),
-                time_boot_ms: v.boot_ms(),
+                time_boot_ms: v.sim_ms(),
                 lat: deg_e7(geo.latitude_deg),
                 lon: deg_e7(geo.longitude_deg),
                 alt: mm(geo.altitude_m),

@@ -1,10 +1,11 @@
 //! Arming, modes, take-off, go-to, landing.
 
-use super::super::storage;
+use super::super::{calibration, storage};
 use super::{Command, result};
+use crate::base::math;
 use crate::mav::dialect::{MISSION_CURRENT_DATA, MavCmd, MavResult};
 use crate::sitl::autopilot::orbit::{OrbitWish, OrbitYaw};
-use crate::sitl::autopilot::{Mode, Outcome, Request};
+use crate::sitl::autopilot::{Mode, Outcome, Request, Turn};
 use crate::sitl::endpoint::flavour::ModeRow;
 use crate::sitl::endpoint::{Context, Injection};
 use crate::sitl::faults::{Faults, Kind, Unit};
@@ -33,8 +34,17 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         },
         n if n == M::MAV_CMD_NAV_LAND as u16 => Request::Land,
         n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => Request::SetMode(Mode::Return),
-        n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => return Some(enter(x.view.flavour.usual(Mode::Hold), x)),
+        n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => {
+            let flavour = x.view.flavour;
+            let row = flavour.loiters.and_then(|number| flavour.row(number)).unwrap_or_else(|| flavour.usual(Mode::Hold));
+            return Some(enter(row, x));
+        }
         n if n == M::MAV_CMD_DO_REPOSITION as u16 => return Some(go(c, x)),
+        n if n == M::MAV_CMD_DO_LAND_START as u16 => {
+            let row = x.view.flavour.modes.iter().find(|row| row.request == Request::LandingSequence)?;
+            return Some(enter(row, x));
+        }
+        n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 && x.view.flavour.pauses => return Some(pause(c, x)),
         n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 => {
             if c.is_one(0) {
                 Request::StartMission { first: None }
@@ -79,6 +89,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             _ => return Some(DENIED),
         },
         n if n == M::MAV_CMD_INJECT_FAILURE as u16 => return Some(inject(c, x)),
+        n if n == M::MAV_CMD_PREFLIGHT_CALIBRATION as u16 => return Some(calibration::command(c, x)),
         n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => return Some(storage::preflight(c, x)),
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => return Some(checks(x)),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => {
@@ -149,7 +160,8 @@ fn arm_motors(force: bool, x: &mut Context) -> MavResult {
     {
         let row = flavour.row_of(x.autopilot.status().mode, *x.chosen);
         let mut reasons = if force { Vec::new() } else { x.autopilot.arming_reasons(now) };
-        if !row.armable && !force {
+        let allowed = row.armable || row.mode == Mode::Mission && x.params.arms_in_auto();
+        if !allowed && !force {
             reasons.insert(0, format!("{} mode not armable", row.name.to_uppercase()));
         }
         if !reasons.is_empty() {
@@ -241,24 +253,48 @@ fn reposition(c: &Command, x: &Context) -> Option<Request> {
     Some(Request::GoTo { north_east_m, up_m, yaw_rad: c.given(3), speed_m_s })
 }
 
+/// Where the flavour has it, only a mission and what flies errands are paused.
+fn pause(c: &Command, x: &mut Context) -> MavResult {
+    let pausable = x.in_errands() || x.autopilot.status().mode == Mode::Mission;
+    let pause = match c.p[0] {
+        0.0 => true,
+        1.0 => false,
+        _ => return MavResult::MAV_RESULT_DENIED,
+    };
+    let failed = || Outcome::Failed(if pause { "Failed to pause" } else { "Failed to resume" }.into());
+    let outcome = if pausable { x.autopilot.request(Request::Pause(pause), x.view.now) } else { failed() };
+    result(outcome, x)
+}
+
+/// ORBIT_YAW_BEHAVIOUR_UNCHANGED.
+const YAW_UNCHANGED: i64 = 5;
+
 /// Parameters 1 radius, 2 speed, 3 where the nose points, 4 how far round in radians, 5 to 7 the middle.
 fn orbit(c: &Command, x: &Context) -> Option<OrbitWish> {
     let Request::GoTo { north_east_m, up_m, .. } = reposition(c, x)? else { return None };
-    let yaw = c.given(2).map_or(Some(OrbitYaw::Centre), |number| OrbitYaw::from_number(number as i64))?;
+    let yaw = match c.given(2).map(|number| number.round() as i64) {
+        None | Some(YAW_UNCHANGED) => None,
+        Some(number) => Some(OrbitYaw::from_number(number)?),
+    };
     let arc_rad = c.given(3).unwrap_or(0.0).abs();
     Some(OrbitWish { centre_m: north_east_m, up_m, radius_m: c.given(0), speed_m_s: c.given(1), yaw, arc_rad })
 }
 
+/// Parameters 1 angle in degrees, 2 rate in deg/s (0: the vehicle's own), 3 direction, 4 whether from the present heading.
 fn turn(c: &Command, x: &Context) -> Option<Request> {
     let angle = c.given(0)?.to_radians();
     let relative = c.is_one(3);
     let signed = if c.p[2] < 0.0 { -angle } else { angle };
     let now = x.view.estimate.attitude.yaw_rad();
-    Some(Request::Turn { yaw_rad: if relative { now + signed } else { angle } })
+    let rate_rad_s = c.given(1).filter(|rate| *rate > 0.0).map(f64::to_radians);
+    let clockwise = c.given(2).filter(|direction| *direction != 0.0).map(|direction| direction > 0.0);
+    let yaw_rad = math::wrap_pi(if relative { now + signed } else { angle });
+    Some(Request::Turn(Turn { yaw_rad, rate_rad_s, clockwise }))
 }
 
 fn home(c: &Command, x: &Context) -> Option<Request> {
-    if c.is_one(0) {
+    let unnamed = x.view.flavour.zero_is_here && c.p[4] == 0.0 && c.p[5] == 0.0;
+    if c.is_one(0) || unnamed {
         return x.view.estimate.position_valid.then_some(Request::SetHome(x.view.estimate.position_m));
     }
     let (lat, lon, alt) = (c.given(4)?, c.given(5)?, c.given(6)?);
@@ -270,6 +306,7 @@ fn home(c: &Command, x: &Context) -> Option<Request> {
 }
 
 fn checks(x: &mut Context) -> MavResult {
+    *x.report = true;
     let reasons = x.view.status.arming_reasons.clone();
     for reason in &reasons {
         x.tell(&format!("{}{reason}", x.view.flavour.check_words));

@@ -76,10 +76,10 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut Context) -
     if COUNTED.contains(&id) && index.is_finite() && !matches!(index, 0.0 | 1.0) {
         return DENIED;
     }
-    let rows: Vec<usize> = addressed(id, component).collect();
+    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_spoken(x.view.flavour)).collect();
     let mut said = false;
     for row in rows {
-        if let Some(message) = (STREAMS[row].build)(&x.view) {
+        if let Some(message) = STREAMS[row].build(&x.view) {
             x.answer(STREAMS[row].component, &message);
             said = true;
         }
@@ -137,7 +137,7 @@ fn modes(index: f64, x: &mut Context) -> MavResult {
 }
 
 fn set_interval(id: u32, us: f64, component: u8, x: &mut Context) -> MavResult {
-    let rows: Vec<usize> = addressed(id, component).collect();
+    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_spoken(x.view.flavour)).collect();
     if rows.is_empty() {
         return x.view.flavour.refusals.interval;
     }

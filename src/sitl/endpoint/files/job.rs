@@ -3,6 +3,14 @@
 use super::path::FilePath;
 use crate::mav::ftp::Refusal;
 
+/// Bytes of a file that one job sums up: less than a tenth of a millisecond of a processor (estimate, `crc32fast`), so that no tick waits
+/// for a long file.
+pub const CHECKSUM_SLICE: u32 = 131_072;
+/// The longest file that is summed up, bytes: 8,192 slices, some 8 s of simulation time.
+pub const CHECKSUM_MAX: u32 = 8_192 * CHECKSUM_SLICE;
+/// A listing looks at every name in a directory; it counts as so many jobs.
+const LISTING_COST: u32 = 8;
+
 /// Work on files.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Job {
@@ -35,8 +43,23 @@ pub enum Action {
     Truncate(FilePath, u32),
     /// Renames the first to the second, which must not be there.
     Rename(FilePath, FilePath),
-    /// [`crate::mav::ftp::checksum`] over a whole file.
-    Checksum(FilePath),
+    /// [`crate::mav::ftp::checksum`] over at most [`CHECKSUM_SLICE`] bytes of a file.
+    Checksum {
+        /// The file.
+        path: FilePath,
+        /// Where the slice begins, bytes.
+        from: u32,
+        /// The sum over what lies before it.
+        sum: u32,
+    },
+}
+
+impl Action {
+    /// What it takes out of the ticks' [`super::allowance::Allowance`].
+    #[must_use]
+    pub fn cost(&self) -> u32 {
+        if matches!(self, Self::List(_)) { LISTING_COST } else { 1 }
+    }
 }
 
 /// One thing in a directory.
@@ -58,7 +81,12 @@ pub enum Done {
     /// Of [`Action::Read`].
     Bytes(Vec<u8>),
     /// Of [`Action::Checksum`].
-    Checksum(u32),
+    Checksum {
+        /// The sum up to the slice's end.
+        sum: u32,
+        /// Bytes of the slice; fewer than a whole one at the end of the file.
+        bytes: u32,
+    },
     /// Of everything else.
     Nothing,
 }

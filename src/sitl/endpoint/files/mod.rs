@@ -1,5 +1,8 @@
 //! The MAVLink FTP server, sans-IO: packets in, packets out, and jobs for whoever holds the files.
 
+pub mod allowance;
+mod answered;
+mod burst;
 pub mod job;
 pub mod path;
 mod session;
@@ -7,7 +10,9 @@ mod session;
 use super::LinkId;
 use crate::base::time::SimTime;
 use crate::mav::ftp::{ACK, DATA_MAX, Opcode, Packet, Refusal, checksum};
-use job::{Action, Done, Entry, FileError, Job};
+use answered::Answered;
+use burst::Bursts;
+use job::{Action, CHECKSUM_MAX, CHECKSUM_SLICE, Done, Entry, FileError, Job};
 use path::FilePath;
 use session::Sessions;
 use std::collections::{BTreeMap, VecDeque};
@@ -16,14 +21,12 @@ use std::sync::Arc;
 /// Who asks: over which link, system, component.
 pub type Client = (LinkId, (u8, u8));
 
-/// Jobs that may wait; a client that asks for more without waiting for answers is refused.
+/// Jobs that may wait, of all clients and of one. A request beyond that counts as lost on its way, as ArduPilot does it: its client asks
+/// again.
 const JOBS_MAX: usize = 64;
-/// Clients whose last answer is kept for a repetition.
-const CLIENTS_MAX: usize = 64;
+const JOBS_EACH: usize = 32;
 /// Packets of one burst; the client then asks for the next.
 const BURST_PACKETS: u32 = 128;
-/// Burst packets a tick, all clients together: at 1000 ticks a second some 240 kB/s, less than a local link takes.
-const PACKETS_A_TICK: usize = 1;
 
 /// The server.
 #[derive(Debug, Clone, Default)]
@@ -36,9 +39,9 @@ pub struct Server {
     waiting: BTreeMap<u64, Waiting>,
     jobs: VecDeque<Job>,
     tickets: u64,
-    last: BTreeMap<Client, (Packet, Packet)>,
+    answered: Answered,
     answers: VecDeque<(Client, Packet)>,
-    bursts: VecDeque<(Client, Packet)>,
+    bursts: Bursts,
 }
 
 /// A request whose job is under way.
@@ -47,6 +50,8 @@ struct Waiting {
     client: Client,
     request: Packet,
     opens: Option<(FilePath, bool)>,
+    /// Bytes of a checksum so far.
+    summed: u32,
 }
 
 impl Server {
@@ -65,10 +70,16 @@ impl Server {
     /// A client is gone.
     pub fn forget(&mut self, link: LinkId) {
         self.sessions.end_where(|client| client.0 == link);
-        self.last.retain(|client, _| client.0 != link);
-        self.bursts.retain(|(client, _)| client.0 != link);
+        self.answered.forget(link);
+        self.bursts.end_where(|client| client.0 == link);
         self.answers.retain(|(client, _)| client.0 != link);
         self.waiting.retain(|_, waiting| waiting.client.0 != link);
+    }
+
+    /// The action of the next job.
+    #[must_use]
+    pub fn next_action(&self) -> Option<&Action> {
+        self.jobs.front().map(|job| &job.action)
     }
 
     /// The next job.
@@ -79,28 +90,25 @@ impl Server {
     /// Answers that may go out in this tick: all but bursts at once, bursts a few at a time on links that are ready for them.
     pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(Client, Packet)> {
         let mut out: Vec<_> = self.answers.drain(..).collect();
-        for _ in 0..PACKETS_A_TICK {
-            let Some(place) = self.bursts.iter().position(|(client, _)| ready(&client.0)) else { break };
-            out.extend(self.bursts.remove(place));
-        }
+        out.extend(self.bursts.poll(ready));
         out
     }
 
     /// True for a request that was heard before; its answer, if there is one by now, was lost and goes out again, without doing the work
     /// twice.
-    fn is_again(&mut self, client: Client, request: &Packet) -> bool {
-        if let Some((asked, answer)) = self.last.get(&client)
-            && asked == request
-        {
+    fn is_again(&mut self, client: Client, request: &Packet, now: SimTime) -> bool {
+        if let Some(answer) = self.answered.to(client, request) {
             self.answers.push_back((client, answer.clone()));
             return true;
         }
-        self.waiting.values().any(|waiting| waiting.client == client && waiting.request == *request)
+        self.bursts.is_under_way(client, request)
+            || self.sessions.is_repetition(client, request, now)
+            || self.waiting.values().any(|waiting| waiting.client == client && waiting.request == *request)
     }
 
     /// Opens a file whose content is made for this session alone: what others do meanwhile changes nothing in it.
     pub fn open_made(&mut self, client: Client, request: &Packet, content: Vec<u8>, now: SimTime) {
-        if self.is_again(client, request) {
+        if self.is_again(client, request, now) {
             return;
         }
         self.sessions.expire(now);
@@ -108,14 +116,14 @@ impl Server {
         let path = request.sized().and_then(FilePath::of).map(|path| (path, false));
         let answer = self.opened(client, request, path, size, now);
         if answer.opcode == ACK {
-            self.sessions.hold(answer.session, content.into());
+            self.sessions.hold(client, answer.session, content.into());
         }
         self.say(client, request, answer);
     }
 
     /// A request came in.
     pub fn receive(&mut self, client: Client, request: &Packet, now: SimTime) {
-        if self.is_again(client, request) {
+        if self.is_again(client, request, now) {
             return;
         }
         self.sessions.expire(now);
@@ -132,7 +140,10 @@ impl Server {
 
     /// A job is done.
     pub fn done(&mut self, ticket: u64, outcome: Result<Done, FileError>, now: SimTime) {
-        let Some(Waiting { client, request, opens }) = self.waiting.remove(&ticket) else { return };
+        if self.goes_on(ticket, &outcome) {
+            return;
+        }
+        let Some(Waiting { client, request, opens, .. }) = self.waiting.remove(&ticket) else { return };
         let outcome = if request.opcode == Opcode::ListDirectory as u8 { self.with_made_up(&request, outcome) } else { outcome };
         let answer = match outcome {
             Err(error) => request.refuse(error.refusal()),
@@ -142,7 +153,9 @@ impl Server {
             }
             Ok(Done::Bytes(bytes)) if bytes.is_empty() => request.refuse(Refusal::EndOfFile),
             Ok(Done::Bytes(bytes)) => request.acknowledge(&bytes),
-            Ok(Done::Checksum(sum)) => request.acknowledge(&sum.to_le_bytes()),
+            // The rest of a longer file was left out: a sum over a part would be a wrong one.
+            Ok(Done::Checksum { bytes, .. }) if bytes >= CHECKSUM_SLICE => request.refuse(Refusal::Fail),
+            Ok(Done::Checksum { sum, .. }) => request.acknowledge(&sum.to_le_bytes()),
             Ok(Done::Size(_) | Done::Nothing) if opens.is_some() => {
                 let size = if let Ok(Done::Size(size)) = outcome { size } else { 0 };
                 self.opened(client, &request, opens, size, now)
@@ -153,6 +166,20 @@ impl Server {
         self.say(client, &request, answer);
     }
 
+    /// A checksum has not come to the end of its file: its next slice waits behind the jobs of others.
+    fn goes_on(&mut self, ticket: u64, outcome: &Result<Done, FileError>) -> bool {
+        let Some(waiting) = self.waiting.get_mut(&ticket) else { return false };
+        let Ok(Done::Checksum { sum, bytes }) = outcome else { return false };
+        waiting.summed = waiting.summed.saturating_add(*bytes);
+        if *bytes < CHECKSUM_SLICE || waiting.summed > CHECKSUM_MAX {
+            return false;
+        }
+        let Some(path) = waiting.request.sized().and_then(FilePath::of) else { return false };
+        let action = Action::Checksum { path, from: waiting.summed, sum: *sum };
+        self.jobs.push_back(Job { ticket, action });
+        true
+    }
+
     fn act(&mut self, client: Client, request: &Packet) -> Result<Act, Refusal> {
         let data = request.sized().ok_or(Refusal::InvalidDataSize)?;
         let opcode = Opcode::of(request.opcode).ok_or(Refusal::UnknownCommand)?;
@@ -161,19 +188,19 @@ impl Server {
             Opcode::None => Act::Answer(Vec::new()),
             Opcode::TerminateSession => {
                 self.sessions.end(client, request.session).ok_or(Refusal::InvalidSession)?;
-                self.bursts.retain(|(to, packet)| *to != client || packet.session != request.session);
+                self.bursts.end(client, request.session);
                 Act::Answer(Vec::new())
             }
             Opcode::ResetSessions => {
                 self.sessions.end_where(|owner| owner == client);
-                self.bursts.retain(|(to, _)| *to != client);
+                self.bursts.end_where(|owner| owner == client);
                 Act::Answer(Vec::new())
             }
             Opcode::ListDirectory => Act::Job(Action::List(path()?), None),
-            Opcode::OpenFileRo => self.open(client, path()?)?,
+            Opcode::OpenFileRo => self.open(client, request.session, path()?)?,
             Opcode::CreateFile | Opcode::OpenFileWo => {
                 let path = self.writable(path()?)?;
-                self.sessions.room(client)?;
+                self.sessions.room(client, request.session)?;
                 let action = if opcode == Opcode::CreateFile { Action::Create } else { Action::Size };
                 Act::Job(action(path.clone()), Some((path, true)))
             }
@@ -196,7 +223,7 @@ impl Server {
                 let path = path()?;
                 match self.made_up.get(&path) {
                     Some(content) => Act::Answer(checksum(0, content).to_le_bytes().to_vec()),
-                    None => Act::Job(Action::Checksum(path), None),
+                    None => Act::Job(Action::Checksum { path, from: 0, sum: 0 }, None),
                 }
             }
         };
@@ -208,15 +235,16 @@ impl Server {
         if path.is_root() || self.made_up.contains_key(&path) { Err(Refusal::FileProtected) } else { Ok(path) }
     }
 
-    fn open(&mut self, client: Client, path: FilePath) -> Result<Act, Refusal> {
-        self.sessions.room(client)?;
+    fn open(&mut self, client: Client, number: u8, path: FilePath) -> Result<Act, Refusal> {
+        self.sessions.room(client, number)?;
         Ok(Act::Job(Action::Size(path.clone()), Some((path, false))))
     }
 
     fn opened(&mut self, client: Client, request: &Packet, opens: Option<(FilePath, bool)>, size: u32, now: SimTime) -> Packet {
         let Some((path, writes)) = opens else { return request.refuse(Refusal::Fail) };
-        match self.sessions.begin(client, path, writes, now) {
-            Ok(session) => Packet { session, ..request.acknowledge(&size.to_le_bytes()) },
+        self.bursts.end(client, request.session);
+        match self.sessions.begin(client, request, path, writes, now) {
+            Ok(()) => request.acknowledge(&size.to_le_bytes()),
             Err(why) => request.refuse(why),
         }
     }
@@ -231,31 +259,32 @@ impl Server {
         })
     }
 
-    /// One stream of packets, and the end of the file where it ends.
+    /// One stream of packets. The last one ends it, also at the end of the file: a refusal behind it would make a client that has lost the
+    /// last packet give up (MAVSDK 4). Only a request at the end of the file is refused.
     fn burst(&mut self, client: Client, request: &Packet, bytes: &[u8]) {
-        let chunk = chunk(request);
-        self.bursts.retain(|(to, packet)| *to != client || packet.session != request.session);
-        let (mut offset, mut asked) = (request.offset, request.clone());
-        for piece in bytes.chunks(chunk as usize) {
-            let packet = Packet { offset, ..asked.acknowledge(piece) };
+        if bytes.is_empty() {
+            return self.say(client, request, request.refuse(Refusal::EndOfFile));
+        }
+        let (mut offset, mut asked, mut packets) = (request.offset, request.clone(), VecDeque::new());
+        for piece in bytes.chunks(chunk(request) as usize) {
+            packets.push_back(Packet { offset, ..asked.acknowledge(piece) });
             offset = offset.saturating_add(piece.len() as u32);
             asked.sequence = asked.sequence.wrapping_add(1);
-            self.bursts.push_back((client, packet));
         }
-        if bytes.len() < (BURST_PACKETS * chunk) as usize {
-            self.bursts.push_back((client, Packet { offset, ..asked.refuse(Refusal::EndOfFile) }));
-        } else if let Some((_, last)) = self.bursts.back_mut() {
+        if let Some(last) = packets.back_mut() {
             last.burst_complete = true;
         }
+        self.bursts.begin(client, request, packets);
     }
 
     fn ask(&mut self, client: Client, request: &Packet, action: Action, opens: Option<(FilePath, bool)>, now: SimTime) {
-        if self.waiting.len() >= JOBS_MAX {
-            return self.say(client, request, request.refuse(Refusal::Fail));
+        let own = self.waiting.values().filter(|waiting| waiting.client == client).count();
+        if self.waiting.len() >= JOBS_MAX || own >= JOBS_EACH {
+            return;
         }
         self.tickets += 1;
         let ticket = self.tickets;
-        self.waiting.insert(ticket, Waiting { client, request: request.clone(), opens });
+        self.waiting.insert(ticket, Waiting { client, request: request.clone(), opens, summed: 0 });
         if let Some(outcome) = self.by_itself(&action) {
             self.done(ticket, outcome, now);
             return;
@@ -305,10 +334,7 @@ impl Server {
     }
 
     fn say(&mut self, client: Client, request: &Packet, answer: Packet) {
-        if self.last.len() >= CLIENTS_MAX && !self.last.contains_key(&client) {
-            self.last.pop_first();
-        }
-        self.last.insert(client, (request.clone(), answer.clone()));
+        self.answered.keep(client, request, &answer);
         self.answers.push_back((client, answer));
     }
 }

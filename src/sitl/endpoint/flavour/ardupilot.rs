@@ -3,60 +3,83 @@
 
 use super::px4::FORCE;
 use super::{COMMON, Flavour, ModeRow, Refusals};
-use crate::mav::dialect::{MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavStandardMode as S, MavState};
-use crate::sitl::autopilot::{Landed, Mode};
+use crate::mav::dialect::{
+    MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode as S, MavState, MavVtolState,
+};
+use crate::sitl::autopilot::senses::{Sensor, SensorChange, SensorFault};
+use crate::sitl::autopilot::{Landed, Mode, Request};
 use crate::sitl::endpoint::Context;
+use crate::sitl::endpoint::calibration;
 use crate::sitl::endpoint::commands::Command;
 use crate::sitl::endpoint::params::face;
 use crate::sitl::endpoint::view::View;
 
-/// Copter's number of the mode that flies errands.
+/// Copter's numbers of the modes that fly errands, hold for NAV_LOITER_UNLIM, and land by the mission's landing sequence.
 const GUIDED: u32 = 4;
+const LOITER: u32 = 5;
+const AUTO_RTL: u32 = 27;
 const BASE: F =
     F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STABILIZE_ENABLED).union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
 const PLACED: F = BASE.union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
 
-const fn row(number: u32, mode: Mode, name: &'static str, standard: S, base: F) -> ModeRow {
-    ModeRow { number, mode, covers: &[], name, standard, base, auto: false, selectable: true, armable: true }
+const fn row(number: u32, mode: Mode, name: &'static str, base: F) -> ModeRow {
+    ModeRow {
+        number,
+        mode,
+        request: Request::SetMode(mode),
+        unattended: None,
+        only_chosen: false,
+        covers: &[],
+        name,
+        standard: S::MAV_STANDARD_MODE_NON_STANDARD,
+        base,
+        auto: false,
+        selectable: true,
+        armable: true,
+    }
 }
 
 impl ModeRow {
-    const fn by_itself(mut self) -> Self {
-        self.auto = true;
-        self
-    }
-
     const fn not_armable(mut self) -> Self {
         self.armable = false;
         self
     }
 
-    const fn covering(mut self, modes: &'static [Mode]) -> Self {
-        self.covers = modes;
+    const fn only_chosen(mut self) -> Self {
+        self.only_chosen = true;
         self
     }
 
-    const fn unoffered(mut self) -> Self {
-        self.selectable = false;
+    /// Holds while it is armed and no sticks are there, under its own number.
+    const fn holds_unattended(mut self) -> Self {
+        self.unattended = Some(Mode::Hold);
+        self.covering(&[Mode::Hold])
+    }
+
+    const fn entered_by(mut self, request: Request) -> Self {
+        self.request = request;
         self
     }
 }
 
-/// Copter's numbers, with the names that QGroundControl knows them by. LOITER and POSHOLD are the same to us.
+/// Order, numbers and names of ArduCopter's AVAILABLE_MODES (GCS_MAVLink_Copter.cpp, send_available_mode; mode.h), without the modes that are not
+/// flown here. It names no standard modes and no properties. LOITER and POSHOLD fly alike.
 const MODES: &[ModeRow] = &[
-    row(0, Mode::Stabilized, "Stabilize", S::MAV_STANDARD_MODE_NON_STANDARD, BASE),
-    row(2, Mode::Altitude, "Altitude Hold", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, BASE),
-    row(5, Mode::Position, "Loiter", S::MAV_STANDARD_MODE_POSITION_HOLD, PLACED),
-    row(16, Mode::Position, "Position Hold", S::MAV_STANDARD_MODE_NON_STANDARD, PLACED),
-    // Armable, where ArduPilot's is not: without sticks the modes by hand are armed into it, and a landing ends in it.
-    row(17, Mode::Hold, "Brake", S::MAV_STANDARD_MODE_NON_STANDARD, PLACED).by_itself(),
-    row(GUIDED, Mode::Hold, "Guided", S::MAV_STANDARD_MODE_NON_STANDARD, PLACED)
-        .by_itself()
-        .covering(&[Mode::Takeoff, Mode::Offboard]),
-    row(3, Mode::Mission, "Auto", S::MAV_STANDARD_MODE_MISSION, PLACED).by_itself().not_armable(),
-    row(6, Mode::Return, "RTL", S::MAV_STANDARD_MODE_SAFE_RECOVERY, PLACED).by_itself().not_armable(),
-    row(9, Mode::Land, "Land", S::MAV_STANDARD_MODE_LAND, PLACED).by_itself().not_armable(),
-    row(7, Mode::Orbit, "Circle", S::MAV_STANDARD_MODE_ORBIT, PLACED).by_itself().not_armable().unoffered(),
+    row(AUTO_RTL, Mode::Mission, "AUTO RTL", PLACED).entered_by(Request::LandingSequence).not_armable().only_chosen(),
+    row(3, Mode::Mission, "AUTO", PLACED).not_armable(),
+    row(1, Mode::Acro, "ACRO", BASE),
+    row(0, Mode::Stabilized, "STABILIZE", BASE),
+    row(2, Mode::Altitude, "ALT_HOLD", BASE),
+    row(7, Mode::Orbit, "CIRCLE", PLACED).entered_by(Request::CircleAhead).not_armable(),
+    row(LOITER, Mode::Position, "LOITER", PLACED).holds_unattended(),
+    row(GUIDED, Mode::Hold, "GUIDED", PLACED).covering(&[Mode::Takeoff, Mode::Offboard]).only_chosen(),
+    row(9, Mode::Land, "LAND", PLACED).not_armable(),
+    row(6, Mode::Return, "RTL", PLACED).not_armable(),
+    row(16, Mode::Position, "POSHOLD", PLACED).holds_unattended(),
+    // Armable, where ArduPilot's is not: without sticks the other modes by hand are armed into it, and a landing ends in it.
+    row(17, Mode::Hold, "BRAKE", PLACED),
+    row(21, Mode::SmartReturn, "SMARTRTL", PLACED).not_armable(),
+    row(23, Mode::Follow, "FOLLOW", PLACED).not_armable(),
 ];
 
 /// ArduPilot's interface. The version is a development one of the series whose parameter names are used.
@@ -84,6 +107,7 @@ pub static FLAVOUR: Flavour = Flavour {
     },
     arm_words: Some("Arm: "),
     check_words: "PreArm: ",
+    sensor_words,
     mode_words: |row, why| format!("Mode change to {} failed: {why}", row.name.to_uppercase()),
     banner: &[
         concat!("ArduCopter V4.6.0-dev (Spandrel ", env!("CARGO_PKG_VERSION"), ")"),
@@ -93,19 +117,30 @@ pub static FLAVOUR: Flavour = Flavour {
     asks_first: true,
     groups: &[
         (1, &[27, 105, 29]),
-        (2, &[1, 62, 42, 24, 162]),
+        (2, &[1, 125, 152, 62, 42, 24, 162]),
         (3, &[36, 65]),
         (6, &[33, 32]),
-        (10, &[30]),
+        (10, &[30, 164]),
         (11, &[74]),
-        (12, &[2, 147, 231, 241, 230, 132, 285]),
+        (12, &[163, 2, 168, 193, 147, 231, 241, 230, 132, 285]),
     ],
+    dialect_of_ardupilot: true,
+    calibration: calibration::Words::ArduPilot,
+    shell: false,
+    events: false,
+    loiters: Some(LOITER),
+    offsets: true,
+    thrust_climbs: true,
+    pauses: true,
+    vtol_state: MavVtolState::MAV_VTOL_STATE_MC,
     splines: true,
+    zero_is_here: true,
     home_item: true,
     float_items: true,
     params: &face::COPTER,
     tune: |tuning| {
         tuning.setpoints_end = true;
+        tuning.takeoff_at_climb_speed = true;
         tuning.arm_throttle_down = true;
         tuning.first_item = 1;
         tuning.fence_switch_stays = true;
@@ -152,4 +187,17 @@ fn from_guided(c: &Command, x: &mut Context) -> Result<Option<f64>, MavResult> {
         x.tell("Take-off height: above 0, at most 500 m over home");
     }
     height.map(Some).ok_or(FAILED)
+}
+
+/// ArduCopter announces a receiver that contradicts the filter as a glitch; barometer and compass by number, as its checks name them.
+fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
+    let text = match (change.sensor, change.fault) {
+        (_, Some(SensorFault::Silent)) => return None,
+        (Sensor::Gnss, Some(_)) => "GPS Glitch or Compass error",
+        (Sensor::Gnss, None) => "Glitch cleared",
+        (Sensor::Compass, Some(_)) => "Compass 1 not healthy",
+        (Sensor::Barometer, Some(_)) => "Baro 1 not healthy",
+        (_, None) => return None,
+    };
+    Some((MavSeverity::MAV_SEVERITY_CRITICAL, text.to_owned()))
 }

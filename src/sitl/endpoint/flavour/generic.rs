@@ -3,8 +3,9 @@
 
 use super::px4::{self, row};
 use super::{COMMON, Flavour, ModeRow, plain};
-use crate::mav::dialect::{MavAutopilot, MavProtocolCapability, MavStandardMode as S};
+use crate::mav::dialect::{MavAutopilot, MavProtocolCapability, MavStandardMode as S, MavVtolState};
 use crate::sitl::autopilot::Mode;
+use crate::sitl::endpoint::calibration;
 use crate::sitl::endpoint::params::face;
 
 const MODES: &[ModeRow] = &[
@@ -12,11 +13,11 @@ const MODES: &[ModeRow] = &[
     row(Mode::Altitude, (2, 0), "Altitude hold", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, false, true),
     row(Mode::Takeoff, (4, 2), "Take-off", S::MAV_STANDARD_MODE_TAKEOFF, true, true),
     row(Mode::Mission, (4, 4), "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
-    row(Mode::Return, (4, 5), "Safe recovery", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true),
+    row(Mode::Return, (4, 5), "Safe recovery", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true).covering(&[Mode::SmartReturn]),
     row(Mode::Land, (4, 6), "Land", S::MAV_STANDARD_MODE_LAND, true, true),
     row(Mode::Orbit, (3, 1), "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
-    row(Mode::Hold, (4, 3), "Hold", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
-    row(Mode::Stabilized, (7, 0), "Stabilized", S::MAV_STANDARD_MODE_NON_STANDARD, false, false),
+    row(Mode::Hold, (4, 3), "Hold", S::MAV_STANDARD_MODE_NON_STANDARD, true, false).covering(&[Mode::Follow]),
+    row(Mode::Stabilized, (7, 0), "Stabilized", S::MAV_STANDARD_MODE_NON_STANDARD, false, false).covering(&[Mode::Acro]),
     row(Mode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
 ];
 
@@ -38,11 +39,22 @@ pub static FLAVOUR: Flavour = Flavour {
     refusals: px4::REFUSALS,
     arm_words: None,
     check_words: "Preflight Fail: ",
+    sensor_words: |_| None,
     mode_words: plain,
     banner: &[],
     asks_first: false,
     groups: px4::GROUPS,
+    dialect_of_ardupilot: false,
+    calibration: calibration::Words::Px4,
+    shell: false,
+    events: false,
+    loiters: None,
+    offsets: false,
+    thrust_climbs: false,
+    pauses: false,
+    vtol_state: MavVtolState::MAV_VTOL_STATE_UNDEFINED,
     splines: false,
+    zero_is_here: false,
     home_item: false,
     float_items: false,
     params: &face::GENERIC,

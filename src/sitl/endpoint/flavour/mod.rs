@@ -5,12 +5,16 @@ pub mod ardupilot;
 pub mod generic;
 pub mod px4;
 
+use super::calibration::Words;
 use super::commands::Command;
 use super::params::Face;
 use super::view::View;
 use super::{Context, LinkKind};
 use crate::base::time::SimTime;
-use crate::mav::dialect::{MavAutopilot, MavModeFlag, MavProtocolCapability, MavResult, MavStandardMode, MavState};
+use crate::mav::dialect::{
+    MavAutopilot, MavModeFlag, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode, MavState, MavVtolState,
+};
+use crate::sitl::autopilot::senses::SensorChange;
 use crate::sitl::autopilot::{Autopilot, Mode, Outcome, Request, Tuning};
 
 /// One mode as clients of a flavour know it.
@@ -20,6 +24,12 @@ pub struct ModeRow {
     pub number: u32,
     /// The mode of ours that is entered by it.
     pub mode: Mode,
+    /// The request that enters it.
+    pub request: Request,
+    /// Flown in its place while it is armed and no sticks are there.
+    pub unattended: Option<Mode>,
+    /// It is shown only after it was asked for by its number.
+    pub only_chosen: bool,
     /// Other modes of ours that clients see under the same number.
     pub covers: &'static [Mode],
     /// Display name.
@@ -37,6 +47,12 @@ pub struct ModeRow {
 }
 
 impl ModeRow {
+    /// Shown for other modes of ours as well.
+    const fn covering(mut self, modes: &'static [Mode]) -> Self {
+        self.covers = modes;
+        self
+    }
+
     fn shows(&self, mode: Mode) -> bool {
         self.mode == mode || self.covers.contains(&mode)
     }
@@ -96,6 +112,8 @@ pub struct Flavour {
     pub arm_words: Option<&'static str>,
     /// Begins each reason that RUN_PREARM_CHECKS tells.
     pub check_words: &'static str,
+    /// A sensor that has failed or is back, as the autopilot announces it, with its severity; `None`: the event's own words.
+    pub sensor_words: fn(SensorChange) -> Option<(MavSeverity, String)>,
     /// A refused change of mode in words.
     pub mode_words: fn(&ModeRow, String) -> String,
     /// Who it is, told with the parameters and by DO_SEND_BANNER; empty: nobody asks.
@@ -104,11 +122,31 @@ pub struct Flavour {
     pub asks_first: bool,
     /// REQUEST_DATA_STREAM: groups and the messages in them.
     pub groups: &'static [(u8, &'static [u32])],
+    /// Messages of ArduPilot's own dialect are spoken.
+    pub dialect_of_ardupilot: bool,
+    /// Whose texts report a calibration.
+    pub calibration: Words,
+    /// SERIAL_CONTROL opens a shell.
+    pub shell: bool,
+    /// Arming checks and health are reported as events.
+    pub events: bool,
+    /// Number of the mode that NAV_LOITER_UNLIM enters; `None`: the mode that holds.
+    pub loiters: Option<u32>,
+    /// Positions of set-points in frames that move with the vehicle count from where it is; otherwise they have no meaning.
+    pub offsets: bool,
+    /// The thrust of an attitude set-point is a climb rate.
+    pub thrust_climbs: bool,
+    /// DO_PAUSE_CONTINUE pauses what is flown; otherwise it ends in a hold.
+    pub pauses: bool,
+    /// EXTENDED_SYS_STATE.vtol_state.
+    pub vtol_state: MavVtolState,
     /// NAV_SPLINE_WAYPOINT is taken in missions; it is flown as a waypoint.
     pub splines: bool,
+    /// 0, 0 as a place in an item of a mission and in DO_SET_HOME is where the vehicle is then, and 0 as an item's height is its height.
+    pub zero_is_here: bool,
     /// Item 0 of a mission is home.
     pub home_item: bool,
-    /// MISSION_REQUEST is answered with MISSION_ITEM.
+    /// MISSION_REQUEST is answered with MISSION_ITEM, and items of an upload are asked for by MISSION_REQUEST.
     pub float_items: bool,
     /// The parameters as clients see them.
     pub params: &'static Face,
@@ -127,7 +165,7 @@ impl Flavour {
     /// The usual row of a mode.
     #[must_use]
     pub fn usual(&self, mode: Mode) -> &'static ModeRow {
-        let enters = self.modes.iter().find(|row| row.mode == mode);
+        let enters = self.modes.iter().find(|row| row.mode == mode && !row.only_chosen);
         // Every mode is shown by some row: a test looks.
         enters.or_else(|| self.modes.iter().find(|row| row.shows(mode))).unwrap_or(&self.modes[0])
     }
@@ -148,7 +186,9 @@ impl Flavour {
     pub fn enter(&self, row: &ModeRow, chosen: &mut u32, autopilot: &mut Autopilot, now: SimTime) -> Outcome {
         let before = autopilot.status().mode;
         let from = self.row_of(before, *chosen).number;
-        let outcome = autopilot.request(Request::SetMode(row.mode), now);
+        let unattended = row.unattended.filter(|_| autopilot.is_unattended(now));
+        let request = unattended.map_or(row.request, Request::SetMode);
+        let outcome = autopilot.request(request, now);
         if outcome != Outcome::Accepted {
             return match outcome {
                 Outcome::TemporarilyRejected(why) => Outcome::TemporarilyRejected((self.mode_words)(row, why)),
@@ -158,7 +198,7 @@ impl Flavour {
             };
         }
         *chosen = row.number;
-        if before == Mode::Hold && row.mode == Mode::Hold && from != row.number {
+        if before == Mode::Hold && autopilot.status().mode == Mode::Hold && from != row.number {
             // The same to the autopilot, which would fly on to the place of the mode before; refused on the ground, where nothing flies.
             autopilot.request(Request::GoTo { north_east_m: None, up_m: None, yaw_rad: None, speed_m_s: None }, now);
         }
@@ -203,7 +243,7 @@ fn plain(_: &ModeRow, why: String) -> String {
 mod tests {
     use super::*;
 
-    const ALL: [Mode; 10] = [
+    const ALL: [Mode; 13] = [
         Mode::Stabilized,
         Mode::Altitude,
         Mode::Position,
@@ -214,6 +254,9 @@ mod tests {
         Mode::Mission,
         Mode::Offboard,
         Mode::Orbit,
+        Mode::Acro,
+        Mode::SmartReturn,
+        Mode::Follow,
     ];
 
     #[test]
@@ -239,6 +282,8 @@ mod tests {
         }
         assert_eq!(copter.row_of(Mode::Position, 4).number, 5);
         assert_eq!(copter.row_of(Mode::Position, 16).number, 16);
-        assert_eq!(copter.row_of(Mode::Hold, 5).number, 17, "a hold that nobody asked for is a brake");
+        assert_eq!(copter.row_of(Mode::Hold, 3).number, 17, "a hold that nobody asked for is a brake");
+        assert_eq!(copter.row_of(Mode::Hold, 5).number, 5, "LOITER holds without sticks");
+        assert_eq!((copter.usual(Mode::Mission).number, copter.row_of(Mode::Mission, 27).number), (3, 27));
     }
 }

@@ -1,9 +1,13 @@
 //! PX4's interface: custom_mode is main mode in bits 16 to 23, sub mode in bits 24 to 31 (mavlink.md; read off a real PX4).
 
 use super::{COMMON, Flavour, ModeRow, Refusals, plain};
-use crate::mav::dialect::{MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavStandardMode as S, MavState};
-use crate::sitl::autopilot::Mode;
+use crate::mav::dialect::{
+    MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode as S, MavState, MavVtolState,
+};
+use crate::sitl::autopilot::senses::{Sensor, SensorChange, SensorFault};
+use crate::sitl::autopilot::{Mode, Request};
 use crate::sitl::endpoint::Context;
+use crate::sitl::endpoint::calibration;
 use crate::sitl::endpoint::commands::Command;
 use crate::sitl::endpoint::params::face;
 use crate::sitl::endpoint::view::View;
@@ -24,6 +28,9 @@ pub(super) const fn row(
     ModeRow {
         number: (main as u32) << 16 | (sub as u32) << 24,
         mode,
+        request: Request::SetMode(mode),
+        unattended: None,
+        only_chosen: false,
         covers: &[],
         name,
         standard,
@@ -41,10 +48,12 @@ const MODES: &[ModeRow] = &[
     row(Mode::Hold, (4, 3), "Hold", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
     row(Mode::Takeoff, (4, 2), "Takeoff", S::MAV_STANDARD_MODE_TAKEOFF, true, true),
     row(Mode::Mission, (4, 4), "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
-    row(Mode::Return, (4, 5), "Return", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true),
+    row(Mode::Return, (4, 5), "Return", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true).covering(&[Mode::SmartReturn]),
     row(Mode::Land, (4, 6), "Land", S::MAV_STANDARD_MODE_LAND, true, true),
     row(Mode::Orbit, (3, 1), "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
     row(Mode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
+    row(Mode::Follow, (4, 8), "Follow Me", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
+    row(Mode::Acro, (5, 0), "Acro", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
 ];
 /// Bits of main and sub mode.
 pub(super) const MODE_BITS: u32 = 0xFFFF_0000;
@@ -69,11 +78,22 @@ pub static FLAVOUR: Flavour = Flavour {
     refusals: REFUSALS,
     arm_words: None,
     check_words: "Preflight Fail: ",
+    sensor_words,
     mode_words: plain,
     banner: &[],
     asks_first: false,
     groups: GROUPS,
+    dialect_of_ardupilot: false,
+    calibration: calibration::Words::Px4,
+    shell: true,
+    events: true,
+    loiters: None,
+    offsets: false,
+    thrust_climbs: false,
+    pauses: false,
+    vtol_state: MavVtolState::MAV_VTOL_STATE_UNDEFINED,
     splines: false,
+    zero_is_here: false,
     home_item: false,
     float_items: false,
     params: &face::PX4,
@@ -132,4 +152,19 @@ pub(super) fn over_sea(c: &Command, x: &mut Context) -> Result<Option<f64>, MavR
     } else {
         Ok(Some(height_m).filter(|h| *h >= LOWEST_M))
     }
+}
+
+/// PX4 announces a failed sensor with its kind and reason ("BARO #0 failed: STALE!"); a lost one is announced in our own words.
+fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
+    let reason = match change.fault? {
+        SensorFault::Silent => return None,
+        SensorFault::Stuck => "STALE",
+        SensorFault::Inconsistent => "INCONSISTENT",
+    };
+    let kind = match change.sensor {
+        Sensor::Compass => "MAG",
+        Sensor::Barometer => "BARO",
+        Sensor::Gnss => "GPS",
+    };
+    Some((MavSeverity::MAV_SEVERITY_EMERGENCY, format!("{kind} #0 failed: {reason}!")))
 }

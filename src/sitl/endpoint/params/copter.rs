@@ -2,14 +2,15 @@
 //! numbers. Where one of ours is behind a name, it acts; what this vehicle has no use for tells how it is and cannot be set.
 
 use super::Value::{self, Int, Real};
-use super::table::{Behind, ROWS, Row, row};
+use super::table::{self, Behind, ROWS, Row, row};
+use super::{copter_behavior, stored};
 use crate::mav::dialect::MavParamType;
 use std::sync::LazyLock;
 
-const INT8: MavParamType = MavParamType::MAV_PARAM_TYPE_INT8;
-const INT16: MavParamType = MavParamType::MAV_PARAM_TYPE_INT16;
-const INT32: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
-const REAL32: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
+pub(super) const INT8: MavParamType = MavParamType::MAV_PARAM_TYPE_INT8;
+pub(super) const INT16: MavParamType = MavParamType::MAV_PARAM_TYPE_INT16;
+pub(super) const INT32: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
+pub(super) const REAL32: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
 
 /// Where ArduPilot's patience differs from ours: overrides lapse after 3 s, guided set-points too, a ground station after 5 s.
 pub const DEFAULTS: &[(&str, Value)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_OF_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
@@ -30,24 +31,24 @@ const ONE: &[(i32, &str)] = &[(1, "As it is")];
 pub fn rows() -> &'static [Row] {
     static ALL: LazyLock<Vec<Row>> = LazyLock::new(|| {
         let shared = ROWS.iter().filter(|row| matches!(row.group, "Simulation" | "Joystick") || OURS.contains(&row.name));
-        let mut all: Vec<Row> = [acting(), fixed(), radio()].concat();
+        let mut all: Vec<Row> =
+            [acting(), copter_behavior::rows(), fixed(), radio(), circling_and_following(), mode_switch()].concat();
         all.extend(shared.copied());
-        all.sort_by_key(|row| row.name);
-        all
+        stored::complete(all, stored::COPTER)
     });
     &ALL
 }
 
 /// Our own, under our own names.
-const OURS: [&str; 2] = ["SPAN_FLAVOUR", "SYS_FAILURE_EN"];
+const OURS: [&str; 3] = ["SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
 
 fn ours(name: &str) -> &'static Row {
     // The names below are the table's: a test looks.
-    ROWS.iter().find(|row| row.name == name).unwrap_or(&ROWS[0])
+    table::rows().iter().find(|row| row.name == name).unwrap_or(&ROWS[0])
 }
 
 /// A row that shows one of ours times a factor.
-fn scaled(
+pub(super) fn scaled(
     name: &'static str,
     other: &'static str,
     factor: f64,
@@ -64,7 +65,7 @@ fn scaled(
 }
 
 /// A row whose numbers stand for other numbers of one of ours.
-fn mapped(
+pub(super) fn mapped(
     name: &'static str,
     other: &'static str,
     pairs: &'static [(i32, i32)],
@@ -128,15 +129,23 @@ fn acting() -> Vec<Row> {
 fn fixed() -> Vec<Row> {
     // Clients take zero for a sensor that was never calibrated; a simulated one has nothing to calibrate.
     let nominal = Real(0.001);
-    let mode = |name| told(name, Int(5), INT8, "FLTMODE", "Mode of a switch position; no mode switch is read");
-    let offset = |name| told(name, nominal, REAL32, "INS", "Offset of the accelerometer: nominal");
+    let offset = |name| told(name, nominal, REAL32, "INS", "Offset of the accelerometer: nominal").unit("m/s^2");
     let none = |name, wire, group| {
         let zero = if wire == REAL32 { Real(0.0) } else { Int(0) };
-        told(name, zero, wire, group, "There is only one")
+        let row = told(name, zero, wire, group, "There is only one");
+        if wire == REAL32 {
+            row.unit("mGauss")
+        } else if wire == INT8 {
+            row.values(OFF_ON)
+        } else {
+            row
+        }
     };
-    let compass = |name| told(name, nominal, REAL32, "COMPASS", "Offset of the compass: nominal");
+    let compass = |name| told(name, nominal, REAL32, "COMPASS", "Offset of the compass: nominal").unit("mGauss");
     vec![
-        told("ARMING_CHECK", Int(1), INT32, "ARMING", "Checks before arming: all, always").values(&[(1, "All")]),
+        row("ARMING_CHECK", Int(1), (0.0, 1_048_575.0), "", "ARMING", "Checks before arming; all are made")
+            .bits(&[(0, "All")])
+            .token(),
         told("ARMING_REQUIRE", Int(1), INT8, "ARMING", "Motors must be armed").values(ONE),
         row("BATT_CAPACITY", Int(0), (0.0, 1e6), "mAh", "BATT", "Capacity of the battery").read_only(),
         told("BATT_MONITOR", Int(4), INT8, "BATT", "Battery is measured by voltage and current")
@@ -161,13 +170,6 @@ fn fixed() -> Vec<Row> {
         compass("COMPASS_OFS_Z"),
         told("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "Number of the first compass"),
         told("COMPASS_USE", Int(1), INT8, "COMPASS", "The compass is used").values(ONE),
-        told("FLTMODE_CH", Int(0), INT8, "FLTMODE", "No channel switches modes"),
-        mode("FLTMODE1"),
-        mode("FLTMODE2"),
-        mode("FLTMODE3"),
-        mode("FLTMODE4"),
-        mode("FLTMODE5"),
-        mode("FLTMODE6"),
         told("FORMAT_VERSION", Int(120), INT16, "FORMAT", "Layout of the parameters"),
         told("FRAME_CLASS", Int(1), INT8, "FRAME", "Kind of frame").values(&[(1, "Quad")]),
         told("FRAME_TYPE", Int(1), INT8, "FRAME", "Shape of the frame").values(&[(1, "X")]),
@@ -176,6 +178,76 @@ fn fixed() -> Vec<Row> {
         offset("INS_ACCOFFS_Z"),
         told("INS_USE", Int(1), INT8, "INS", "The inertial sensor is used").values(ONE),
         told("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "The first relay is the lamp").values(&[(1, "Relay")]),
+    ]
+}
+
+/// Modes of a switch position, by ArduCopter's numbers.
+const SWITCHED: &[(i32, &str)] = &[
+    (0, "Stabilize"),
+    (1, "Acro"),
+    (2, "Altitude Hold"),
+    (3, "Auto"),
+    (4, "Guided"),
+    (5, "Loiter"),
+    (6, "RTL"),
+    (7, "Circle"),
+    (9, "Land"),
+    (16, "Position Hold"),
+    (17, "Brake"),
+    (21, "Smart RTL"),
+    (23, "Follow"),
+    (27, "Auto RTL"),
+];
+
+/// Channels that can switch modes: those that are no stick.
+const SWITCH_CHANNELS: &[(i32, &str)] = &[
+    (0, "Disabled"),
+    (5, "Channel 5"),
+    (6, "Channel 6"),
+    (7, "Channel 7"),
+    (8, "Channel 8"),
+    (9, "Channel 9"),
+    (10, "Channel 10"),
+    (11, "Channel 11"),
+    (12, "Channel 12"),
+    (13, "Channel 13"),
+    (14, "Channel 14"),
+    (15, "Channel 15"),
+    (16, "Channel 16"),
+];
+
+/// The mode switch of RC_CHANNELS_OVERRIDE.
+fn mode_switch() -> Vec<Row> {
+    let small = |mut row: Row| {
+        row.wire = INT8;
+        row
+    };
+    let position = |name| small(row(name, Int(5), (0.0, 27.0), "", "FLTMODE", "Mode of this switch position").values(SWITCHED));
+    let channel = row("FLTMODE_CH", Int(5), (0.0, 16.0), "", "FLTMODE", "Channel that switches modes").values(SWITCH_CHANNELS);
+    let mut out = vec![small(channel)];
+    out.extend(["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"].map(position));
+    out
+}
+
+/// Modes CIRCLE and FOLLOW, with ArduCopter's defaults.
+fn circling_and_following() -> Vec<Row> {
+    let whole = |name, default, high, wire, short| {
+        let mut out = row(name, Int(default), (0.0, high), "", "FOLL", short);
+        out.wire = wire;
+        out
+    };
+    let offset = |name, short| row(name, Real(0.0), (-100.0, 100.0), "m", "FOLL", short);
+    vec![
+        row("CIRCLE_RADIUS", Real(1_000.0), (0.0, 200_000.0), "cm", "CIRCLE", "Radius of the circle in mode Circle"),
+        row("CIRCLE_RATE", Real(20.0), (-90.0, 90.0), "deg/s", "CIRCLE", "Rate around the circle; positive: clockwise"),
+        whole("FOLL_ENABLE", 0, 1.0, INT8, "Mode Follow may be entered").values(OFF_ON),
+        whole("FOLL_SYSID", 0, 255.0, INT16, "System id of the target; 0: the first that reports its position"),
+        row("FOLL_DIST_MAX", Real(100.0), (1.0, 1_000.0), "m", "FOLL", "Targets farther away are not followed"),
+        whole("FOLL_OFS_TYPE", 0, 1.0, INT8, "Axes of the offset")
+            .values(&[(0, "North-East-Down"), (1, "Relative to lead vehicle heading")]),
+        offset("FOLL_OFS_X", "Offset to the north or forward; all zero: the offset at the start"),
+        offset("FOLL_OFS_Y", "Offset to the east or right"),
+        offset("FOLL_OFS_Z", "Offset down"),
     ]
 }
 
@@ -190,10 +262,10 @@ fn radio() -> Vec<Row> {
     let map = |name, channel| told(name, Int(channel), INT8, "RCMAP", "Channel of this stick");
     let mut out = vec![map("RCMAP_PITCH", 2), map("RCMAP_ROLL", 1), map("RCMAP_THROTTLE", 3), map("RCMAP_YAW", 4)];
     for [low, high, middle, reversed] in CHANNELS {
-        out.push(told(low, Int(1_000), INT16, "RC", "Pulse at the lower end, us"));
-        out.push(told(high, Int(2_000), INT16, "RC", "Pulse at the upper end, us"));
-        out.push(told(middle, Int(1_500), INT16, "RC", "Pulse in the middle, us"));
-        out.push(told(reversed, Int(0), INT8, "RC", "The channel is not reversed"));
+        out.push(told(low, Int(1_000), INT16, "RC", "Pulse at the lower end").unit("us"));
+        out.push(told(high, Int(2_000), INT16, "RC", "Pulse at the upper end").unit("us"));
+        out.push(told(middle, Int(1_500), INT16, "RC", "Pulse in the middle").unit("us"));
+        out.push(told(reversed, Int(0), INT8, "RC", "The channel is not reversed").values(&[(0, "Normal"), (1, "Reversed")]));
     }
     out
 }
@@ -213,7 +285,7 @@ mod tests {
                 Behind::Own => continue,
                 Behind::Scaled(other, _) | Behind::Capacity(other) | Behind::Mapped(other, _) => other,
             };
-            assert_eq!(ours(other).name, other, "behind {}", row.name);
+            assert_eq!(super::super::find(other).map(|row| row.name), Some(other), "behind {}", row.name);
             if let Behind::Mapped(_, pairs) = row.behind {
                 let other = ours(other);
                 assert!(pairs.iter().all(|(_, theirs)| (other.low..=other.high).contains(&f64::from(*theirs))), "{}", row.name);

@@ -1,6 +1,6 @@
 //! How each flavour shows the parameters: under which names, and how their values travel.
 
-use super::table::{ROWS, Row};
+use super::table::{self, Row};
 use super::{Value, copter};
 
 /// One flavour's view of the parameters.
@@ -22,7 +22,7 @@ impl Face {
     /// What clients see, in the order of the names.
     #[must_use]
     pub(super) fn rows(&self) -> &'static [Row] {
-        if self.cast { copter::rows() } else { ROWS }
+        if self.cast { copter::rows() } else { table::rows() }
     }
 }
 

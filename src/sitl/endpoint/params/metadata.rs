@@ -2,17 +2,22 @@
 //! (<https://mavlink.io/en/services/component_information.html>), made from the table and served over MAVLink FTP.
 
 use super::Value;
+use super::copter_behavior::depends_on_aircraft;
 use super::face::{COPTER, Face, PX4};
 use super::table::{Behind, Row};
 use crate::mav::ftp::checksum;
+use crate::sitl::endpoint::events;
 use serde_json::{Value as Json, json};
 use std::io::Cursor;
 use std::sync::{Arc, LazyLock};
 
 /// COMP_METADATA_TYPE_GENERAL and COMP_METADATA_TYPE_PARAMETER.
 const PARAMETER: u8 = 1;
+/// COMP_METADATA_TYPE_EVENTS.
+const EVENTS: u8 = 4;
 /// Where the files lie on our own file server.
 const PARAMETER_PATH: &str = "/etc/extras/parameter.json.xz";
+const EVENTS_PATH: &str = "/etc/extras/all_events.json.xz";
 const GENERAL_PATH: &str = "/etc/extras/general.json.xz";
 
 /// A file, where it lies, and its checksum (CRC-32 as MAVLink FTP counts it).
@@ -44,6 +49,8 @@ pub struct Files {
     pub general: File,
     /// The file about the parameters.
     pub parameter: File,
+    /// The file about the events, where they are sent.
+    pub events: Option<File>,
 }
 
 /// The files about the parameters as a flavour shows them.
@@ -57,9 +64,22 @@ pub fn files(face: &Face) -> &'static Files {
 fn make(face: &Face) -> Files {
     let parameters: Vec<Json> = face.rows().iter().map(describe).collect();
     let parameter = File::new(PARAMETER_PATH, &json!({ "version": 1, "parameters": parameters }));
-    let types = json!([{ "type": PARAMETER, "uri": parameter.uri, "fileCrc": parameter.crc }]);
+    let events = (!face.cast).then(|| File::new(EVENTS_PATH, &events::definitions()));
+    let mut types = vec![json!({ "type": PARAMETER, "uri": parameter.uri, "fileCrc": parameter.crc })];
+    types.extend(events.iter().map(|file| json!({ "type": EVENTS, "uri": file.uri, "fileCrc": file.crc })));
     let general = File::new(GENERAL_PATH, &json!({ "version": 1, "metadataTypes": types }));
-    Files { general, parameter }
+    Files { general, parameter, events }
+}
+
+/// The long text says whether setting the parameter changes anything.
+fn long(row: &Row) -> String {
+    if row.token && row.read_only {
+        format!("{}. It describes this vehicle and cannot be changed.", row.short)
+    } else if row.token {
+        format!("{}. No effect on this vehicle: the value is stored for clients that expect it.", row.short)
+    } else {
+        row.short.into()
+    }
 }
 
 fn describe(row: &Row) -> Json {
@@ -71,24 +91,33 @@ fn describe(row: &Row) -> Json {
         "group": row.group,
         "category": if row.token { "System" } else { "Standard" },
         "shortDesc": row.short,
-        "longDesc": if row.token && row.read_only {
-            "Present because clients look for it; it tells what is so, and cannot be changed."
-        } else if row.token { "Present because clients look for it; this vehicle does not depend on it." } else { row.short },
-        "units": row.unit,
+        "longDesc": long(row),
         "default": number(row.default.number()),
         "min": number(row.low),
         "max": number(row.high),
-        "rebootRequired": false,
-        "volatile": row.volatile,
     });
+    // What the schema has as its default is left out: the file travels over slow links.
+    if !row.unit.is_empty() {
+        out["units"] = json!(row.unit);
+    }
+    if row.volatile {
+        out["volatile"] = json!(true);
+    }
     if real {
         out["decimalPlaces"] = json!(2);
     }
+    if depends_on_aircraft(row) {
+        out.as_object_mut().map(|fields| fields.remove("default"));
+    }
     if matches!(row.behind, Behind::Capacity(_)) {
         // They depend on the aircraft's battery.
-        for key in ["default", "min", "max"] {
+        for key in ["min", "max"] {
             out.as_object_mut().map(|fields| fields.remove(key));
         }
+    }
+    if !row.bits.is_empty() {
+        let bit = |(index, words): &(i32, &str)| json!({ "index": index, "description": words });
+        out["bitmask"] = row.bits.iter().map(bit).collect();
     }
     if !row.values.is_empty() {
         let value = |(value, words): &(i32, &str)| json!({ "value": value, "description": words });
@@ -99,7 +128,7 @@ fn describe(row: &Row) -> Json {
 
 #[cfg(test)]
 mod tests {
-    use super::super::table::ROWS;
+    use super::super::table;
     use super::*;
 
     fn unpacked(file: &File) -> Json {
@@ -110,14 +139,14 @@ mod tests {
 
     #[test]
     fn exact_the_files_lead_to_each_other_and_describe_every_parameter() {
-        let Files { general, parameter } = files(&PX4);
+        let Files { general, parameter, .. } = files(&PX4);
         let general = unpacked(general);
         let entry = &general["metadataTypes"][0];
         assert_eq!((entry["type"].as_u64(), entry["uri"].as_str()), (Some(1), Some(parameter.uri.as_str())));
         assert_eq!(entry["fileCrc"], parameter.crc);
         let described = unpacked(parameter);
         let names: Vec<&str> = described["parameters"].as_array().unwrap().iter().filter_map(|p| p["name"].as_str()).collect();
-        assert_eq!(names, ROWS.iter().map(|row| row.name).collect::<Vec<_>>());
+        assert_eq!(names, table::rows().iter().map(|row| row.name).collect::<Vec<_>>());
         // MAVLink's schema for parameter.json asks for these, and types of these names.
         for one in described["parameters"].as_array().unwrap() {
             assert!(["Int32", "Float"].contains(&one["type"].as_str().unwrap()));

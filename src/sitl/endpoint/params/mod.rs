@@ -1,20 +1,26 @@
 //! Parameters: the names that ground stations look for, our own group, ranges, and how each flavour shows them. The values are kept under
 //! one set of names; another flavour's names show them in its own units.
 
+mod behavior;
 mod copter;
+mod copter_behavior;
 pub mod face;
+mod following;
 pub mod metadata;
 pub mod packed;
+mod rules;
+mod stored;
 mod table;
 pub mod text;
 
 use crate::base::time::SimTime;
 use crate::mav::dialect::MavParamType;
+use crate::sitl::autopilot::operator_rules::Envelope;
 use crate::sitl::autopilot::{FenceAction, LinkLoss, Tuning};
 use Value::{Int, Real};
 pub use face::Face;
 use std::collections::BTreeMap;
-use table::{Behind, ROWS, Row};
+use table::{Behind, Row};
 
 /// A value with its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,6 +98,10 @@ pub struct Pack {
     pub capacity_mah: f64,
     /// When it counts as low.
     pub thresholds: Thresholds,
+    /// The job brings the vehicle back when the battery is low.
+    pub returns_when_low: bool,
+    /// The limits of the airframe.
+    pub frame: Envelope,
 }
 
 /// A parameter as it goes out.
@@ -134,6 +144,8 @@ pub struct Params {
     changes: u64,
     face: &'static Face,
     capacity_mah: f64,
+    /// Defaults that follow from the airframe.
+    frame: BTreeMap<&'static str, Value>,
 }
 
 impl Params {
@@ -141,17 +153,28 @@ impl Params {
     #[must_use]
     pub fn new(system_id: u8, pack: Pack, face: &'static Face) -> Self {
         let own = face.rows().iter().filter(|row| row.behind == Behind::Own);
-        let mut values: BTreeMap<&'static str, Value> = own.chain(ROWS).map(|row| (row.name, row.default)).collect();
+        // Names that two flavors share may differ in type and default: the flavor's own row counts.
+        let mut values: BTreeMap<&'static str, Value> =
+            table::rows().iter().chain(own).map(|row| (row.name, row.default)).collect();
         values.extend(face.defaults.iter().copied());
         values.insert("SPAN_FLAVOUR", Int(face.number));
         values.insert("MAV_SYS_ID", Int(i32::from(system_id)));
         values.insert("BAT1_N_CELLS", Int(pack.cells.cast_signed()));
         values.insert("BAT_LOW_THR", Real((pack.thresholds.low_pct / 100.0) as f32));
         values.insert("BAT_CRIT_THR", Real((pack.thresholds.critical_pct / 100.0) as f32));
+        let frame: BTreeMap<_, _> =
+            behavior::frame_defaults(&pack.frame).into_iter().filter(|(name, _)| values.contains_key(name)).collect();
+        values.extend(frame.iter().map(|(name, value)| (*name, *value)));
+        if pack.returns_when_low {
+            values.insert("COM_LOW_BAT_ACT", Int(1));
+        }
         if face.cast {
+            if pack.returns_when_low {
+                values.extend([("BATT_FS_LOW_ACT", Int(2)), ("BATT_FS_CRT_ACT", Int(1))]);
+            }
             values.insert("BATT_CAPACITY", Int(pack.capacity_mah.round() as i32));
         }
-        Self { values, changes: 0, face, capacity_mah: pack.capacity_mah }
+        Self { values, changes: 0, face, capacity_mah: pack.capacity_mah, frame }
     }
 
     /// Back to the defaults of the vehicle.
@@ -286,8 +309,9 @@ impl Params {
             return Err(Refusal::ReadOnly);
         }
         let (number, (low, high)) = (value.number(), self.span(row));
-        // The last place of the wire's numbers where units differ, so that a bound that is shown can be set.
-        let slack = if row.behind == Behind::Own { 0.0 } else { f64::from(f32::EPSILON) * high.abs().max(low.abs()) };
+        // The last place of the wire's numbers, so that a bound that is shown can be set.
+        let whole = row.behind == Behind::Own && matches!(value, Int(_));
+        let slack = if whole { 0.0 } else { f64::from(f32::EPSILON) * high.abs().max(low.abs()) };
         if number.is_nan() || number < low - slack || number > high + slack {
             return Err(Refusal::OutOfRange);
         }
@@ -321,6 +345,12 @@ impl Params {
         if self.whole("SPAN_STICKS") == Some(1) { Policy::LatestTakes } else { Policy::FirstKeeps }
     }
 
+    /// Whether the camera's component says heartbeats.
+    #[must_use]
+    pub fn camera_announced(&self) -> bool {
+        self.whole("SPAN_CAMERA") != Some(0)
+    }
+
     /// Speed of missions, returns and go-to, m/s.
     #[must_use]
     pub fn cruise_m_s(&self) -> f64 {
@@ -345,6 +375,38 @@ impl Params {
         self.whole(FENCE_SWITCH).map(|value| value != 0)
     }
 
+    /// The system id that may send sticks and counts as ground station; `None`: any.
+    #[must_use]
+    pub fn ground_station(&self) -> Option<u8> {
+        self.whole("SYSID_MYGCS").and_then(|id| u8::try_from(id).ok()).filter(|id| *id > 0)
+    }
+
+    /// A throttle pulse below this means that the transmitter has lost the vehicle, microseconds.
+    #[must_use]
+    pub fn throttle_loss_us(&self) -> Option<u16> {
+        self.whole("FS_THR_VALUE").and_then(|us| u16::try_from(us).ok())
+    }
+
+    /// Whether AUTO may be armed.
+    #[must_use]
+    pub fn arms_in_auto(&self) -> bool {
+        self.whole("AUTO_OPTIONS").is_some_and(|bits| bits & 1 != 0)
+    }
+
+    /// Shows how many items the plans have: mission, fence, rally points.
+    pub fn note_plans(&mut self, items: [u16; 3]) {
+        for (name, count) in ["MIS_TOTAL", "FENCE_TOTAL", "RALLY_TOTAL"].into_iter().zip(items) {
+            if let Some(value) = self.values.get_mut(name) {
+                *value = Int(i32::from(count));
+            }
+        }
+    }
+
+    /// A value that only some flavours have.
+    fn real(&self, name: &str) -> Option<f64> {
+        self.values.get(name).map(|value| value.number())
+    }
+
     fn number(&self, name: &str) -> f64 {
         self.values.get(name).map_or(0.0, |v| v.number())
     }
@@ -358,6 +420,14 @@ impl Params {
         tuning.horizontal_speed_max_m_s = self.number("MPC_XY_VEL_MAX");
         tuning.climb_m_s = self.number("MPC_Z_VEL_MAX_UP");
         tuning.descend_m_s = self.number("MPC_Z_VEL_MAX_DN");
+        if !self.face.cast {
+            tuning.climb_m_s = tuning.climb_m_s.min(self.number("MPC_Z_V_AUTO_UP"));
+            tuning.descend_m_s = tuning.descend_m_s.min(self.number("MPC_Z_V_AUTO_DN"));
+        }
+        tuning.land_slow_below_m = self.number("MPC_LAND_ALT2");
+        tuning.failsafe_delay_s = self.number("COM_FAIL_ACT_T");
+        tuning.stick_takeover = self.whole("COM_RC_OVERRIDE").is_none_or(|bits| bits & 1 != 0);
+        self.apply_rules(&mut tuning.rules);
         tuning.return_height_m = self.number("RTL_RETURN_ALT");
         tuning.accept_radius_m = self.number("NAV_ACC_RAD");
         tuning.manual_loss_s = self.number("COM_RC_LOSS_T");
@@ -372,12 +442,21 @@ impl Params {
         tuning.fence_distance_m = self.number("GF_MAX_HOR_DIST");
         tuning.fence_height_m = self.number("GF_MAX_VER_DIST");
         tuning.manual_loss = LinkLoss::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLoss::Hold);
+        tuning.follow = following::rule(self);
+        if let Some(radius_cm) = self.real("CIRCLE_RADIUS") {
+            tuning.circle_radius_m = 0.01 * radius_cm;
+        }
+        if let Some(rate_deg_s) = self.real("CIRCLE_RATE") {
+            tuning.circle_rate_rad_s = rate_deg_s.to_radians();
+        }
         tuning.data_link_loss = LinkLoss::from_number(self.number("NAV_DLL_ACT") as i32).unwrap_or(LinkLoss::Ignore);
     }
 }
 
 fn find(name: &str) -> Option<&'static Row> {
-    ROWS.iter().find(|row| row.name == name)
+    let rows = table::rows();
+    let found = |rows: &'static [Row]| rows.binary_search_by(|row| row.name.cmp(name)).ok().map(|index| &rows[index]);
+    found(rows).or_else(|| found(copter::rows()))
 }
 
 #[cfg(test)]

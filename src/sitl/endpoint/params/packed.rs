@@ -102,16 +102,18 @@ mod tests {
     #[test]
     fn exact_the_first_entries_byte_by_byte() {
         let (params, defaults) = (of(&face::COPTER), of(&face::COPTER));
-        let bytes = file(b"@PARAM/param.pck?start=0&count=2\0", &params, &defaults).unwrap();
         let rows = face::COPTER.rows();
-        assert_eq!([rows[0].name, rows[1].name], ["ARMING_CHECK", "ARMING_REQUIRE"]);
+        let first = rows.iter().position(|row| row.name == "AUTOTUNE_AXES").unwrap();
+        assert_eq!(rows[first + 1].name, "AUTO_OPTIONS");
+        let path = format!("@PARAM/param.pck?start={first}&count=2\0");
+        let bytes = file(path.as_bytes(), &params, &defaults).unwrap();
         let mut expected = vec![0x1b, 0x67, 2, 0];
         expected.extend((rows.len() as u16).to_le_bytes());
-        // An INT32 of twelve new letters, 1; an INT8 that shares seven letters and has seven new ones, 1.
-        expected.extend([3, 11 << 4]);
-        expected.extend(b"ARMING_CHECK\x01\0\0\0");
-        expected.extend([1, 6 << 4 | 7]);
-        expected.extend(b"REQUIRE\x01");
+        // An INT8 of thirteen new letters, 7; an INT32 that shares four letters and has eight new ones, 0.
+        expected.extend([1, 12 << 4]);
+        expected.extend(b"AUTOTUNE_AXES\x07");
+        expected.extend([3, 7 << 4 | 4]);
+        expected.extend(b"_OPTIONS\0\0\0\0");
         assert_eq!(bytes, expected);
     }
 

@@ -1,13 +1,26 @@
 //! Names, types, ranges, both encodings, the checksum.
 
 use super::*;
+use crate::sitl::autopilot::operator_rules::Envelope;
 
 const REAL: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
 const INT: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
 
+/// The limits of an aircraft; any will do.
+const FRAME: Envelope = Envelope {
+    manual_m_s: 15.0,
+    manual_up_m_s: 6.0,
+    manual_down_m_s: 2.0,
+    manual_yaw_rad_s: 2.0,
+    manual_tilt_rad: 0.6,
+    acceleration_m_s2: 4.0,
+    climb_acceleration_m_s2: 3.0,
+    landing_m_s: 2.0,
+};
+
 pub fn of(face: &'static Face) -> Params {
     let thresholds = Thresholds { low_pct: 30.0, critical_pct: 10.0 };
-    Params::new(1, Pack { cells: 3, capacity_mah: 5_200.0, thresholds }, face)
+    Params::new(1, Pack { cells: 3, capacity_mah: 5_200.0, thresholds, returns_when_low: false, frame: FRAME }, face)
 }
 
 #[test]
@@ -57,12 +70,24 @@ fn exact_every_bound_that_is_shown_can_be_set_and_reads_back() {
     }
 }
 
+/// A value of another type than its row announces shifts everything behind it in the packed file.
+#[test]
+fn regress_every_value_has_the_type_of_its_row() {
+    for face in [&face::PX4, &face::COPTER, &face::GENERIC] {
+        let params = of(face);
+        for row in face.rows() {
+            let value = params.shown(row);
+            assert_eq!(std::mem::discriminant(&value), std::mem::discriminant(&row.default), "{}: {value:?}", row.name);
+        }
+    }
+}
+
 /// The checksum by hand, bit by bit: polynomial 0xEDB88320, register from zero, nothing inverted.
 #[test]
 fn exact_the_checksum_is_the_plain_polynomial_and_changes_with_every_value() {
     let mut params = of(&face::PX4);
     let mut register = 0u32;
-    for row in ROWS.iter().filter(|row| !row.volatile) {
+    for row in table::rows().iter().filter(|row| !row.volatile) {
         let value = params.values[row.name];
         for byte in row.name.bytes().chain(value.to_wire().to_bits().to_le_bytes()) {
             register ^= u32::from(byte);

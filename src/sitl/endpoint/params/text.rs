@@ -115,7 +115,7 @@ mod tests {
         let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
         assert_eq!(told.len(), 4, "{told:?}");
         for (line, what) in told.iter().zip([
-            "line 2: MIS_TAKEOFF_ALT = 900 is out of range (allowed: 0.5 to 80)",
+            "line 2: MIS_TAKEOFF_ALT = 900 is out of range (allowed: 0.5 to 500)",
             "line 3: GF_ACTION = 'much'",
             "line 5: 2 fields",
             "line 6: GF_ACTION: type '2'",

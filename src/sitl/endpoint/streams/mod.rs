@@ -1,5 +1,6 @@
 //! What the vehicle sends by itself: one row a message, with its rates by kind of link (mavlink.md 4.10).
 
+mod ardupilot;
 mod attitude;
 mod payload;
 mod position;
@@ -10,7 +11,10 @@ pub mod truth;
 pub(super) use payload::field_of_view;
 
 use super::LinkKind;
+use super::flavour::Flavour;
 use super::view::View;
+use crate::mav::ardupilotmega;
+use crate::mav::codec::{Encoder, Framed};
 use crate::mav::dialect::MavMessage;
 
 /// The autopilot's component id.
@@ -27,11 +31,56 @@ pub struct Stream {
     rates_hz: [f64; 3],
     /// Which component speaks.
     pub component: u8,
-    /// The message; `None` when there is nothing to say.
-    pub build: fn(&View) -> Option<MavMessage>,
+    /// ArduPilot alone sends it, whichever dialect defines it.
+    of_ardupilot: bool,
+    make: Make,
+}
+
+/// How a message is made; `None` when there is nothing to say.
+#[derive(Clone, Copy)]
+enum Make {
+    Common(fn(&View) -> Option<MavMessage>),
+    ArduPilot(fn(&View) -> Option<ardupilotmega::Message>),
+}
+
+/// A message to be sent.
+#[derive(Debug, Clone, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "it lives for one call; a box would cost an allocation for each message")]
+pub enum Outgoing {
+    /// Of the common dialect.
+    Common(MavMessage),
+    /// Of ArduPilot's.
+    ArduPilot(ardupilotmega::Message),
+}
+
+impl Framed for Outgoing {
+    fn frame(&self, encoder: &mut Encoder) -> Vec<u8> {
+        match self {
+            Self::Common(message) => message.frame(encoder),
+            Self::ArduPilot(message) => message.frame(encoder),
+        }
+    }
 }
 
 impl Stream {
+    /// The message; `None` when there is nothing to say.
+    #[must_use]
+    pub fn build(&self, view: &View) -> Option<Outgoing> {
+        if !self.is_spoken(view.flavour) {
+            return None;
+        }
+        match self.make {
+            Make::Common(make) => make(view).map(Outgoing::Common),
+            Make::ArduPilot(make) => make(view).map(Outgoing::ArduPilot),
+        }
+    }
+
+    /// Whether a flavour speaks this message.
+    #[must_use]
+    pub fn is_spoken(&self, flavour: &Flavour) -> bool {
+        flavour.dialect_of_ardupilot || !self.of_ardupilot
+    }
+
     /// Rate on a kind of link, Hz.
     #[must_use]
     pub fn rate_hz(&self, kind: LinkKind) -> f64 {
@@ -44,18 +93,23 @@ impl Stream {
 }
 
 const fn row(id: u32, rates_hz: [f64; 3], build: fn(&View) -> Option<MavMessage>) -> Stream {
-    Stream { id, rates_hz, component: AUTOPILOT, build }
+    Stream { id, rates_hz, component: AUTOPILOT, of_ardupilot: false, make: Make::Common(build) }
 }
 
 const fn camera(id: u32, rates_hz: [f64; 3], build: fn(&View) -> Option<MavMessage>) -> Stream {
-    Stream { id, rates_hz, component: CAMERA, build }
+    Stream { id, rates_hz, component: CAMERA, of_ardupilot: false, make: Make::Common(build) }
+}
+
+const fn of_ardupilot(id: u32, make: Make) -> Stream {
+    Stream { id, rates_hz: [0.0; 3], component: AUTOPILOT, of_ardupilot: true, make }
 }
 
 /// All of them. HIL_STATE_QUATERNION comes first, so that what follows in the same datagram belongs to its instant.
 pub const STREAMS: &[Stream] = &[
     row(115, [50.0, 50.0, 50.0], truth::state),
     row(0, [1.0, 1.0, 1.0], system::heartbeat),
-    camera(0, [1.0, 1.0, 1.0], payload::camera_heartbeat),
+    // After the autopilot's, so that a client that takes the first heartbeat gets the vehicle; once a second where the camera is used (`Link`).
+    camera(0, [0.25, 0.25, 1.0], payload::camera_heartbeat),
     row(1, [2.0, 2.0, 2.0], system::sys_status),
     row(2, [1.0, 1.0, 1.0], system::system_time),
     row(24, [5.0, 5.0, 1.0], sensors::gps_raw),
@@ -116,6 +170,12 @@ pub const STREAMS: &[Stream] = &[
     camera(271, [0.0, 0.0, 5.0], |v| Some(field_of_view(v))),
     row(27, [0.0, 0.0, 0.0], sensors::raw_imu),
     row(62, [0.0, 0.0, 0.0], position::way),
+    of_ardupilot(125, Make::Common(ardupilot::power)),
+    of_ardupilot(152, Make::ArduPilot(ardupilot::memory)),
+    of_ardupilot(163, Make::ArduPilot(ardupilot::ahrs)),
+    of_ardupilot(164, Make::ArduPilot(ardupilot::simulation)),
+    of_ardupilot(168, Make::ArduPilot(ardupilot::wind)),
+    of_ardupilot(193, Make::ArduPilot(ardupilot::estimator)),
 ];
 
 /// The rows of a message id.

@@ -17,15 +17,16 @@ use crate::mav::dialect::{
 };
 use crate::mav::units::{deg_e7, mm};
 
-pub(super) fn camera_heartbeat(_: &View) -> Option<MavMessage> {
-    Some(MavMessage::HEARTBEAT(HEARTBEAT_DATA {
+pub(super) fn camera_heartbeat(v: &View) -> Option<MavMessage> {
+    let beat = MavMessage::HEARTBEAT(HEARTBEAT_DATA {
         custom_mode: 0,
         mavtype: MavType::MAV_TYPE_CAMERA,
         autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
         base_mode: MavModeFlag::empty(),
         system_status: MavState::MAV_STATE_ACTIVE,
         mavlink_version: 3,
-    }))
+    });
+    v.camera.announced.then_some(beat)
 }
 
 pub(super) fn camera_information(v: &View) -> Option<MavMessage> {
@@ -42,7 +43,7 @@ pub(super) fn camera_information(v: &View) -> Option<MavMessage> {
         | C::CAMERA_CAP_FLAGS_HAS_VIDEO_STREAM;
     flags.set(C::CAMERA_CAP_FLAGS_HAS_BASIC_ZOOM, camera.zoom_max > 1.0);
     Some(MavMessage::CAMERA_INFORMATION(CAMERA_INFORMATION_DATA {
-        time_boot_ms: v.boot_ms(),
+        time_boot_ms: v.sim_ms(),
         firmware_version: 1,
         focal_length: zoom::wide_mm(camera) as f32,
         sensor_size_h: zoom::SENSOR_MM as f32,
@@ -63,7 +64,7 @@ pub(super) fn camera_information(v: &View) -> Option<MavMessage> {
 pub(super) fn camera_settings(v: &View) -> Option<MavMessage> {
     let zooms = v.vehicle.camera.zoom_max > 1.0;
     Some(MavMessage::CAMERA_SETTINGS(CAMERA_SETTINGS_DATA {
-        time_boot_ms: v.boot_ms(),
+        time_boot_ms: v.sim_ms(),
         mode_id: match v.camera.mode {
             Mode::Photo => CameraMode::CAMERA_MODE_IMAGE,
             Mode::Video => CameraMode::CAMERA_MODE_VIDEO,
@@ -79,7 +80,7 @@ pub(in super::super) fn field_of_view(v: &View) -> MavMessage {
     let camera = v.camera_now();
     let geo = v.geo();
     MavMessage::CAMERA_FOV_STATUS(CAMERA_FOV_STATUS_DATA {
-        time_boot_ms: v.boot_ms(),
+        time_boot_ms: v.sim_ms(),
         lat_camera: deg_e7(geo.latitude_deg),
         lon_camera: deg_e7(geo.longitude_deg),
         alt_camera: mm(geo.altitude_m),
@@ -96,7 +97,7 @@ pub(in super::super) fn field_of_view(v: &View) -> MavMessage {
 pub(super) fn storage(v: &View) -> Option<MavMessage> {
     use StorageUsageFlag as U;
     Some(MavMessage::STORAGE_INFORMATION(STORAGE_INFORMATION_DATA {
-        time_boot_ms: v.boot_ms(),
+        time_boot_ms: v.sim_ms(),
         total_capacity: CARD_MIB as f32,
         used_capacity: v.camera.used_mib as f32,
         available_capacity: (CARD_MIB - v.camera.used_mib) as f32,
@@ -114,7 +115,7 @@ pub(super) fn storage(v: &View) -> Option<MavMessage> {
 pub(super) fn capture_status(v: &View) -> Option<MavMessage> {
     let busy = v.camera.interval_s.is_some() || v.camera.series;
     Some(MavMessage::CAMERA_CAPTURE_STATUS(CAMERA_CAPTURE_STATUS_DATA {
-        time_boot_ms: v.boot_ms(),
+        time_boot_ms: v.sim_ms(),
         image_interval: v.camera.interval_s.unwrap_or(0.0) as f32,
         recording_time_ms: v.camera.recording.map_or(0, |running| running.ms() as u32),
         available_capacity: (CARD_MIB - v.camera.used_mib) as f32,

@@ -11,7 +11,7 @@ use crate::mav::dialect::{
 use crate::mav::units::{cm, deg_e7, heading_cdeg, mm};
 
 pub(super) fn local(v: &View) -> Option<MavMessage> {
-    let [x, y, z] = v.estimate.position_m.array().map(|c| c as f32);
+    let [x, y, z] = v.local_from_site(v.estimate.position_m).array().map(|c| c as f32);
     let [vx, vy, vz] = v.estimate.velocity_m_s.array().map(|c| c as f32);
     v.estimate
         .attitude_valid
@@ -52,7 +52,7 @@ pub(super) fn orbit(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn local_target(v: &View) -> Option<MavMessage> {
-    let [x, y, z] = v.status.target_m?.array().map(|c| c as f32);
+    let [x, y, z] = v.local_from_site(v.status.target_m?).array().map(|c| c as f32);
     let mask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VX_IGNORE
         | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VY_IGNORE
         | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VZ_IGNORE
@@ -72,6 +72,7 @@ pub(super) fn local_target(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn altitude(v: &View) -> Option<MavMessage> {
+    let [_, _, local_down] = v.local_from_site(v.estimate.position_m).array();
     let up = -v.estimate.position_m.down();
     let amsl = v.plane.origin().altitude_m + up;
     let below = v.readings.range_down_m.filter(|r| r.is_finite());
@@ -80,7 +81,7 @@ pub(super) fn altitude(v: &View) -> Option<MavMessage> {
             time_usec: v.boot_us(),
             altitude_monotonic: amsl as f32,
             altitude_amsl: amsl as f32,
-            altitude_local: up as f32,
+            altitude_local: -local_down as f32,
             altitude_relative: v.over_home_m() as f32,
             altitude_terrain: f32::NAN,
             bottom_clearance: below.map_or(f32::NAN, |r| r as f32),
@@ -91,7 +92,7 @@ pub(super) fn altitude(v: &View) -> Option<MavMessage> {
 pub(super) fn home(v: &View) -> Option<MavMessage> {
     let home = v.status.home_m?;
     let geo = v.plane.geo_from_enu(home.enu());
-    let [x, y, z] = home.array().map(|c| c as f32);
+    let [x, y, z] = v.local_from_site(home).array().map(|c| c as f32);
     Some(MavMessage::HOME_POSITION(HOME_POSITION_DATA {
         latitude: deg_e7(geo.latitude_deg),
         longitude: deg_e7(geo.longitude_deg),
@@ -107,7 +108,7 @@ pub(super) fn home(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn origin(v: &View) -> Option<MavMessage> {
-    let geo = v.plane.origin();
+    let geo = v.local_origin()?;
     Some(MavMessage::GPS_GLOBAL_ORIGIN(GPS_GLOBAL_ORIGIN_DATA {
         latitude: deg_e7(geo.latitude_deg),
         longitude: deg_e7(geo.longitude_deg),
@@ -117,7 +118,7 @@ pub(super) fn origin(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn odometry(v: &View) -> Option<MavMessage> {
-    let [x, y, z] = v.estimate.position_m.array().map(|c| c as f32);
+    let [x, y, z] = v.local_from_site(v.estimate.position_m).array().map(|c| c as f32);
     let body: Vec3<_> = v.estimate.attitude.inverse() * v.estimate.velocity_m_s;
     let w = v.estimate.rates_rad_s;
     let mut pose_covariance = [f32::NAN; 21];

@@ -26,6 +26,8 @@ pub(super) fn gps_raw(v: &View) -> Option<MavMessage> {
         satellites_visible: gnss.satellites,
         h_acc: mm(gnss.eph_m).unsigned_abs(),
         v_acc: mm(gnss.epv_m).unsigned_abs(),
+        // The simulator takes mean sea level as the ellipsoid (base::geodesy).
+        alt_ellipsoid: if fix { mm(geo.altitude_m) } else { 0 },
         ..Default::default()
     }))
 }
@@ -104,12 +106,22 @@ pub(super) fn raw_imu(v: &View) -> Option<MavMessage> {
     }))
 }
 
-/// Eight sectors of 45 degrees, clockwise from the nose.
+/// Width of a sector of OBSTACLE_DISTANCE, deg: 72 of them, because QGroundControl's overlay reads all the array's elements.
+const SECTOR_DEG: u8 = 5;
+
+/// The range finder whose direction is nearest to a sector's; clockwise from the nose.
+fn finder_of(sector: usize, finders: usize) -> usize {
+    let between_deg = 360 / finders.max(1);
+    (sector * usize::from(SECTOR_DEG) + between_deg / 2) / between_deg % finders.max(1)
+}
+
+/// Sectors clockwise from the nose, each with the reading of the nearest of the range finders around.
 pub(super) fn obstacles(v: &View) -> Option<MavMessage> {
     let around = v.readings.range_around_m?;
     let reach = cm_u16(v.vehicle.sensors.range_max_m);
     let mut distances = [u16::MAX; 72];
-    for (slot, range) in distances.iter_mut().zip(around) {
+    for (sector, slot) in distances.iter_mut().enumerate() {
+        let range = around[finder_of(sector, around.len())];
         *slot = if range.is_finite() { cm_u16(range).min(reach) } else { reach + 1 };
     }
     Some(MavMessage::OBSTACLE_DISTANCE(OBSTACLE_DISTANCE_DATA {
@@ -118,8 +130,8 @@ pub(super) fn obstacles(v: &View) -> Option<MavMessage> {
         min_distance: 10,
         max_distance: reach,
         sensor_type: MavDistanceSensor::MAV_DISTANCE_SENSOR_LASER,
-        increment: 45,
-        increment_f: 45.0,
+        increment: SECTOR_DEG,
+        increment_f: f32::from(SECTOR_DEG),
         angle_offset: 0.0,
         frame: MavFrame::MAV_FRAME_BODY_FRD,
     }))

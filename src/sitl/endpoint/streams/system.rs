@@ -9,8 +9,8 @@ use crate::mav::dialect::{
     COMPONENT_METADATA_DATA, CURRENT_MODE_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags,
     FENCE_STATUS_DATA, FLIGHT_INFORMATION_DATA, FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavBatteryChargeState,
     MavBatteryFault, MavBatteryFunction, MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag,
-    MavSysStatusSensor, MavSysStatusSensorExtended, MavType, MavVtolState, MissionState, PROTOCOL_VERSION_DATA,
-    SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
+    MavSysStatusSensor, MavSysStatusSensorExtended, MavType, MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA,
+    SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
 };
 use crate::sitl::autopilot::fence::Breach;
 use crate::sitl::autopilot::{Landed, Mode};
@@ -54,9 +54,9 @@ pub(super) fn sys_status(v: &View) -> Option<MavMessage> {
     let mut health = present | S::MAV_SYS_STATUS_GEOFENCE;
     health.set(S::MAV_SYS_STATUS_GEOFENCE, v.status.fence.breach.is_none());
     let fix = v.readings.gnss.is_some_and(|g| g.fix >= 3);
-    health.set(S::MAV_SYS_STATUS_SENSOR_GPS, fix && v.estimate.position_valid);
-    health.set(S::MAV_SYS_STATUS_AHRS, v.estimate.attitude_valid);
     let works = v.status.health;
+    health.set(S::MAV_SYS_STATUS_SENSOR_GPS, fix && works.gnss && v.estimate.position_valid);
+    health.set(S::MAV_SYS_STATUS_AHRS, v.estimate.attitude_valid);
     health.set(S::MAV_SYS_STATUS_SENSOR_3D_MAG, works.compass);
     health.set(S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, works.barometer);
     health.set(S::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION, works.obeys);
@@ -118,10 +118,12 @@ pub(super) fn extended_state(v: &View) -> Option<MavMessage> {
     let landed_state = match v.status.landed {
         Landed::OnGround => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
         Landed::TakingOff => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
+        // As PX4 and ArduPilot: until the take-off's height is reached.
+        Landed::InAir if v.status.climbing_out => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
         Landed::InAir => MavLandedState::MAV_LANDED_STATE_IN_AIR,
         Landed::Landing => MavLandedState::MAV_LANDED_STATE_LANDING,
     };
-    let vtol_state = MavVtolState::MAV_VTOL_STATE_UNDEFINED;
+    let vtol_state = v.flavour.vtol_state;
     Some(MavMessage::EXTENDED_SYS_STATE(EXTENDED_SYS_STATE_DATA { vtol_state, landed_state }))
 }
 
@@ -195,7 +197,7 @@ pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
     let state = match (v.status.mode, v.status.mission_finished) {
         _ if v.plans.mission_items == 0 => MissionState::MISSION_STATE_NO_MISSION,
         (_, true) => MissionState::MISSION_STATE_COMPLETE,
-        (Mode::Mission, _) if v.status.armed => MissionState::MISSION_STATE_ACTIVE,
+        (Mode::Mission, _) if v.status.armed && !v.status.mission_paused => MissionState::MISSION_STATE_ACTIVE,
         _ if v.status.mission_paused => MissionState::MISSION_STATE_PAUSED,
         _ => MissionState::MISSION_STATE_NOT_STARTED,
     };
@@ -217,6 +219,7 @@ pub(super) fn fence(v: &View) -> Option<MavMessage> {
     let fence = &v.status.fence;
     let breach_type = match fence.breach {
         None => FenceBreach::FENCE_BREACH_NONE,
+        Some(Breach::Floor) => FenceBreach::FENCE_BREACH_MINALT,
         Some(Breach::Height) => FenceBreach::FENCE_BREACH_MAXALT,
         Some(Breach::Boundary) => FenceBreach::FENCE_BREACH_BOUNDARY,
     };
@@ -287,13 +290,13 @@ pub(super) fn protocol(_: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn flight(v: &View) -> Option<MavMessage> {
-    let us = |at: Option<SimTime>| at.map_or(0, |at| at.us().max(1).cast_unsigned());
+    let us = |at: Option<SimTime>| at.map_or(0, |at| v.since_boot(at).us().max(1).cast_unsigned());
     // Times since boot, and a number, whatever the fields are called (MAVLink common).
     Some(MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA {
         arming_time_utc: us(v.flight.armed),
         takeoff_time_utc: us(v.flight.took_off),
         flight_uuid: v.flight.number,
         time_boot_ms: v.boot_ms(),
-        landing_time: v.flight.landed.map_or(0, |at| at.ms() as u32),
+        landing_time: v.flight.landed.map_or(0, |at| v.since_boot(at).ms() as u32),
     }))
 }

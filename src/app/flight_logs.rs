@@ -1,0 +1,95 @@
+//! Old flight logs make room for new ones.
+
+use cap_std::fs::Dir;
+use std::collections::BTreeMap;
+
+/// Endings of the files that belong to one flight.
+const ENDINGS: [&str; 2] = [".ulg", ".mcap"];
+
+/// Deletes the oldest flights' logs until the others take at most `most` bytes. `folder` holds a folder for each day, and these a pair of
+/// files for each flight, named by its time of day; other files are left alone and not counted. Returns how many flights were deleted.
+///
+/// # Errors
+/// When a folder cannot be read or a file not be deleted.
+pub fn make_room(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> {
+    let flights = flights(root, folder)?;
+    let mut total: u64 = flights.values().map(|flight| flight.bytes).sum();
+    let mut deleted = 0;
+    for flight in flights.values() {
+        if total <= most {
+            break;
+        }
+        flight.files.iter().try_for_each(|file| root.remove_file(file))?;
+        total -= flight.bytes;
+        deleted += 1;
+        // A day without logs goes too; one that holds other files stays, and that is no error.
+        let _ = root.remove_dir(&flight.day);
+    }
+    Ok(deleted)
+}
+
+#[derive(Debug, Default)]
+struct Flight {
+    day: String,
+    files: Vec<String>,
+    bytes: u64,
+}
+
+/// The flights by day and time, the oldest first: names sort as times do, and the second flight of a second, `-1`, follows the first.
+fn flights(root: &Dir, folder: &str) -> std::io::Result<BTreeMap<(String, String, u32), Flight>> {
+    let mut flights: BTreeMap<(String, String, u32), Flight> = BTreeMap::new();
+    for day in root.read_dir(folder)? {
+        let day = day?;
+        let Ok(date) = day.file_name().into_string() else { continue };
+        if !day.file_type()?.is_dir() {
+            continue;
+        }
+        let path = format!("{folder}/{date}");
+        for file in root.read_dir(&path)? {
+            let file = file?;
+            let Ok(name) = file.file_name().into_string() else { continue };
+            let Some(stem) = ENDINGS.iter().find_map(|ending| name.strip_suffix(ending)) else { continue };
+            let (time, number) = stem.split_once('-').map_or((stem, 0), |(time, number)| (time, number.parse().unwrap_or(0)));
+            let flight = flights.entry((date.clone(), time.to_owned(), number)).or_default();
+            flight.day.clone_from(&path);
+            flight.bytes += file.metadata()?.len();
+            flight.files.push(format!("{path}/{name}"));
+        }
+    }
+    Ok(flights)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cap_std::ambient_authority;
+
+    #[test]
+    fn regress_old_logs_make_room_and_nothing_else_is_deleted() {
+        let place = tempfile::tempdir().unwrap();
+        let root = Dir::open_ambient_dir(place.path(), ambient_authority()).unwrap();
+        for day in ["2026-09-20", "2026-09-21"] {
+            root.create_dir_all(format!("log/{day}")).unwrap();
+        }
+        let files = [
+            ("2026-09-20/23_00_00.ulg", 100),
+            ("2026-09-20/23_00_00.mcap", 50),
+            ("2026-09-21/01_00_00.ulg", 100),
+            ("2026-09-21/01_00_00-2.ulg", 100),
+            ("2026-09-21/01_00_00-10.ulg", 100),
+            ("2026-09-21/notes.txt", 10_000),
+        ];
+        for (name, bytes) in files {
+            std::fs::write(place.path().join("log").join(name), vec![0; bytes]).unwrap();
+        }
+        let there = || files.iter().filter(|(name, _)| place.path().join("log").join(name).is_file()).map(|(name, _)| *name);
+        assert_eq!(make_room(&root, "log", 450).unwrap(), 0);
+        assert_eq!(there().count(), files.len(), "all of them fit");
+        assert_eq!(make_room(&root, "log", 250).unwrap(), 2);
+        let left = ["2026-09-21/01_00_00-2.ulg", "2026-09-21/01_00_00-10.ulg", "2026-09-21/notes.txt"];
+        assert_eq!(there().collect::<Vec<_>>(), left, "the oldest went, with both files");
+        assert!(!place.path().join("log/2026-09-20").exists(), "a day without logs goes too");
+        assert_eq!(make_room(&root, "log", 0).unwrap(), 2);
+        assert_eq!(there().collect::<Vec<_>>(), ["2026-09-21/notes.txt"]);
+    }
+}

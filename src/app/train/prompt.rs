@@ -1,0 +1,83 @@
+//! The question at the terminal once a session is scored: quit, or fly the job again.
+
+use std::io::{BufRead, IsTerminal};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// The line that starts another flight.
+const AGAIN: &str = "again";
+
+/// A line typed at the terminal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// Fly the same job again.
+    Again,
+    /// Quit.
+    Quit,
+}
+
+/// The terminal. Without one nobody can answer, and only a signal ends the run.
+#[derive(Debug, Default)]
+pub struct Prompt {
+    lines: Option<Receiver<String>>,
+    /// Somebody has quit at the terminal.
+    pub answered: bool,
+}
+
+impl Prompt {
+    /// Returns true when standard input is a terminal.
+    pub fn is_open(&self) -> bool {
+        std::io::stdin().is_terminal()
+    }
+
+    /// Explains what keeps the vehicle connected.
+    pub fn words(&self) -> &'static str {
+        if self.is_open() {
+            "The vehicle stays connected: download its logs, or keep flying. Press Enter to quit; type 'again' and press Enter for another session."
+        } else {
+            "The vehicle stays connected: download its logs, or keep flying. Interrupt (Ctrl-C or SIGTERM) to quit."
+        }
+    }
+
+    /// Returns the next answer, if one was typed. The end of the input quits.
+    pub fn answer(&mut self) -> Option<Answer> {
+        if !self.is_open() {
+            return None;
+        }
+        let answer = match self.lines.get_or_insert_with(read_lines).try_recv() {
+            Ok(line) => read(&line),
+            Err(TryRecvError::Disconnected) => Answer::Quit,
+            Err(TryRecvError::Empty) => return None,
+        };
+        self.answered |= answer == Answer::Quit;
+        Some(answer)
+    }
+}
+
+fn read(line: &str) -> Answer {
+    if line.trim().eq_ignore_ascii_case(AGAIN) { Answer::Again } else { Answer::Quit }
+}
+
+/// A thread of its own reads: a terminal blocks.
+fn read_lines() -> Receiver<String> {
+    let (sender, lines) = channel();
+    std::thread::spawn(move || {
+        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+            if sender.send(line).is_err() {
+                break;
+            }
+        }
+    });
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_enter_quits_and_the_word_flies_again() {
+        for (line, answer) in [("", Answer::Quit), ("again", Answer::Again), (" Again \n", Answer::Again), ("q", Answer::Quit)] {
+            assert_eq!(read(line), answer, "{line:?}");
+        }
+    }
+}

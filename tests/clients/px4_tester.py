@@ -1,0 +1,290 @@
+"""One vehicle flown by MAVSDK as PX4's integration tests fly theirs (PX4-Autopilot, test/mavsdk_tests): the same steps and the same limits,
+with time counted by the vehicle's clock."""
+
+import contextlib
+import math
+import threading
+import time
+
+from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.action import Action, ActionError
+from mavsdk.plugins.failure import Failure, FailureError
+from mavsdk.plugins.follow_me import FollowMe
+from mavsdk.plugins.manual_control import ManualControl
+from mavsdk.plugins.mission import Mission, MissionError, MissionItem, MissionPlan
+from mavsdk.plugins.mission_raw import MissionRaw
+from mavsdk.plugins.offboard import Attitude, Offboard, OffboardError, VelocityNedYaw
+from mavsdk.plugins.param import Param
+from mavsdk.plugins.telemetry import LandedState, Telemetry
+
+import spandrel
+
+# Metres in a degree of latitude (WGS 84 at 47 degrees north, to 0.1 %: legs are some ten metres).
+DEGREE_M = 111_170.0
+# Vehicle time runs this much faster than the clock on the wall.
+SPEED = 5
+# Wall seconds between two looks.
+LOOK_S = 0.01
+# Wall seconds without any progress of the vehicle's clock after which a test gives up.
+STUCK_S = 120.0
+# Rate of sticks and set-points, Hz of vehicle time.
+STICK_RATE_HZ = 50
+
+
+class Tester:
+    """A simulator of its own and MAVSDK's plugins for it."""
+
+    def __init__(self, folder, scenario):
+        folder.mkdir(parents=True, exist_ok=True)
+        port = spandrel.free_udp_port()
+        self.process = spandrel.start_sim(folder, port, scenario=scenario, speed=SPEED)
+        self.mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
+        self.mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
+        system = self.mavsdk.first_autopilot(30.0)
+        assert system is not None, "no vehicle discovered"
+        self.system = system
+        self.action, self.telemetry, self.param = Action(system), Telemetry(system), Param(system)
+        self.mission, self.mission_raw, self.offboard = Mission(system), MissionRaw(system), Offboard(system)
+        self.failure, self.manual = Failure(system), ManualControl(system)
+        self.home = None
+        self.wrong = []
+        self.watches = []
+
+    def follow_me(self):
+        """The plugin for follow-me."""
+        return FollowMe(self.system)
+
+    def close(self):
+        """Ends what was started; what a watch saw fails the test."""
+        for stop, thread in self.watches:
+            stop.set()
+            thread.join()
+        self.mavsdk.destroy()
+        spandrel.end(self.process)
+        assert not self.wrong, self.wrong[:5]
+
+    # Time
+
+    def now_s(self):
+        """The vehicle's clock, s."""
+        return self.telemetry.attitude_quaternion().timestamp_us / 1e6
+
+    def wait(self, what, predicate, limit_s):
+        """Waits until the predicate holds, at most so many seconds of vehicle time."""
+        start, last, moved = self.now_s(), self.now_s(), time.monotonic()
+        while True:
+            value = predicate()
+            if value:
+                return value
+            now = self.now_s()
+            if now != last:
+                last, moved = now, time.monotonic()
+            assert now - start <= limit_s, f"not within {limit_s} s: {what}"
+            assert time.monotonic() - moved < STUCK_S, f"the vehicle's clock stands at {now}: {what}"
+            time.sleep(LOOK_S)
+
+    def pass_time(self, seconds, meanwhile=None):
+        """Lets vehicle time pass; `meanwhile` is called at the rate of sticks."""
+        end = self.now_s() + seconds
+        due = self.now_s()
+        while self.now_s() < end:
+            if meanwhile and self.now_s() >= due:
+                meanwhile()
+                due += 1 / STICK_RATE_HZ
+            time.sleep(LOOK_S / 5)
+
+    def watch(self, what, look):
+        """Looks again and again until the end; `look` returns what is wrong, or None."""
+        stop = threading.Event()
+
+        def watching():
+            while not stop.is_set():
+                wrong = look()
+                if wrong:
+                    self.wrong.append(f"{what}: {wrong}")
+                time.sleep(LOOK_S)
+
+        thread = threading.Thread(target=watching)
+        thread.start()
+        self.watches.append((stop, thread))
+
+    # What PX4's tester does
+
+    def wait_until_ready(self):
+        """Healthy within 30 s, then armable within 45 s."""
+        self.wait("some telemetry", lambda: self.now_s() > 0, math.inf)
+        self.wait("healthy", self.telemetry.health_all_ok, 30)
+        self.wait("armable", lambda: self.telemetry.health().is_armable, 45)
+
+    def store_home(self):
+        """Where it stands, by the ground truth."""
+        self.telemetry.set_rate_ground_truth(15)
+        self.home = self.wait("ground truth", self.ground_truth, 10)
+
+    def ground_truth(self):
+        """Latitude and longitude, degrees; None while unknown."""
+        truth = self.telemetry.ground_truth()
+        return (truth.latitude_deg, truth.longitude_deg) if math.isfinite(truth.latitude_deg) else None
+
+    def from_home_m(self):
+        """Horizontal distance from the stored home, m."""
+        latitude, longitude = self.ground_truth()
+        east = (longitude - self.home[1]) * math.cos(math.radians(self.home[0]))
+        return math.hypot(latitude - self.home[0], east) * DEGREE_M
+
+    def arm(self):
+        """Arms, as soon as the vehicle lets it, within 30 s."""
+
+        def armed():
+            try:
+                self.action.arm()
+            except ActionError:
+                return False
+            return True
+
+        self.wait("arming", armed, 30)
+
+    def take_off(self, height_m=None):
+        """Takes off, to this height."""
+        if height_m is not None:
+            self.action.set_takeoff_altitude(height_m)
+            assert abs(self.action.get_takeoff_altitude() - height_m) < 0.01
+        self.action.takeoff()
+
+    def wait_until_hovering(self):
+        """In the air within 45 s."""
+        self.wait("in the air", lambda: self.telemetry.landed_state() == LandedState.IN_AIR, 45)
+
+    def wait_until_disarmed(self, limit_s):
+        """Disarmed in time."""
+        self.wait("disarmed", lambda: not self.telemetry.armed(), limit_s)
+
+    def position_ned(self):
+        """North, east, down, m."""
+        position = self.telemetry.position_velocity_ned().position
+        return position.north_m, position.east_m, position.down_m
+
+    def global_from(self, north_m, east_m):
+        """Latitude and longitude of a place by metres from home."""
+        home = self.telemetry.home()
+        latitude = home.latitude_deg + north_m / DEGREE_M
+        return latitude, home.longitude_deg + east_m / (DEGREE_M * math.cos(math.radians(home.latitude_deg)))
+
+    def upload(self, places, height_m=10.0, fly_through=False, return_at_end=False):
+        """Uploads a mission over these places, metres north and east of home."""
+        items = []
+        for north, east in places:
+            latitude, longitude = self.global_from(north, east)
+            items.append(MissionItem(latitude_deg=latitude, longitude_deg=longitude, relative_altitude_m=height_m, is_fly_through=fly_through))
+        self.mission.set_return_to_launch_after_mission(return_at_end)
+        self.mission.upload_mission(MissionPlan(items))
+        return places
+
+    def check_tracks(self, places, height_m, corridor_m):
+        """From now on the vehicle stays this near to the leg that it flies."""
+        points = [(north, east, -height_m) for north, east in places]
+
+        def off():
+            current = self.mission.mission_progress().current
+            if not 0 < current < len(points):
+                return None
+            away = distance_to_line(self.position_ned(), points[current - 1], points[current])
+            return f"{away:.1f} m off leg {current}" if away > corridor_m else None
+
+        self.watch("track", off)
+
+    def start_mission(self):
+        """Starts it, within 3 s."""
+
+        def started():
+            try:
+                self.mission.start_mission()
+            except MissionError:
+                return False
+            return True
+
+        self.wait("the mission's start", started, 3)
+
+    def fly_mission(self, limit_s=500):
+        """Flies it to its end."""
+        self.start_mission()
+        self.wait("the mission's end", self.mission.is_mission_finished, limit_s)
+
+    def inject(self, kind, *units):
+        """Lets sensors fail once the first item was reached."""
+        self.param.set_param_int("SYS_FAILURE_EN", 1)
+        self.start_mission()
+        self.wait("item 1", lambda: self.mission.mission_progress().current >= 1, 60)
+        # MAVSDK 4.1 reads the parameter when the plugin begins and not again.
+        failure = Failure(self.system)
+        for unit in units:
+            failure.inject(unit, kind, 0)
+
+    def refused_failure(self, unit, kind):
+        """The name of the answer to a failure that is not enabled."""
+        try:
+            self.failure.inject(unit, kind, 1)
+        except FailureError as error:
+            return str(error)
+        return "accepted"
+
+    def start_offboard(self, send):
+        """Sends a set-point until Offboard has begun."""
+        for _ in range(10):
+            send()
+            with contextlib.suppress(OffboardError):
+                self.offboard.start()
+                return
+            time.sleep(0.02)
+        raise AssertionError("Offboard did not begin")
+
+    def offboard_to(self, target, within_m, limit_s):
+        """Flies to a local position and waits until the estimate is near it."""
+        self.start_offboard(lambda: self.offboard.set_position_ned(target))
+        place = (target.north_m, target.east_m, target.down_m)
+        self.wait(f"{place}", lambda: math.dist(self.position_ned(), place) < within_m, limit_s)
+
+    def offboard_land(self):
+        """Sinks at 1 m/s."""
+        self.offboard.set_velocity_ned(VelocityNedYaw(0.0, 0.0, 1.0, 0.0))
+
+    def sticks(self, forward, right, throttle, yaw):
+        """What holds the sticks."""
+        return lambda: self.manual.set_manual_control_input(forward, right, throttle, yaw)
+
+    def fly_forward_by_sticks(self, begin):
+        """Climbs for 5 s, flies forward for 10 s, sinks until it has landed."""
+        centered = self.sticks(0, 0, 0.5, 0)
+        self.pass_time(1, centered)
+        begin()
+        self.pass_time(1, centered)
+        self.store_home()
+        self.pass_time(1, centered)
+        self.wait_until_ready()
+        self.pass_time(1, centered)
+        self.arm()
+        self.pass_time(5, self.sticks(0, 0, 1, 0))
+        self.pass_time(10, self.sticks(0.5, 0, 0.5, 0))
+        end = self.now_s() + 60
+        while self.telemetry.in_air() and self.now_s() < end:
+            self.pass_time(0.1, self.sticks(0, 0, 0, 0))
+
+    def hold_attitude(self, attitude, seconds):
+        """Sends an attitude at the rate of sticks."""
+        self.pass_time(seconds, lambda: self.offboard.set_attitude(attitude))
+
+
+def attitude(pitch_deg=0.0, thrust=0.0):
+    """An attitude set-point."""
+    return Attitude(0.0, pitch_deg, 0.0, thrust)
+
+
+def distance_to_line(point, a, b):
+    """Distance of a point from the straight line between two others, in their units."""
+    along = [q - p for p, q in zip(a, b)]
+    length = math.dist(a, b)
+    if length == 0:
+        return math.dist(point, a)
+    share = sum((p - q) * u for p, q, u in zip(point, a, along)) / length**2
+    foot = [q + min(max(share, 0), 1) * u for q, u in zip(a, along)]
+    return math.dist(point, foot)

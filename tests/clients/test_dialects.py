@@ -1,0 +1,77 @@
+"""What clients read of the flavours beyond the common messages: ArduPilot's dialect by pymavlink, PX4's shell and follow-me by MAVSDK."""
+
+import pytest
+from mavsdk.plugins.action import Action
+from mavsdk.plugins.follow_me import FollowMe
+from mavsdk.plugins.shell import Device, Shell
+from mavsdk.plugins.telemetry import FlightMode, Telemetry
+from pymavlink import mavutil
+
+import asking
+import sdk
+import spandrel
+from spandrel import wait_for
+
+M = mavutil.mavlink
+# Standard gravity, m/s^2, and what noise and lean of a standing vehicle leave of it.
+GRAVITY, GRAVITY_TOLERANCE = 9.81, 0.3
+
+
+@pytest.fixture
+def vehicle(tmp_path):
+    """Starts a vehicle in a flavour and gives its port."""
+    started = []
+
+    def start(flavour):
+        port = spandrel.free_udp_port()
+        started.append(spandrel.start_sim(tmp_path, port, "--flavour", flavour))
+        return port
+
+    yield start
+    for process in started:
+        spandrel.end(process)
+
+
+@pytest.mark.timeout(300)
+def test_regress_pymavlink_reads_ardupilots_own_messages(vehicle):
+    """pymavlink checks seed and layout of each message by its own definitions."""
+    link = asking.connect(vehicle("ardupilot"))
+    link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, 10, 1)
+    ekf = asking.hear(link, "EKF_STATUS_REPORT", lambda e: e.flags == 831)
+    assert 0.0 <= ekf.pos_horiz_variance < 0.5 and ekf.compass_variance == 0.0
+    assert asking.hear(link, "MEMINFO").freemem32 == 524288
+    assert asking.hear(link, "POWER_STATUS").Vcc == 5000
+    ahrs, wind = asking.hear(link, "AHRS"), asking.hear(link, "WIND")
+    assert abs(ahrs.omegaIx) < 0.1 and wind.speed >= 0.0 and -180.0 <= wind.direction <= 180.0
+    simulated, position = asking.hear(link, "SIMSTATE"), asking.hear(link, "GLOBAL_POSITION_INT")
+    assert abs(simulated.zacc + GRAVITY) < GRAVITY_TOLERANCE
+    # 10 m in 1e-7 degrees: the receiver's error and more.
+    assert abs(simulated.lat - position.lat) < 900 and abs(simulated.lng - position.lon) < 900
+
+
+@pytest.mark.timeout(300)
+def test_regress_mavsdk_talks_to_px4s_shell(vehicle):
+    """A line to the shell and its answer."""
+    _mavsdk, system = sdk.connect(vehicle("px4"))
+    shell, heard = Shell(system), []
+    shell.subscribe_receive(lambda received, _: heard.append(received.data))
+    shell.send("ver all\n", Device.SHELL)
+    wait_for("the version", lambda: "FW version" in "".join(heard))
+    shell.send("param show MIS_TAKEOFF_ALT\n", Device.SHELL)
+    wait_for("the parameter", lambda: "MIS_TAKEOFF_ALT : 2.5000" in "".join(heard))
+
+
+@pytest.mark.timeout(300)
+def test_regress_mavsdk_is_followed(vehicle):
+    """MAVSDK's follow-me: configured, started, fed with a target, stopped."""
+    _mavsdk, system = sdk.connect(vehicle("px4"))
+    telemetry, action = sdk.ready(system), Action(system)
+    action.arm()
+    action.takeoff()
+    wait_for("take-off", lambda: telemetry.flight_mode() == FlightMode.HOLD and telemetry.in_air())
+    follow = FollowMe(system)
+    follow.start()
+    wait_for("the mode", lambda: telemetry.flight_mode() == FlightMode.FOLLOW_ME)
+    follow.stop()
+    wait_for("hold", lambda: telemetry.flight_mode() == FlightMode.HOLD)
+    assert isinstance(telemetry, Telemetry)

@@ -1,0 +1,56 @@
+"""MAVProxy's file transfer, unmodified: a file down and up, a listing, a checksum, and its fast download of all parameters."""
+
+import pytest
+
+import spandrel
+from test_mavproxy import Console
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavproxy_moves_files(tmp_path):
+    """`ftp get`, `put`, `list`, `crc`, `rm` and two downloads at once: MAVProxy sorts answers by the session that it chose."""
+    files = tmp_path / "files"
+    files.mkdir()
+    content = bytes(k * k % 251 for k in range(50_000))
+    (files / "survey.bin").write_bytes(content)
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, "--files", str(files), speed=1)
+    typed = Console(port, tmp_path)
+    # MAVProxy closes a file some time after it has said that it is written.
+    same = lambda path: spandrel.wait_for(f"{path} on disk", lambda: path.read_bytes() == content, limit_s=60)  # noqa: E731
+    try:
+        typed.wait("parameters to")
+        typed.say("ftp get /survey.bin down.bin", "Wrote 50000 bytes to down.bin")
+        same(tmp_path / "down.bin")
+        typed.say("ftp get /survey.bin one.bin", None)
+        typed.say("ftp get /survey.bin two.bin", "Wrote 50000 bytes")
+        typed.wait("Wrote 50000 bytes")
+        same(tmp_path / "one.bin")
+        same(tmp_path / "two.bin")
+        typed.say("ftp put down.bin /up.bin", "Sent file of length 50000")
+        same(files / "up.bin")
+        typed.say("ftp list /", "up.bin\t50000")
+        typed.say("ftp crclocal down.bin", "crclocal: down.bin")
+        checksum = next(word for word in typed.heard[-1].split() if word.startswith("0x"))
+        typed.say("ftp crc /up.bin", f"crc: /up.bin {checksum}")
+        typed.until("ftp rm /up.bin", "Removing /up.bin")
+        spandrel.wait_for("the removal", lambda: not (files / "up.bin").exists(), limit_s=60)
+    finally:
+        typed.close()
+        spandrel.end(process)
+
+
+@pytest.mark.timeout(600)
+def test_wire_mavproxy_fetches_parameters_by_ftp(tmp_path):
+    """As of an ArduPilot: `@PARAM/param.pck`, all values with their defaults, in one file."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, "--flavour", "ardupilot", speed=1)
+    typed = Console(port, tmp_path)
+    try:
+        line = typed.wait("parameters (ftp)")
+        assert int(line.split()[1]) > 50, line
+        typed.until("param show WPNAV_SPEED", "WPNAV_SPEED")
+        typed.say("param ftp", "parameters (ftp)")
+    finally:
+        typed.close()
+        spandrel.end(process)

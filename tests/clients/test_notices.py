@@ -1,0 +1,23 @@
+"""THIRD-PARTY.md and sbom.cdx.json are those of Cargo.lock."""
+
+import json
+import subprocess
+
+import spandrel
+
+
+def test_notices_and_sbom_match_the_lock_file():
+    done = subprocess.run([str(spandrel.ROOT / "tools" / "notices"), "--check"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_sbom_names_every_part_once_and_its_graph_is_closed():
+    """What CycloneDX asks of references; no license is left out."""
+    bom = json.loads((spandrel.ROOT / "sbom.cdx.json").read_text(encoding="utf-8"))
+    assert (bom["bomFormat"], bom["specVersion"]) == ("CycloneDX", "1.5")
+    refs = [component["bom-ref"] for component in bom["components"]]
+    assert len(refs) == len(set(refs)) > 100
+    known = {*refs, bom["metadata"]["component"]["bom-ref"]}
+    assert all({node["ref"], *node["dependsOn"]} <= known for node in bom["dependencies"])
+    lacking = [component["name"] for component in bom["components"] if not component["licenses"] or not component["hashes"]]
+    assert lacking == []

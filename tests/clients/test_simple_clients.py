@@ -1,0 +1,152 @@
+"""Clients that take a vehicle's every heartbeat for the autopilot's: a script of few lines on pymavlink, DroneKit, mavpilot."""
+
+import asyncio
+import collections
+import collections.abc
+import math
+import os
+
+os.environ["MAVLINK20"] = "1"
+
+import pytest
+from pymavlink import mavutil
+
+import spandrel
+from spandrel import wait_for
+
+# DroneKit 2.9.2 is older than Python 3.10, which took these names away.
+for _name in ("MutableMapping", "Mapping", "Iterable"):
+    if not hasattr(collections, _name):
+        setattr(collections, _name, getattr(collections.abc, _name))
+
+import dronekit  # noqa: E402
+from mavpilot import DroneController  # noqa: E402
+
+M = mavutil.mavlink
+# How near to a place the vehicle must come, m.
+NEAR_M = 1.5
+# Clients that look in at whatever moment; each must hear the autopilot first.
+LOOKS = 12
+
+
+def metres(a, b):
+    """Between two places, m, over short ways."""
+    north = (a.lat - b.lat) * 111_319.5
+    east = (a.lon - b.lon) * 111_319.5 * math.cos(math.radians(a.lat))
+    return math.hypot(north, east)
+
+
+@pytest.mark.timeout(300)
+def test_regress_whoever_looks_in_hears_the_autopilot_first(tmp_path):
+    """Scripts that begin at any moment and take the first heartbeat; the camera's component is there all the while."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port)
+    try:
+        first = []
+        for _ in range(LOOKS):
+            link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="all")
+            beat = link.wait_heartbeat(timeout=60)
+            first.append((beat.get_srcComponent(), beat.autopilot))
+            link.close()
+        assert first == [(1, M.MAV_AUTOPILOT_PX4)] * LOOKS
+    finally:
+        spandrel.end(process)
+
+
+@pytest.mark.timeout(300)
+def test_regress_a_naive_script_flies(tmp_path):
+    """Mode, arming and take-off read off whatever heartbeat comes, as in many a tutorial."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, "--flavour", "ardupilot", "--camera", "off", speed=2)
+    try:
+        link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}")
+        link.wait_heartbeat()
+        link.mav.request_data_stream_send(link.target_system, link.target_component, M.MAV_DATA_STREAM_ALL, 10, 1)
+        guided = link.mode_mapping()["GUIDED"]
+
+        def told(send, holds):
+            """Sends until the next heartbeat shows it."""
+            for _ in range(120):
+                send()
+                beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=5)
+                if beat is not None and holds(beat):
+                    return
+            raise AssertionError("no heartbeat shows it")
+
+        told(lambda: link.set_mode(guided), lambda beat: beat.custom_mode == guided)
+        told(link.arducopter_arm, lambda beat: beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
+        link.mav.command_long_send(link.target_system, link.target_component, M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 0, 5)
+        # Every heartbeat from here on is the vehicle's: armed, in GUIDED.
+        for _ in range(10):
+            beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=60)
+            assert beat.custom_mode == guided and beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED, beat
+        while link.recv_match(type="GLOBAL_POSITION_INT", blocking=True, timeout=60).relative_alt < 4_000:
+            pass
+    finally:
+        spandrel.end(process)
+
+
+@pytest.mark.timeout(600)
+def test_regress_dronekit_connects_arms_takes_off_and_goes(tmp_path):
+    """DroneKit 2.9.2 as its own example has it; then a mission, which it uploads by the older request alone."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, "--flavour", "ardupilot", "--camera", "off", speed=2)
+    vehicle = None
+    try:
+        vehicle = dronekit.connect(f"udpin:127.0.0.1:{port}", wait_ready=True, heartbeat_timeout=60, timeout=120)
+        wait_for("a fix", lambda: vehicle.gps_0.fix_type == 3 and vehicle.location.global_frame.lat)
+
+        def set_to(what, change, holds):
+            """DroneKit sends once; a tutorial's loop sends again."""
+            tries = iter(range(600))
+
+            def step():
+                if next(tries) % 100 == 0:
+                    change()
+                return holds()
+
+            wait_for(what, step)
+
+        set_to("GUIDED", lambda: setattr(vehicle, "mode", dronekit.VehicleMode("GUIDED")), lambda: vehicle.mode.name == "GUIDED")
+        set_to("armed", lambda: setattr(vehicle, "armed", True), lambda: vehicle.armed)
+        vehicle.simple_takeoff(6)
+        wait_for("6 m", lambda: vehicle.location.global_relative_frame.alt > 0.95 * 6)
+        here = vehicle.location.global_relative_frame
+        there = dronekit.LocationGlobalRelative(here.lat + 10 / 111_319.5, here.lon, 6)
+        vehicle.simple_goto(there)
+        wait_for("10 m north", lambda: metres(vehicle.location.global_relative_frame, there) < NEAR_M)
+        commands = vehicle.commands
+        commands.clear()
+        for north in (0, 5, 10):
+            commands.add(dronekit.Command(
+                0, 0, 0, M.MAV_FRAME_GLOBAL_RELATIVE_ALT, M.MAV_CMD_NAV_WAYPOINT, 0, 0, 0, 0, 0, 0, here.lat + north / 111_319.5, here.lon, 8,
+            ))
+        commands.upload(timeout=60)
+        commands.next = 1
+        set_to("AUTO", lambda: setattr(vehicle, "mode", dronekit.VehicleMode("AUTO")), lambda: vehicle.mode.name == "AUTO")
+        wait_for("8 m", lambda: vehicle.location.global_relative_frame.alt > 7.5)
+        assert vehicle.armed
+    finally:
+        if vehicle is not None:
+            vehicle.close()
+        spandrel.end(process)
+
+
+@pytest.mark.timeout(600)
+def test_regress_mavpilot_takes_off_goes_and_lands(tmp_path):
+    """mavpilot 0.3, which flies PX4 by set-points in the local frame."""
+    port = spandrel.free_udp_port()
+    process = spandrel.start_sim(tmp_path, port, "--camera", "off", speed=1)
+
+    async def mission():
+        async with DroneController(connection_string=f"udpin:127.0.0.1:{port}", enable_viz=False) as drone:
+            await drone.wait_until_ready()
+            assert await drone.takeoff(altitude_m=5.0)
+            assert await drone.goto(x=6.0, y=0.0, z=-5.0)
+            assert await drone.goto(x=6.0, y=4.0, z=-5.0, yaw_deg=90)
+            assert await drone.land()
+
+    try:
+        asyncio.run(mission())
+    finally:
+        spandrel.end(process)
