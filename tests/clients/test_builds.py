@@ -69,7 +69,7 @@ def fly(program):
     arguments = [
         "sim", "--scenario", "two-bridges", "--seed", "7", "--speed", "max", "--gcs", f"127.0.0.1:{port}", "--sdk", "none",
         "--gcs-port", "0", "--payload-port", "none", "--tcp-port", "none", "--monitor-port", "none",
-        "--lockstep", f"127.0.0.1:{port}", "--end-after", str(END_S), "--digest", "--log", "warn",
+        "--lockstep", f"127.0.0.1:{port}", "--after-crash", "respawn", "--end-after", str(END_S), "--digest", "--log", "warn",
     ]
     process = subprocess.Popen([str(program), *arguments], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
     script = Script(link)

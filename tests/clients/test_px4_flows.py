@@ -27,15 +27,17 @@ NEAR_M = 0.3
 
 
 def takeoff_and_hold(t):
-    """Within 0.25 m of its height for a minute."""
+    """Once it has settled for 5 s, within 0.2 m of its height for a minute."""
     t.wait_until_ready()
     t.store_home()
+    ground = t.position_ned()[2]
     t.arm()
     t.take_off(10.0)
     t.wait_until_hovering()
-    t.wait("10 m", lambda: abs(10.0 + t.position_ned()[2]) <= 0.35, 30)
+    t.wait("10 m", lambda: abs(t.position_ned()[2] - ground + 10.0) <= 0.1, 15)
+    t.pass_time(5)
     held = t.position_ned()[2]
-    t.watch("height", lambda: f"{t.position_ned()[2] - held:.2f} m" if abs(t.position_ned()[2] - held) > 0.25 else None)
+    t.watch("height", lambda: f"{t.position_ned()[2] - held:.2f} m" if abs(t.position_ned()[2] - held) > 0.2 else None)
     t.pass_time(60)
 
 
