@@ -8,9 +8,9 @@ mod job;
 
 use best::best;
 use job::{Tape, fence_of_ten, line, scenario, task, vehicle};
-use spandrel::mav::dialect::{ATTITUDE_DATA, LOCAL_POSITION_NED_DATA, MavMessage, VFR_HUD_DATA};
-use spandrel::monitor::{Monitor, MonitorConfig, assess_log};
-use spandrel::scenario::Scenario;
+use spandrel_mavlink::dialect::{ATTITUDE_DATA, LOCAL_POSITION_NED_DATA, MavMessage, VFR_HUD_DATA};
+use spandrel_model::scenario::Scenario;
+use spandrel_monitor::{Monitor, MonitorConfig, assess_log};
 use std::process::ExitCode;
 use std::time::Duration;
 

@@ -4,9 +4,9 @@
 mod best;
 
 use best::best;
-use spandrel::training::cohort::{Selection, cohort};
-use spandrel::training::record::Incomplete;
-use spandrel::training::record::Record;
+use spandrel_training::cohort::{Selection, cohort};
+use spandrel_training::record::Incomplete;
+use spandrel_training::record::Record;
 use std::time::Duration;
 
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");

@@ -9,8 +9,8 @@ mod best;
 
 use bench::{Bench, vehicle};
 use best::best;
-use spandrel::base::time::SimTime;
-use spandrel::sitl::sensors::{BatteryReading, Readings, Truth};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::sensors::{BatteryReading, Readings, Truth};
 use std::hint::black_box;
 use std::time::Duration;
 

@@ -4,11 +4,11 @@
 mod best;
 
 use best::best;
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::random::RandomStream;
-use spandrel::scenario::{Scenario, TaskKind};
-use spandrel::site::Probe;
-use spandrel::site::geometry::Geometry;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::{Scenario, TaskKind};
+use spandrel_model::site::Probe;
+use spandrel_model::site::geometry::Geometry;
 use std::hint::black_box;
 
 const POINTS: usize = 4000;
@@ -32,7 +32,7 @@ fn around(path: &[Vec3<Enu>], spread_m: f64, seed: u64) -> Vec<Vec3<Enu>> {
 
 fn main() {
     let text = include_str!("../scenarios/two-bridges.toml");
-    let scenario: Scenario = spandrel::scenario::read("two-bridges.toml", text, &|_| Err("no file".into())).expect("reads");
+    let scenario: Scenario = spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("no file".into())).expect("reads");
     let built = best(ROUNDS, || {
         black_box(Geometry::new(&scenario));
     });

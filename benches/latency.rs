@@ -6,7 +6,7 @@
 mod running;
 
 use running::{Client, now, start};
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};

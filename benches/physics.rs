@@ -2,12 +2,12 @@
 //! floor measured in the same run: a Runge-Kutta quadrotor on plain arrays with lagged rotors and drag, and nothing else. Ratios hold on
 //! busy and slow machines alike; one beyond its limit ends the bench with an error.
 
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::time::SimTime;
-use spandrel::scenario::{BatteryModel, Scenario};
-use spandrel::site::{Site, Surface};
-use spandrel::sitl::physics::{Actuators, Air, Load, MAX_ROTORS, Model, State};
-use spandrel::vehicle::Vehicle;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{BatteryModel, Scenario};
+use spandrel_model::site::{Site, Surface};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_sitl::physics::{Actuators, Air, Load, MAX_ROTORS, Model, State};
 use std::hint::black_box;
 use std::path::Path;
 use std::process::ExitCode;
@@ -120,12 +120,12 @@ fn shipped(file: &str) -> String {
 
 fn scenario() -> Scenario {
     let file = "scenarios/two-bridges.toml";
-    spandrel::scenario::read(file, &shipped(file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
+    spandrel_model::scenario::read(file, &shipped(file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 fn vehicle() -> Vehicle {
     let file = "vehicle-params/phantom2.toml";
-    spandrel::vehicle::read(file, &shipped(file)).unwrap_or_else(|problems| panic!("{problems}"))
+    spandrel_model::vehicle::read(file, &shipped(file)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 /// A spot on a bridge's deck with nothing but the road around it, found from above.

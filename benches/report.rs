@@ -5,7 +5,7 @@ mod inspection;
 #[path = "../tests/support/job.rs"]
 mod job;
 
-use spandrel::report::{About, Review, page};
+use spandrel_training::report::{About, Review, page};
 use std::process::ExitCode;
 use std::time::Duration;
 

@@ -2,16 +2,16 @@
 //! multiple of real time on one core, over whole demo flights of two bridges, contacts and all. The flights are flown once by the
 //! synthetic trainee to record its inputs, and then timed with the inputs played back, so that no pilot is in the figure.
 
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::Decoder;
-use spandrel::mav::dialect::{MavMessage, MavSysStatusSensor};
-use spandrel::pilot::{Pilot, PilotConfig, Skill};
-use spandrel::scenario::Scenario;
-use spandrel::site::Site;
-use spandrel::sitl::endpoint::flavour::px4;
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
-use spandrel::sitl::sim::{Sim, SimConfig, SimEvent};
-use spandrel::vehicle::Vehicle;
+use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
+use spandrel_mavlink::codec::Decoder;
+use spandrel_mavlink::dialect::{MavMessage, MavSysStatusSensor};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_sitl::endpoint::flavour::px4;
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::sim::{Sim, SimConfig, SimEvent};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
@@ -36,8 +36,9 @@ struct Job {
 impl Job {
     fn two_bridges(seed: u64) -> Self {
         let scenario = include_str!("../scenarios/two-bridges.toml");
-        let scenario = spandrel::scenario::read("two-bridges.toml", scenario, &|_| Err("none".into())).expect("shipped");
-        let vehicle = spandrel::vehicle::read("phantom2.toml", include_str!("../vehicle-params/phantom2.toml")).expect("shipped");
+        let scenario = spandrel_model::scenario::read("two-bridges.toml", scenario, &|_| Err("none".into())).expect("shipped");
+        let vehicle =
+            spandrel_model::vehicle::read("phantom2.toml", include_str!("../vehicle-params/phantom2.toml")).expect("shipped");
         let site = Arc::new(Site::build(&scenario, seed));
         Self { scenario: Arc::new(scenario), vehicle: Arc::new(vehicle), site, seed }
     }

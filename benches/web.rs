@@ -1,7 +1,7 @@
 //! The pages of a database with 10,000 sessions, made from the example study under new names, as `spandrel serve` answers them over its
 //! socket: list, last page of the list, one session, one trainee, and the cohort. The cohort's page stays small.
 
-use spandrel::training::record::Record;
+use spandrel_training::record::Record;
 use sqlx::{Connection, Row, SqliteConnection};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;

@@ -1,23 +1,144 @@
-//! Spandrel: the open trainer for bridge inspectors who work with a drone.
-//!
-//! Two wings that never import each other meet in shared things only: the MAVLink wire, the scenario and vehicle files, and the
-//! site built from them. [`sitl`] is the vehicle; [`monitor`] watches and scores. ARCHITECTURE.md is the map.
+//! The shells: the only sockets, files, clocks, threads and processes. One file per subcommand; each turns arguments into a run of a
+//! sans-IO core. Results go to standard output, everything else to standard error.
 
-#![forbid(unsafe_code)]
-#![warn(missing_docs)]
+mod append_file;
+mod args;
+#[cfg(feature = "view")]
+pub mod aside;
+mod assess;
+mod check;
+mod children;
+mod clock;
+mod cohort;
+mod controller;
+mod demo;
+mod errors;
+mod export;
+mod files;
+mod flight_logs;
+mod heard;
+mod key;
+mod links;
+mod log_file;
+mod logging;
+pub mod mcap;
+mod monitor;
+mod net;
+mod pace;
+mod params;
+mod parquet;
+mod pilot;
+mod plan;
+mod ports;
+#[cfg(feature = "view")]
+mod priority;
+mod progress;
+mod questionnaire;
+mod rc;
+mod records;
+mod render;
+mod report;
+mod serial;
+mod session_folder;
+mod shell;
+mod sim;
+mod standstill;
+mod stop;
+mod store;
+mod table;
+mod train;
+mod view;
+mod web;
 
-pub mod app;
-pub mod base;
-pub mod mav;
-pub mod monitor;
-pub mod pilot;
-pub mod rc;
-pub mod report;
-pub mod scenario;
-pub mod site;
-pub mod sitl;
-pub mod telemetry;
-pub mod training;
-pub mod vehicle;
-pub mod view;
-pub mod web;
+pub use errors::AppError;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Open trainer for bridge inspectors who work with a drone: a simulated vehicle that speaks MAVLink, a sidecar that watches a flight
+/// and scores it, and a synthetic trainee.
+///
+/// First steps: `spandrel demo` flies a whole session by itself; `spandrel train` waits for your ground station (QGroundControl
+/// connects by itself) and scores your flight.
+#[derive(Debug, Parser)]
+#[command(name = "spandrel", version, max_term_width = 110, after_help = errors::EXIT_CODES)]
+pub struct Cli {
+    /// What standard error tells: error, warn, info, debug or trace
+    #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
+    log: tracing::Level,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Train(train::Args),
+    Demo(demo::Args),
+    Sim(sim::Args),
+    Monitor(monitor::Args),
+    Pilot(pilot::Args),
+    Rc(rc::Args),
+    Assess(assess::Args),
+    Export(export::Args),
+    Questionnaire(questionnaire::Args),
+    Records(records::Args),
+    Plan(plan::Args),
+    Cohort(cohort::Args),
+    Report(report::Args),
+    Serve(web::Args),
+    Render(render::Args),
+    View(view::Args),
+    Check(check::Args),
+}
+
+/// Runs the program: arguments in, exit code out (0 done, 1 failed, 2 wrong arguments or files).
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    logging::start(cli.log);
+    let done = match &cli.command {
+        Command::Train(args) => train::run(args, cli.log),
+        Command::Demo(args) => demo::run(args, cli.log),
+        Command::Sim(args) => sim::run(args),
+        Command::Monitor(args) => monitor::run(args),
+        Command::Pilot(args) => pilot::run(args),
+        Command::Rc(args) => rc::run(args),
+        Command::Assess(args) => assess::run(args),
+        Command::Export(args) => export::run(args),
+        Command::Questionnaire(args) => questionnaire::run(args),
+        Command::Records(args) => records::run(args),
+        Command::Plan(args) => plan::run(args),
+        Command::Cohort(args) => cohort::run(args),
+        Command::Report(args) => report::run(args),
+        Command::Serve(args) => web::run(args),
+        Command::Render(args) => render::run(args),
+        Command::View(args) => view::run(args),
+        Command::Check(args) => check::run(args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => error.report(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn exact_the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn exact_every_subcommand_explains_itself_with_an_example() {
+        for command in Cli::command().get_subcommands() {
+            let help = command.clone().render_long_help().to_string();
+            assert!(help.contains("Examples:"), "{}: no examples", command.get_name());
+            for argument in command.get_arguments().filter(|argument| !argument.is_hide_set()) {
+                assert!(argument.get_help().is_some(), "{} {}: no help", command.get_name(), argument.get_id());
+            }
+        }
+    }
+}

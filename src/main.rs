@@ -1,6 +1,6 @@
-//! The program: everything is in the library, see `spandrel::app`.
+//! The program: everything is in the library, see `spandrel`.
 #![forbid(unsafe_code)]
 
 fn main() -> std::process::ExitCode {
-    spandrel::app::main()
+    spandrel::main()
 }

@@ -1,8 +1,8 @@
 //! A real simulator beside a bench, in real time, and who talks to it.
 #![allow(dead_code, reason = "each bench uses its part")]
 
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::MavMessage;
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::MavMessage;
 use std::io::{BufRead, BufReader};
 use std::net::UdpSocket;
 use std::process::{Child, ChildStdout, Command, Stdio};

@@ -3,18 +3,18 @@
 #![no_main]
 
 use mavlink::Message;
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::Decoder;
-use spandrel::mav::dialect::MavMessage;
-use spandrel::monitor::{Monitor, MonitorConfig, watch::build_site};
+use spandrel_mavlink::codec::Decoder;
+use spandrel_mavlink::dialect::MavMessage;
+use spandrel_model::time::SimTime;
+use spandrel_monitor::{Monitor, MonitorConfig, watch::build_site};
 use std::sync::LazyLock;
 
 static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
     let scenario = include_str!("../../scenarios/drill-hover.toml");
     let vehicle = include_str!("../../vehicle-params/phantom2.toml");
     Monitor::new(MonitorConfig {
-        scenario: spandrel::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into())).expect("shipped"),
-        vehicle: spandrel::vehicle::read("phantom2.toml", vehicle).expect("shipped"),
+        scenario: spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into())).expect("shipped"),
+        vehicle: spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"),
         trainee: "fuzz".into(),
         purpose: None,
         started_unix_us: 0,

@@ -3,14 +3,14 @@
 #![no_main]
 
 use mavlink::Message;
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::Encoder;
-use spandrel::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
-use spandrel::site::Site;
-use spandrel::sitl::endpoint::files::job::{Action, Done, Entry, FileError};
-use spandrel::sitl::endpoint::flavour::px4;
-use spandrel::sitl::endpoint::{HANDLED, LinkId, LinkKind};
-use spandrel::sitl::sim::{Sim, SimConfig};
+use spandrel_mavlink::codec::Encoder;
+use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::files::job::{Action, Done, Entry, FileError};
+use spandrel_sitl::endpoint::flavour::px4;
+use spandrel_sitl::endpoint::{HANDLED, LinkId, LinkKind};
+use spandrel_sitl::sim::{Sim, SimConfig};
 use std::sync::{Arc, LazyLock};
 
 const LINK: LinkId = LinkId(1);
@@ -18,8 +18,9 @@ const LINK: LinkId = LinkId(1);
 static FLYING: LazyLock<Sim> = LazyLock::new(|| {
     let scenario = include_str!("../../scenarios/drill-hover.toml");
     let vehicle = include_str!("../../vehicle-params/phantom2.toml");
-    let scenario = Arc::new(spandrel::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into())).expect("shipped"));
-    let vehicle = Arc::new(spandrel::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
+    let scenario =
+        Arc::new(spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into())).expect("shipped"));
+    let vehicle = Arc::new(spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
     let site = Arc::new(Site::build(&scenario, 1));
     let mut sim =
         Sim::new(SimConfig { scenario, vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR, after_crash: None }, site);

@@ -2,7 +2,7 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|text: &str| {
-    if let Err(problems) = spandrel::scenario::read("fuzz.toml", text, &|_| Ok("1,2\n3,4\n".into())) {
+    if let Err(problems) = spandrel_model::scenario::read("fuzz.toml", text, &|_| Ok("1,2\n3,4\n".into())) {
         assert!(!problems.0.is_empty());
     }
 });

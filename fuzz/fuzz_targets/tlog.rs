@@ -1,15 +1,15 @@
 //! Any bytes as a telemetry log: a score or a reason, never a panic.
 #![no_main]
 
-use spandrel::monitor::{assess_log, watch::build_site};
-use spandrel::{scenario::Scenario, vehicle::Vehicle};
+use spandrel_model::{scenario::Scenario, vehicle::Vehicle};
+use spandrel_monitor::{assess_log, watch::build_site};
 use std::sync::LazyLock;
 
 static JOB: LazyLock<(Scenario, Vehicle)> = LazyLock::new(|| {
     let scenario = include_str!("../../scenarios/drill-hover.toml");
     let vehicle = include_str!("../../vehicle-params/phantom2.toml");
-    let read = spandrel::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into()));
-    (read.expect("shipped"), spandrel::vehicle::read("phantom2.toml", vehicle).expect("shipped"))
+    let read = spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into()));
+    (read.expect("shipped"), spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"))
 });
 
 libfuzzer_sys::fuzz_target!(|log: &[u8]| {

@@ -2,7 +2,7 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|text: &str| {
-    if let Err(problems) = spandrel::vehicle::read("fuzz.toml", text) {
+    if let Err(problems) = spandrel_model::vehicle::read("fuzz.toml", text) {
         assert!(!problems.0.is_empty());
     }
 });

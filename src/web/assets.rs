@@ -1,54 +1,12 @@
-//! Files that the pages use: our style, which begins with the reports', and our scripts. Their addresses end in a hash, so that a browser
-//! keeps them until they change.
+//! Style and scripts.
 
-use crate::monitor::folder::sha256_hex;
-use crate::report::assets as report;
+use super::answer::{Answer, Answered, Refusal};
+use super::asked::Asked;
+use super::state::State;
+use spandrel_training::web::assets;
 
-/// Name of the style.
-pub const STYLE_NAME: &str = "style.css";
-/// Name of the questionnaire's script.
-pub const FORM_NAME: &str = "form.js";
-/// Name of the live page's script.
-pub const LIVE_NAME: &str = "live.js";
-
-/// Name of the script of the page of one's own flight.
-pub const FLIGHT_NAME: &str = "flight.js";
-
-const STYLE: &str = include_str!("assets/web.css");
-const FORM: &str = include_str!("assets/form.js");
-const LIVE: &str = include_str!("assets/live.js");
-const FLIGHT: &str = include_str!("assets/flight.js");
-
-/// Text and type of a file; `None` when there is none of that name.
-#[must_use]
-pub fn file(name: &str) -> Option<(String, &'static str)> {
-    let script = "text/javascript; charset=utf-8";
-    match name {
-        STYLE_NAME => Some((format!("{}{STYLE}", report::STYLE), "text/css; charset=utf-8")),
-        FORM_NAME => Some((FORM.to_owned(), script)),
-        LIVE_NAME => Some((LIVE.to_owned(), script)),
-        FLIGHT_NAME => Some((FLIGHT.to_owned(), script)),
-        _ => None,
-    }
-}
-
-/// Where a file is served.
-#[must_use]
-pub fn address(name: &str) -> String {
-    let hash = file(name).map(|(text, _)| sha256_hex(text.as_bytes())).unwrap_or_default();
-    format!("/assets/{name}?v={}", hash.get(..12).unwrap_or_default())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exact_every_file_has_an_address_that_changes_with_it() {
-        for name in [STYLE_NAME, FORM_NAME, LIVE_NAME, FLIGHT_NAME] {
-            let (text, _) = file(name).unwrap();
-            assert_eq!(address(name), format!("/assets/{name}?v={}", &sha256_hex(text.as_bytes())[..12]));
-        }
-        assert_eq!(file("../mod.rs"), None);
-    }
+/// A file of ours.
+pub fn file(_: &State, asked: &Asked) -> Answered {
+    let (text, kind) = assets::file(asked.part("name")).ok_or(Refusal::NotFound)?;
+    Ok(Answer::asset(kind, text))
 }

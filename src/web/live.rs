@@ -1,186 +1,88 @@
-//! The live page: map and side views that the script moves the drone on, what was said, and the instructor's actions.
+//! The flights that are watched: for each a thread that is one more subscriber of the vehicle's payload port, the stream of what it sees,
+//! and what an instructor asks of the vehicle.
 
-use super::access::Visitor;
-use super::assets;
-use super::frame::{scripted, section, token};
-use maud::{Markup, PreEscaped, html};
+mod act;
+mod ear;
+mod orders;
+mod own;
+mod picture;
+mod stream;
+mod whose;
 
-/// Longest note, characters: it is one message on the wire.
-pub const NOTE_MOST: usize = 100;
-/// Strongest wind, m/s: the vehicle's parameter ends there.
-pub const WIND_MOST_M_S: f64 = 25.0;
+pub use act::act;
+pub use own::{camera as own_camera, now as own_now, page as own_page};
+pub use picture::show as camera;
+pub use stream::stream;
 
-/// What may fail, as the form and the wire name it: key, words, FAILURE_UNIT.
-pub const UNITS: [(&str, &str, f32); 4] = [
-    ("gnss", "Satellite navigation", 4.0),
-    ("compass", "Compass", 2.0),
-    ("barometer", "Barometer", 3.0),
-    ("battery", "Battery", 100.0),
-];
+use super::answer::{Answer, Answered, Refusal};
+use super::asked::Asked;
+use super::state::{State, lock};
+use crate::errors::AppError;
+use ear::{Ear, Known, Places};
+use orders::Order;
+use spandrel_training::web::live as pages;
+use spandrel_training::web::watch::Watch;
+use std::net::SocketAddr;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Sender, channel};
+use tokio::sync::watch;
 
-/// The job that is flown, drawn.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Drawn {
-    /// Names the job and its seed.
-    pub key: String,
-    /// Title.
-    pub title: String,
-    /// Drawings: caption and SVG, made by `crate::report::plots::job`.
-    pub drawings: Vec<(String, String)>,
+/// A vehicle to watch.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Watched {
+    /// Its payload port.
+    pub vehicle: SocketAddr,
+    /// Where a window keeps the camera's view of it.
+    pub picture: Option<PathBuf>,
 }
 
-/// Which of the vehicles is watched on a page.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Choice {
-    /// Addresses of all.
-    pub vehicles: Vec<String>,
-    /// The number of the one that is watched, from 1.
-    pub number: usize,
+/// A flight that is watched.
+#[derive(Debug)]
+pub struct Live {
+    vehicle: SocketAddr,
+    picture: Option<PathBuf>,
+    moments: watch::Receiver<String>,
+    known: Known,
+    orders: Sender<Order>,
 }
 
-impl Choice {
-    fn address(&self) -> Option<&str> {
-        self.number.checked_sub(1).and_then(|k| self.vehicles.get(k)).map(String::as_str)
+impl Live {
+    /// Starts to listen.
+    ///
+    /// # Errors
+    /// When no socket can be opened.
+    pub fn start(watched: &Watched, sessions: &[PathBuf], scenarios: &Path) -> Result<Self, AppError> {
+        let Watched { vehicle, picture } = watched.clone();
+        let (sender, moments) = watch::channel(Watch::new().moment(false).to_string());
+        let (orders, received) = channel();
+        let known = Known::default();
+        let places = Places { sessions: sessions.to_vec(), scenarios: scenarios.to_path_buf(), picture: picture.clone() };
+        let mut ear = Ear::open(vehicle, known.clone(), places)?;
+        std::thread::spawn(move || ear.listen(&sender, &received));
+        Ok(Self { vehicle, picture, moments, known, orders })
     }
+}
+
+/// The flight with this number, from 1, and its number; without a word the first one.
+///
+/// # Errors
+/// When no vehicle is watched, or not so many.
+pub fn chosen<'a>(state: &'a State, word: Option<&str>) -> Result<(usize, &'a Live), Refusal> {
+    if state.live.is_empty() {
+        return Err(Refusal::Wrong("no vehicle is watched (--vehicle)".into()));
+    }
+    let number = word.map_or(Some(1), |word| word.parse().ok());
+    let found = number.and_then(|number: usize| Some((number, state.live.get(number.checked_sub(1)?)?)));
+    found.ok_or_else(|| Refusal::Wrong(format!("vehicle: no such number (allowed: 1 to {})", state.live.len())))
 }
 
 /// The page.
-#[must_use]
-pub fn live(visitor: &Visitor, drawn: Option<&Drawn>, choice: &Choice) -> Markup {
-    let body = html! {
-        (others(choice))
-        div.live-page data-live[!choice.vehicles.is_empty()] data-vehicle=(choice.number) data-job=(drawn.map_or("", |drawn| drawn.key.as_str())) {
-            p.lead {
-                @match drawn {
-                    Some(drawn) => b { (drawn.title) },
-                    None => @match choice.address() {
-                        Some(address) => span { "Waiting for a flight at " code { (address) } ". This page follows as soon as one begins." },
-                        None => span { "This server watches no vehicle; " code { "spandrel serve --vehicle HOST:PORT" } " says which." },
-                    },
-                }
-                " " span.state role="status" data-state { "not connected" }
-            }
-            noscript { p.message.warn { "This page needs scripts: it follows the flight." } }
-            @if let Some(drawn) = drawn {
-                section aria-label="Now" {
-                    dl.readout {
-                        @for (key, words) in [("task", "Task"), ("time", "Time"), ("speed", "Speed"), ("height", "Height"), ("clearance", "Clearance"), ("battery", "Battery"), ("contact", "Touches"), ("traffic", "Traffic")] {
-                            div { dt { (words) } dd data-now=(key) { "–" } }
-                        }
-                    }
-                    ul.cues aria-label="Cues that are on" data-cues {}
-                }
-                div.watch {
-                    section aria-label="Site" {
-                        @for (caption, drawing) in &drawn.drawings {
-                            figure.wide { figcaption { (caption) } div.scroll tabindex="0" role="region" aria-label=(caption) { (PreEscaped(drawing)) } }
-                        }
-                    }
-                    div {
-                        figure.camera data-camera hidden {
-                            figcaption { "What the camera shows, about once a second" }
-                            img alt="The camera's view now" data-picture="";
-                        }
-                        (section("act", "Act in this flight", &actions(visitor, choice.number)))
-                        (section("said", "What is said", &html! { ol.said data-said tabindex="0" aria-label="Texts of the vehicle and the monitor, the newest first" {} }))
-                    }
-                }
-            }
-        }
-    };
-    scripted(visitor, "/live", "Live flight", Some(assets::LIVE_NAME), &body)
-}
-
-/// The page of the one who flies: his own camera's picture, which the script keeps fresh.
-#[must_use]
-pub fn own(visitor: &Visitor) -> Markup {
-    let body = html! {
-        div.own-flight data-flight {
-            p.lead role="status" data-state { "You are not flying now. This page follows as soon as you do." }
-            noscript { p.message.warn { "This page needs scripts: it follows the flight." } }
-            figure.camera data-camera hidden {
-                figcaption { "What your camera shows, about once a second" }
-                img alt="Your camera's view now" data-picture="";
-            }
-        }
-    };
-    scripted(visitor, "/flight", "My flight", Some(assets::FLIGHT_NAME), &body)
-}
-
-/// Links to the other vehicles.
-fn others(choice: &Choice) -> Markup {
-    html! {
-        @if choice.vehicles.len() > 1 {
-            nav.pages aria-label="Vehicles" {
-                @for (number, address) in (1..).zip(&choice.vehicles) {
-                    a href={ "/live?vehicle=" (number) } aria-current=[(number == choice.number).then_some("page")] { "Vehicle " (number) " · " (address) }
-                }
-            }
-        }
+pub fn page(state: &State, asked: &Asked) -> Answered {
+    if state.live.is_empty() {
+        return Ok(Answer::page(pages::live(&asked.visitor, None, &pages::Choice::default())));
     }
-}
-
-fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
-    let hidden = |act: &str| html! { (token(visitor)) input type="hidden" name="act" value=(act); input type="hidden" name="vehicle" value=(vehicle); };
-    html! {
-        form.stacked method="post" action="/live/act" data-act {
-            (hidden("note"))
-            label { "Note at this moment" input name="text" required maxlength=(NOTE_MOST) autocomplete="off"; }
-            button type="submit" { "Note" }
-        }
-        form.stacked method="post" action="/live/act" data-act {
-            (hidden("wind"))
-            label { "Wind, m/s" input type="number" name="speed" required min="0" max=(WIND_MOST_M_S) step="0.5" value="6"; }
-            label { "From, degrees" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
-            button type="submit" { "Set the wind" }
-        }
-        form.stacked method="post" action="/live/act" data-act {
-            (hidden("traffic"))
-            p.note { "Closed, who is on a bridge goes on, and nobody enters any more." }
-            div.row {
-                button type="submit" name="open" value="no" { "Close the bridges" }
-                button type="submit" name="open" value="yes" { "Open them" }
-            }
-        }
-        form.stacked method="post" action="/live/act" data-act {
-            (hidden("failure"))
-            label { "What" select name="unit" { @for (key, words, _) in UNITS { option value=(key) { (words) } } } }
-            div.row {
-                button type="submit" name="fails" value="yes" { "Let it fail" }
-                button type="submit" name="fails" value="no" { "Make it whole" }
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
-    use super::*;
-
-    #[test]
-    fn exact_who_flies_sees_the_camera_and_no_map_or_action() {
-        let trainee = Visitor { role: crate::training::trainee::Role::Trainee, ..administrator() };
-        let text = own(&trainee).into_string();
-        check(&text);
-        assert!(text.contains("href=\"/flight\" aria-current=\"page\"") && text.contains("data-camera hidden"), "{text}");
-        assert!(!text.contains("class=\"map\"") && !text.contains("/live"), "{text}");
-        assert!(!own(&administrator()).into_string().contains("href=\"/flight\""), "instructors have the live page");
-    }
-
-    #[test]
-    fn exact_without_a_flight_there_is_nothing_to_act_in() {
-        let choice = Choice { vehicles: vec!["127.0.0.1:14280".into(), EVIL.into()], number: 2 };
-        let text = live(&administrator(), None, &choice).into_string();
-        check(&text);
-        assert!(!text.contains("/live/act") && text.contains("Waiting for a flight"));
-        let drawn = Drawn { key: "k".into(), title: EVIL.into(), drawings: vec![(EVIL.into(), "<svg></svg>".into())] };
-        let text = live(&administrator(), Some(&drawn), &choice).into_string();
-        check(&text);
-        assert_eq!(text.matches("action=\"/live/act\"").count(), 4);
-        assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 4);
-        assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
-        let text = live(&administrator(), None, &Choice::default()).into_string();
-        assert!(!text.contains("data-live") && text.contains("watches no vehicle"), "nothing to listen to: {text}");
-    }
+    let (number, live) = chosen(state, asked.word("vehicle"))?;
+    let drawn = lock(&live.known.drawn).clone();
+    let vehicles = state.live.iter().map(|live| live.vehicle.to_string()).collect();
+    Ok(Answer::page(pages::live(&asked.visitor, drawn.as_ref(), &pages::Choice { vehicles, number })))
 }

@@ -1,194 +1,142 @@
-//! Trainees: who there is, and one's progress, plan, details, export and erasure.
+//! Trainees and groups of them.
 
-use super::access::{Needs, Visitor};
-use super::frame::{page, section, table, token};
-use super::sessions::lines;
-use crate::base::calendar::minute;
-use crate::report::page::progress::on_job;
-use crate::report::words;
-use crate::training::cohort::by_job;
-use crate::training::plan::{Change, Plan};
-use crate::training::record::{Incomplete, Listed, Record, left_out_words};
-use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
-use maud::{Markup, html};
+use super::answer::{Answer, Answered, Refusal};
+use super::asked::Asked;
+use super::state::State;
+use crate::args::TraineeId;
+use crate::records::{forget, kept};
+use crate::{clock, plan};
+use spandrel_monitor::export::json_text;
+use spandrel_training::cohort::{Selection, TABLES, table};
+use spandrel_training::plan::plan_counting;
+use spandrel_training::record::Incomplete;
+use spandrel_training::report::{assets, page::cohort as report};
+use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
+use spandrel_training::web::{group, people as pages};
 
-/// Before the name of a field: what it was when the page was opened, so that nobody's change is lost.
-pub const BEFORE: &str = "before_";
+/// Sessions on a trainee's page.
+const SESSIONS: u32 = 200;
+/// Repetitions compared unless asked otherwise.
+const REPETITIONS: usize = 3;
 
 /// Everybody.
-#[must_use]
-pub fn list(visitor: &Visitor, people: &[Trainee]) -> Markup {
-    let rows = html! {
-        @for one in people {
-            tr {
-                th scope="row" { a href={ "/trainees/" (one.pseudonym) } { (one.pseudonym) } }
-                td { (one.role.word()) }
-                td { (one.age_band.as_deref().unwrap_or_default()) }
-                td { (one.drone_experience.as_deref().unwrap_or_default()) }
-                td { (one.gaming_experience.as_deref().unwrap_or_default()) }
-            }
-        }
-    };
-    let heads = [("Pseudonym", false), ("Role", false), ("Age", false), ("Drones", false), ("Games", false)];
-    let body = html! {
-        section {
-            @if people.is_empty() { p.calm { "Nobody yet. Whoever flies appears here." } }
-            @else { (table(&format!("{} people", people.len()), &heads, &rows)) }
-        }
-    };
-    page(visitor, "/trainees", "Trainees", &body)
+pub fn list(state: &State, asked: &Asked) -> Answered {
+    Ok(Answer::page(pages::list(&asked.visitor, &state.database.trainees()?)))
 }
 
-/// What a trainee's page shows.
-#[derive(Debug, Clone, Copy)]
-pub struct About<'a> {
-    /// Who.
-    pub person: &'a Trainee,
-    /// His sessions in their order.
-    pub records: &'a [Record],
-    /// The same in short, the newest first.
-    pub listed: &'a [Listed],
-    /// What to fly next.
-    pub plan: Option<&'a Plan>,
-    /// Whether incomplete sessions count in progress and plan.
-    pub incomplete: Incomplete,
+/// The person of the path, if the visitor may see him.
+fn person(state: &State, asked: &Asked) -> Result<Trainee, Refusal> {
+    let name = asked.part("name");
+    asked.must_see(name)?;
+    state.database.account(name)?.map(|account| account.person).ok_or(Refusal::NotFound)
 }
 
 /// One trainee.
-#[must_use]
-pub fn one(visitor: &Visitor, about: &About<'_>) -> Markup {
-    let name = &about.person.pseudonym;
-    let body = html! {
-        @if let Some(plan) = about.plan { (section("plan", "What to fly next", &next(plan))) }
-        @if !about.records.is_empty() { (section("progress", "Progress", &progress(name, about.records, about.incomplete))) }
-        (section("sessions", "Sessions", &html! {
-            @if about.listed.is_empty() { p.calm { "No session yet." } }
-            @else { (lines(visitor, &format!("{} sessions, the newest first", about.listed.len()), about.listed)) }
-        }))
-        (section("details", "Details", &details(visitor, about.person)))
-        (section("data", "Data", &html! {
-            p { a href={ "/trainees/" (name) "/export.json" } { "Download everything that is kept of " (name) } }
-            @if visitor.meets(Needs::Administrator) { (erase(visitor, name)) }
-        }))
+pub fn one(state: &State, asked: &Asked) -> Answered {
+    let person = person(state, asked)?;
+    let records = state.database.records(Some(&person.pseudonym))?;
+    let listed = state.database.list(Some(&person.pseudonym), SESSIONS, 0)?;
+    let incomplete = incomplete(asked);
+    let plan = plan_counting(records.clone(), incomplete, &plan::rules(None)?, clock::unix_us());
+    let about = pages::About { person: &person, records: &records, listed: &listed, plan: plan.as_ref(), incomplete };
+    Ok(Answer::page(pages::one(&asked.visitor, &about)))
+}
+
+/// Everything that is kept of one.
+pub fn export(state: &State, asked: &Asked) -> Answered {
+    let person = person(state, asked)?;
+    let kept = kept(&state.database, &state.place, &person.pseudonym)?.ok_or(Refusal::NotFound)?;
+    let name = format!("{}.json", person.pseudonym.parse::<TraineeId>().as_ref().map_or("trainee", TraineeId::as_str));
+    Ok(Answer::download(&name, "application/json", json_text(&kept.without_places()).into_bytes()))
+}
+
+/// What one tells of oneself: field, and what it may be.
+const DETAILS: [(&str, &[&str]); 3] =
+    [("age_band", AGE_BANDS), ("drone_experience", EXPERIENCE), ("gaming_experience", EXPERIENCE)];
+
+/// Takes what one tells of oneself, unless somebody else has changed it since the page was opened.
+pub fn details(state: &State, asked: &Asked) -> Answered {
+    let person = person(state, asked)?;
+    let (mut before, mut after) = ([""; 3], [""; 3]);
+    for (k, (field, allowed)) in DETAILS.into_iter().enumerate() {
+        let given = asked.field(field).unwrap_or_default();
+        if !given.is_empty() && !allowed.contains(&given) {
+            let short: String = given.chars().take(60).collect();
+            return Err(Refusal::Wrong(format!("{field} = {short}: unknown (allowed: {})", allowed.join(", "))));
+        }
+        let shown = format!("{}{field}", pages::BEFORE);
+        before[k] = asked.field(&shown).ok_or_else(|| Refusal::Wrong(format!("{shown}: missing")))?;
+        after[k] = given;
+    }
+    if !state.database.set_details(&person.pseudonym, before, after)? {
+        return Err(Refusal::Wrong("somebody has changed these details meanwhile: open the page again and look at them".into()));
+    }
+    Ok(Answer::to(&format!("/trainees/{}", asked.part("name"))))
+}
+
+/// Erases one with everything; the name must be written once more.
+pub fn erase(state: &State, asked: &Asked) -> Answered {
+    let person = person(state, asked)?;
+    let name = &person.pseudonym;
+    if asked.needed("again")? != name {
+        return Err(Refusal::Wrong(format!("the pseudonym that was written is not {name}: nothing is erased")));
+    }
+    // Whoever erases is an administrator who stays: so the last one is never erased.
+    if person.role == Role::Administrator && asked.visitor.name.as_deref() == Some(name) {
+        return Err(Refusal::Wrong("you would shut yourself out: let another administrator erase you".into()));
+    }
+    forget(&state.database, &state.place, name)?;
+    state.guard.put_out(name, None);
+    tracing::info!("a trainee was erased");
+    Ok(Answer::to("/trainees"))
+}
+
+/// Incomplete sessions count where the page's switch is on.
+fn incomplete(asked: &Asked) -> Incomplete {
+    Incomplete::included(asked.word("incomplete").is_some())
+}
+
+fn chosen(asked: &Asked) -> Result<Selection, Refusal> {
+    let repetitions = match asked.word("repetitions") {
+        None => REPETITIONS,
+        Some(text) => text
+            .parse()
+            .ok()
+            .filter(|count| (1..=100).contains(count))
+            .ok_or_else(|| Refusal::Wrong("repetitions: no such number (allowed: 1 to 100)".into()))?,
     };
-    page(visitor, "/trainees", &format!("Trainee {name}"), &body)
+    let scenarios = asked.query.iter().filter(|(key, _)| key == "scenario").map(|(_, name)| name.clone()).collect();
+    Ok(Selection { scenarios, repetitions, incomplete: incomplete(asked) })
 }
 
-fn next(plan: &Plan) -> Markup {
-    let told = |change: &&Change| change.better.is_some();
-    html! {
-        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight is longer ago than skill lasts." } } }
-        ol.steps {
-            @for step in &plan.steps {
-                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
-            }
-        }
-        @if let Some(words) = left_out_words(plan.left_out) { p.note { (words) "." } }
-        @if let Some(changes) = &plan.changes {
-            h3 { "What changed" }
-            p.note { "Since " a href={ "/sessions/" (changes.since) } { "the session before on the same job" } "." }
-            ul {
-                @for change in changes.changes.iter().filter(told) {
-                    li { (change.what) ": " (words::number(change.before, 1)) " → " (words::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) }
-                }
-            }
-        }
-    }
-}
-
-/// Each job by itself: practice on one says nothing of another.
-fn progress(name: &str, records: &[Record], incomplete: Incomplete) -> Markup {
-    let unfinished = records.iter().filter(|record| !record.is_complete()).count();
-    html! {
-        @if unfinished > 0 { p {
-            @match incomplete {
-                Incomplete::LeaveOut => a href={ "/trainees/" (name) "?incomplete=1" } { "Include incomplete sessions" },
-                Incomplete::Include => a href={ "/trainees/" (name) } { "Leave out incomplete sessions" },
-            }
-        } }
-        @for job in by_job(records, incomplete) {
-            @let times = job.progress.repetitions.len();
-            h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (times) @if times == 1 { " session" } @else { " sessions" } }
-            (on_job(&job))
-        }
-    }
-}
-
-fn details(visitor: &Visitor, person: &Trainee) -> Markup {
-    let choice = |name: &str, label: &str, given: Option<&str>, all: &[&str]| {
-        html! {
-            input type="hidden" name={ (BEFORE) (name) } value=(given.unwrap_or_default());
-            label { (label)
-                select name=(name) {
-                    option value="" selected[given.is_none()] { "not said" }
-                    @for one in all { option value=(one) selected[given == Some(one)] { (one) } }
-                }
-            }
-        }
+/// The group's page.
+pub fn cohort_page(state: &State, asked: &Asked) -> Answered {
+    let selection = chosen(asked)?;
+    let figured = state.figures.of(&selection)?;
+    let counted = figured.counted();
+    let scenarios = counted.map_or(selection.scenarios, |cohort| cohort.scenarios.clone());
+    let chosen = group::Chosen {
+        flown: &figured.flown,
+        scenarios: &scenarios,
+        repetitions: selection.repetitions,
+        incomplete: selection.incomplete,
+        left_out: figured.cohort.left_out,
     };
-    html! {
-        p { "Role: " (person.role.word()) ". What one tells of oneself is free, and kept for the study alone." }
-        form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
-            (token(visitor))
-            (choice("age_band", "Age, years", person.age_band.as_deref(), AGE_BANDS))
-            (choice("drone_experience", "Experience with drones", person.drone_experience.as_deref(), EXPERIENCE))
-            (choice("gaming_experience", "Experience with games", person.gaming_experience.as_deref(), EXPERIENCE))
-            button type="submit" { "Save" }
-        }
-    }
+    Ok(Answer::page(group::group(&asked.visitor, &chosen, counted)))
 }
 
-fn erase(visitor: &Visitor, name: &str) -> Markup {
-    html! {
-        details {
-            summary { "Erase" }
-            form.stacked method="post" action={ "/trainees/" (name) "/erase" } {
-                (token(visitor))
-                p { "Erases " (name) " with all sessions, answers and session folders. This cannot be undone." }
-                label { "Write the pseudonym to go on" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
-                button.danger type="submit" { "Erase for ever" }
-            }
-        }
-    }
+/// One of its tables as a file.
+pub fn cohort_table(state: &State, asked: &Asked) -> Answered {
+    let name = TABLES.into_iter().find(|name| *name == asked.part("name")).ok_or(Refusal::NotFound)?;
+    let figured = state.figures.of(&chosen(asked)?)?;
+    let csv = figured.counted().and_then(|cohort| table(cohort, name)).ok_or(Refusal::NotFound)?;
+    Ok(Answer::download(name, "text/csv; charset=utf-8", csv.into_bytes()))
 }
 
-#[cfg(test)]
-mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
-    use super::*;
-    use crate::training::plan::{RULES, plan, read_rules};
-    use crate::training::testing::{broken_off, faultless};
-    use crate::training::trainee::Role;
-
-    #[test]
-    fn exact_a_trainees_page_escapes_and_offers_erasure_to_administrators_alone() {
-        let mut records = vec![faultless(EVIL, 1), faultless(EVIL, 2), faultless(EVIL, 3)];
-        records[0].scenario = EVIL.into();
-        let person = Trainee { age_band: Some(EVIL.into()), ..Trainee::new(EVIL) };
-        let plan = plan(&records, &read_rules("rules.toml", RULES).unwrap(), records[2].started_unix_us);
-        let about =
-            About { person: &person, records: &records, listed: &[], plan: plan.as_ref(), incomplete: Incomplete::LeaveOut };
-        let text = one(&administrator(), &about).into_string();
-        check(&text);
-        assert!(text.contains("Erase for ever") && text.contains("class=\"lines\"") && text.contains("What to fly next"));
-        assert_eq!(
-            (text.matches("class=\"job\"").count(), text.matches("class=\"lines\"").count()),
-            (2, 4),
-            "each job by itself"
-        );
-        assert!(text.contains(", 1 session<") && text.contains(", 2 sessions<"), "{text}");
-        let unfinished = vec![faultless("anna", 1), broken_off("anna", 2)];
-        let text = |incomplete: Incomplete| {
-            one(&administrator(), &About { records: &unfinished, plan: None, incomplete, ..about }).into_string()
-        };
-        let (without, with) = (text(Incomplete::LeaveOut), text(Incomplete::Include));
-        assert!(
-            without.contains("1 incomplete session left out") && without.contains("Include incomplete sessions"),
-            "{without}"
-        );
-        assert!(with.contains(", 2 sessions<") && !with.contains("left out.") && with.contains("Leave out"), "{with}");
-        let instructor = Visitor { role: Role::Instructor, ..administrator() };
-        assert!(!one(&instructor, &about).into_string().contains("Erase for ever"));
-        check(&list(&administrator(), &[person]).into_string());
-    }
+/// The same as one page that opens offline.
+pub fn cohort_report(state: &State, asked: &Asked) -> Answered {
+    let figured = state.figures.of(&chosen(asked)?)?;
+    let nothing = || Refusal::Wrong("there is no session of these scenarios that counts".into());
+    let cohort = figured.counted().ok_or_else(nothing)?;
+    Ok(Answer::boxed(report::cohort(cohort).into_bytes(), &assets::page_policy()))
 }

@@ -1,110 +1,152 @@
-//! What an administrator sets: who may log in, and how long sessions are kept.
+//! Logins, accounts, retention.
 
-use super::access::Visitor;
-use super::frame::{message, page, section, table, token};
-use super::login::PASSWORD_LENGTHS;
-use crate::training::trainee::{Role, Trainee};
-use maud::{Markup, html};
+use super::answer::{Answer, Answered, Refusal};
+use super::asked::Asked;
+use super::state::State;
+use crate::args::TraineeId;
+use crate::clock;
+use crate::records::{Account, forget_older};
+use spandrel_training::trainee::{Role, Trainee};
+use spandrel_training::web::{login, settings as pages};
 
-/// What the page shows.
-#[derive(Debug, Clone, Copy)]
-pub struct Settings<'a> {
-    /// Everybody.
-    pub people: &'a [Trainee],
-    /// Those who may log in.
-    pub with_password: &'a [String],
-    /// Place of the database, without a password.
-    pub database: &'a str,
-    /// Folders of sessions.
-    pub folders: &'a [String],
-    /// How a change went.
-    pub told: Option<(&'a str, &'a str)>,
+/// µs in a day.
+const DAY_US: u64 = 86_400_000_000;
+
+/// The login.
+pub fn login_page(_: &State, asked: &Asked) -> Answered {
+    if asked.visitor.is_known() {
+        return Ok(Answer::to("/sessions"));
+    }
+    Ok(Answer::page(login::login(&asked.visitor, "", None)))
 }
 
-/// The page.
-#[must_use]
-pub fn settings(visitor: &Visitor, settings: &Settings<'_>) -> Markup {
-    let body = html! {
-        @if let Some((kind, words)) = settings.told { (message(kind, words)) }
-        (section("logins", "Who may log in", &logins(visitor, settings)))
-        (section("add", "Add a person, or set a password and a role", &add(visitor)))
-        (section("retention", "Retention", &retention(visitor)))
-        (section("place", "Where things are", &html! {
-            dl {
-                dt { "Database" } dd { (settings.database) }
-                dt { "Session folders" } dd { @for folder in settings.folders { (folder) " " } }
-                dt { "Version" } dd { "spandrel " (env!("CARGO_PKG_VERSION")) }
-            }
-        }))
+/// Logs in.
+pub fn log_in(state: &State, asked: &Asked) -> Answered {
+    let name = asked.field("name").unwrap_or_default().trim();
+    let password = asked.field("password").unwrap_or_default();
+    match state.guard.log_in(&state.database, (name, password), asked.cookie.as_deref(), asked.from) {
+        Ok(cookie) => {
+            let mut answer = Answer::to("/sessions");
+            answer.cookie = Some(state.guard.cookie(&cookie));
+            Ok(answer)
+        }
+        Err(refusal @ (Refusal::Forbidden(_) | Refusal::Later(_) | Refusal::Busy(_))) => {
+            let (status, _, words) = refusal.told();
+            let page = Answer::page(login::login(&asked.visitor, name, Some(&words)));
+            Ok(page.with_status(status).retry_after(refusal.retry_after_s()))
+        }
+        Err(other) => Err(other),
+    }
+}
+
+/// Logs out.
+pub fn log_out(state: &State, asked: &Asked) -> Answered {
+    state.guard.log_out(asked.cookie.as_deref());
+    Ok(Answer::to("/login"))
+}
+
+/// One's own account.
+pub fn account_page(_: &State, asked: &Asked) -> Answered {
+    if asked.visitor.name.is_none() {
+        return Ok(Answer::to("/settings"));
+    }
+    Ok(Answer::page(login::account(&asked.visitor, None)))
+}
+
+/// Changes one's own password; all other visits of that person end.
+pub fn change_password(state: &State, asked: &Asked) -> Answered {
+    let name = asked.visitor.name.as_deref().ok_or(Refusal::NotFound)?;
+    let told = match change(state, asked, name) {
+        Ok(()) => ("good", "The password is changed. Wherever else you were logged in, you are so no more.".to_owned()),
+        Err(refusal @ (Refusal::Forbidden(_) | Refusal::Wrong(_) | Refusal::Later(_) | Refusal::Busy(_))) => {
+            ("bad", refusal.told().2)
+        }
+        Err(other) => return Err(other),
     };
-    page(visitor, "/settings", "Settings", &body)
+    Ok(Answer::page(login::account(&asked.visitor, Some((told.0, &told.1)))))
 }
 
-fn logins(visitor: &Visitor, settings: &Settings<'_>) -> Markup {
-    let role = |name: &String| settings.people.iter().find(|one| one.pseudonym == *name).map_or("", |one| one.role.word());
-    html! {
-        @if visitor.open { (message("warn", "Nobody has a password: whoever uses this machine may do everything, and the server can be reached from this machine alone. With the first password everybody has to log in; make it an administrator's.")) }
-        @if !settings.with_password.is_empty() {
-            (table("People with a password", &[("Name", false), ("Role", false), ("Change", false)], &html! {
-                @for name in settings.with_password {
-                    tr {
-                        th scope="row" { (name) }
-                        td { (role(name)) }
-                        td {
-                            @if visitor.name.as_ref() != Some(name) {
-                                form method="post" action="/settings/no-login" {
-                                    (token(visitor))
-                                    input type="hidden" name="name" value=(name);
-                                    button type="submit" aria-label={ "No more login for " (name) } { "No more login" }
-                                }
-                            }
-                        }
-                    }
-                }
-            }))
-        }
+fn change(state: &State, asked: &Asked, name: &str) -> Result<(), Refusal> {
+    let mut account = state.guard.check(&state.database, name, asked.needed("present")?, asked.from)?;
+    let new = asked.needed("new")?;
+    login::check(new, name).map_err(Refusal::Wrong)?;
+    let before = account.hash.replace(state.guard.hashing.enter()?.hash(new)?).unwrap_or_default();
+    if !state.database.change_password(name, &before, account.hash.as_deref().unwrap_or_default())? {
+        return Err(Refusal::Wrong("somebody has changed your password meanwhile: log in with that one".into()));
     }
+    state.guard.put_out(name, asked.cookie.as_deref());
+    state.guard.renew(asked.cookie.as_deref(), &account);
+    Ok(())
 }
 
-fn add(visitor: &Visitor) -> Markup {
-    html! {
-        form.stacked method="post" action="/settings/login" {
-            (token(visitor))
-            label { "Pseudonym" input name="name" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocomplete="off" autocapitalize="none"; }
-            label { "Role" select name="role" { @for role in Role::ALL { option value=(role.word()) { (role.word()) } } } }
-            label { "Password, at least " (PASSWORD_LENGTHS.start()) " characters" input type="password" name="password" required minlength=(PASSWORD_LENGTHS.start()) maxlength=(PASSWORD_LENGTHS.end()) autocomplete="new-password"; }
-            button type="submit" { "Set" }
-        }
-    }
+/// The administrator's page.
+pub fn page(state: &State, asked: &Asked) -> Answered {
+    shown(state, asked, None)
 }
 
-fn retention(visitor: &Visitor) -> Markup {
-    html! {
-        form.stacked method="post" action="/settings/retention" {
-            (token(visitor))
-            label { "Erase sessions and their folders that are older than so many days" input type="number" name="days" required min="1" max="36525"; }
-            label { input type="checkbox" name="sure" value="yes" required; " This cannot be undone; erase them" }
-            button.danger type="submit" { "Erase" }
-        }
-    }
+fn shown(state: &State, asked: &Asked, told: Option<(&str, &str)>) -> Answered {
+    let (people, with_password) = (state.database.trainees()?, state.database.with_password()?);
+    let folders: Vec<String> = state.place.sessions.iter().map(|folder| folder.display().to_string()).collect();
+    let database = state.database.name();
+    let settings = pages::Settings { people: &people, with_password: &with_password, database, folders: &folders, told };
+    Ok(Answer::page(pages::settings(&asked.visitor, &settings)))
 }
 
-#[cfg(test)]
-mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
-    use super::*;
-
-    #[test]
-    fn exact_nobody_takes_away_the_own_login_and_names_are_escaped() {
-        let names = [EVIL.to_owned(), "ben".to_owned()];
-        let people = [Trainee::new(EVIL), Trainee::new("ben")];
-        let shown =
-            Settings { people: &people, with_password: &names, database: EVIL, folders: &names, told: Some(("good", EVIL)) };
-        let text = settings(&administrator(), &shown).into_string();
-        check(&text);
-        assert_eq!(text.matches("/settings/no-login").count(), 1, "of two only the other's");
-        assert!(!text.contains("Nobody has a password"));
-        let open = Visitor { open: true, name: None, ..administrator() };
-        assert!(settings(&open, &shown).into_string().contains("Nobody has a password"));
+/// Sets a person's password and role.
+pub fn set_login(state: &State, asked: &Asked) -> Answered {
+    let name: TraineeId = asked.needed("name")?.parse().map_err(|wrong| Refusal::Wrong(format!("name: {wrong}")))?;
+    let name = name.as_str();
+    let role = asked.needed("role")?;
+    let role = Role::from_word(role)
+        .ok_or_else(|| Refusal::Wrong("role: unknown (allowed: trainee, instructor, administrator)".into()))?;
+    let password = asked.needed("password")?;
+    login::check(password, name).map_err(Refusal::Wrong)?;
+    if asked.visitor.open && role != Role::Administrator {
+        let words =
+            "the first password must be an administrator's: with it everybody has to log in, and nobody else could set more";
+        return Err(Refusal::Wrong(words.into()));
     }
+    let own = asked.visitor.name.as_deref() == Some(name);
+    if own && role != Role::Administrator {
+        return Err(Refusal::Wrong("you would shut yourself out: let another administrator change your role".into()));
+    }
+    let hash = state.guard.hashing.enter()?.hash(password)?;
+    state.database.set_login(name, role, &hash)?;
+    state.guard.put_out(name, asked.cookie.as_deref());
+    if own {
+        let person = Trainee { role, ..Trainee::new(name) };
+        state.guard.renew(asked.cookie.as_deref(), &Account { person, hash: Some(hash) });
+    }
+    if asked.visitor.open {
+        state.guard.close();
+        return Ok(Answer::to("/login"));
+    }
+    shown(state, asked, Some(("good", &format!("{name} may log in as {}.", role.word()))))
+}
+
+/// Takes a login away.
+pub fn drop_login(state: &State, asked: &Asked) -> Answered {
+    let name = asked.needed("name")?;
+    if asked.visitor.name.as_deref() == Some(name) {
+        return Err(Refusal::Wrong("you would shut yourself out".into()));
+    }
+    let had = state.database.drop_password(name)?;
+    state.guard.put_out(name, None);
+    if had { Ok(Answer::to("/settings")) } else { Err(Refusal::Wrong("this person has no password".into())) }
+}
+
+/// Erases what is older than so many days.
+pub fn retention(state: &State, asked: &Asked) -> Answered {
+    let days: u64 = asked
+        .needed("days")?
+        .parse()
+        .ok()
+        .filter(|days| (1..=36_525).contains(days))
+        .ok_or_else(|| Refusal::Wrong("days: no such number (allowed: 1 to 36525)".into()))?;
+    if asked.needed("sure")? != "yes" {
+        return Err(Refusal::Wrong("sure: not said (allowed: yes)".into()));
+    }
+    let limit_us = clock::unix_us().saturating_sub(days * DAY_US);
+    let (deleted, folders) = forget_older(&state.database, &state.place, limit_us)?;
+    shown(state, asked, Some(("good", &format!("{deleted} sessions and {folders} folders are erased."))))
 }

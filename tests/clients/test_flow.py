@@ -13,7 +13,7 @@ import asking
 import display
 import spandrel
 
-# Colours of pages as they define them (src/view/hud/mod.rs): the ground, the row that has the focus, a score's bar.
+# Colours of pages as they define them (crates/view/src/hud/mod.rs): the ground, the row that has the focus, a score's bar.
 NIGHT, FOCUS, BLUE = (20, 24, 30), (20, 92, 140), (86, 180, 233)
 # The display's battery, so a flight is drawn.
 GREEN = (0, 190, 130)

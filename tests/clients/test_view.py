@@ -12,7 +12,7 @@ import asking
 import display
 import spandrel
 
-# Colours of the head-up display as it defines them (src/view/hud/mod.rs).
+# Colours of the head-up display as it defines them (crates/view/src/hud/mod.rs).
 GREEN, YELLOW, WHITE = (0, 190, 130), (240, 228, 66), (245, 245, 245)
 # Wall seconds for a software driver on a busy machine to compile its shaders and to draw, ten times over.
 DRAW_LIMIT_S = 400

@@ -201,7 +201,7 @@ def test_answers_without_script(browser, server, sessions):
 
 def test_the_questionnaire_speaks_the_language_of_the_browser_and_of_ones_choice(browser, sessions, tmp_path):
     """German by Accept-Language, Spanish by choice, a site's own Swiss wording; what was answered stays through all of them."""
-    swiss = (spandrel.ROOT / "src/training/questionnaire/de.toml").read_text(encoding="utf-8")
+    swiss = (spandrel.ROOT / "crates/training/src/questionnaire/de.toml").read_text(encoding="utf-8")
     swiss = swiss.replace('language = "de"', 'language = "de-CH"').replace('"Deutsch"', '"Schwiizerdütsch"').replace("Gespeichert.", "Gspeicheret.")
     (tmp_path / "ch.toml").write_text(swiss, encoding="utf-8")
     server = webserver.Server(sessions, "--wording", str(tmp_path / "ch.toml"))
@@ -244,7 +244,7 @@ def test_the_questionnaire_speaks_the_language_of_the_browser_and_of_ones_choice
 
 
 def test_a_wrong_wording_is_named_by_line_and_key(tmp_path):
-    broken = (spandrel.ROOT / "src/training/questionnaire/es.toml").read_text(encoding="utf-8").replace("neutral = ", "# neutral = ")
+    broken = (spandrel.ROOT / "crates/training/src/questionnaire/es.toml").read_text(encoding="utf-8").replace("neutral = ", "# neutral = ")
     (tmp_path / "es.toml").write_text(broken.replace("Tarea {number}", "Tarea"), encoding="utf-8")
     done = subprocess.run(
         [spandrel.PROGRAM, "serve", "--sessions", str(tmp_path / "s"), "--listen", "127.0.0.1:0", "--wording", str(tmp_path / "es.toml")],

@@ -92,7 +92,7 @@ def test_another_site_changes_nothing(server, sessions):
 
 def test_forms_are_all_in_the_table_of_attacks(sessions):
     """The server's own table of routes against the list above."""
-    source = (spandrel.ROOT / "src" / "app" / "web" / "routes.rs").read_text(encoding="utf-8")
+    source = (spandrel.ROOT / "src" / "web" / "routes.rs").read_text(encoding="utf-8")
     changes = set(re.findall(r'change\(\s*"([^"]+)"', source)) - {"/login"}
     listed = {re.sub(r"/(sessions|trainees|scenarios)/[^/]+/", r"/\1/{}/", path) for path in forms(sessions)}
     assert {re.sub(r"\{\w+\}", "{}", path) for path in changes} == listed

@@ -5,10 +5,10 @@
 #[expect(dead_code, reason = "only its take-off is flown here")]
 mod station;
 
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
-use spandrel::sitl::sim::{Sim, SimEvent};
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::sim::{Sim, SimEvent};
 use station::{GCS, Station};
 
 const SEED: u64 = 7;

@@ -1,8 +1,8 @@
 //! An aircraft with round numbers for closed-form tests.
 
-use spandrel::base::frames::Vec3;
-use spandrel::base::math;
-use spandrel::vehicle::{Battery, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, Sensors, Vehicle};
+use spandrel_model::frames::Vec3;
+use spandrel_model::math;
+use spandrel_model::vehicle::{Battery, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, Sensors, Vehicle};
 
 /// A 1.3 kg quadrotor of Phantom size.
 pub fn quad() -> Vehicle {

@@ -1,12 +1,12 @@
 //! The bridges against the formulas that they are built from, and their task paths against the bridges.
 
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::random::RandomStream;
-use spandrel::scenario::bridges::arch::Arch;
-use spandrel::scenario::bridges::suspension::Suspension;
-use spandrel::scenario::bridges::{Field, Member, Solid, TaskPath};
-use spandrel::scenario::{Bridge, BridgeKind, TaskKind};
-use spandrel::site::convex::Convex;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::suspension::Suspension;
+use spandrel_model::scenario::bridges::{Field, Member, Solid, TaskPath};
+use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
+use spandrel_model::site::convex::Convex;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// m; rounding of positions some hundred metres from the origin.
@@ -376,7 +376,7 @@ fn exact_numbers_that_do_not_go_together_are_refused_with_their_line() {
     let text = include_str!("../../scenarios/drill-gap.toml");
     let wide = text.replacen("heading_deg = 90.0\n\n", "heading_deg = 90.0\n[bridges.arch]\nrib_width_m = 5.5\n\n", 1);
     assert_ne!(text, wide);
-    let problems = spandrel::scenario::read("wide.toml", &wide, &|_| Err(String::new())).unwrap_err();
+    let problems = spandrel_model::scenario::read("wide.toml", &wide, &|_| Err(String::new())).unwrap_err();
     let said = problems.to_string();
     assert!(said.contains("rib_width_m = 5.5") && said.contains("at most 4.80"), "{said}");
     assert!(said.starts_with("wide.toml:"), "{said}");

@@ -1,12 +1,12 @@
 //! Contact against what statics and impact theory say.
 
 use super::aircraft::quad;
-use spandrel::base::frames::{Enu, Rotation, Vec3};
-use spandrel::base::math::GRAVITY_M_S2;
-use spandrel::base::time::SimTime;
-use spandrel::scenario::BatteryModel;
-use spandrel::site::{Contact, ObjectId, Probe, RayHit, Surface};
-use spandrel::sitl::physics::{Actuators, Air, Load, Model, Obstacles, State};
+use spandrel_model::frames::{Enu, Rotation, Vec3};
+use spandrel_model::math::GRAVITY_M_S2;
+use spandrel_model::scenario::BatteryModel;
+use spandrel_model::site::{Contact, ObjectId, Probe, RayHit, Surface};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::physics::{Actuators, Air, Load, Model, Obstacles, State};
 
 const DT: SimTime = SimTime::from_ms(1);
 

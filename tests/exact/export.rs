@@ -1,9 +1,9 @@
 //! The exported geometry against the geometry that collides: the same surfaces, both ways.
 
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::random::RandomStream;
-use spandrel::site::convex::Convex;
-use spandrel::site::{Site, gltf};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_model::site::convex::Convex;
+use spandrel_model::site::{Site, gltf};
 use std::collections::BTreeMap;
 
 /// m; a 32-bit float carries positions within 1 km to 6e-5 m.
@@ -23,7 +23,8 @@ struct Node {
 
 fn site() -> Site {
     let text = include_str!("../../scenarios/two-bridges.toml");
-    let scenario = spandrel::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap_or_else(|p| panic!("{p}"));
+    let scenario =
+        spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap_or_else(|p| panic!("{p}"));
     Site::build(&scenario, 1)
 }
 
@@ -152,8 +153,8 @@ fn val_a_ray_through_the_site_ends_where_it_ends_in_the_file() {
                     (f.distance_m - first.0).abs() < ALONG_M / LEAST_COS,
                     "{origin:?} {towards:?}: {f:?}, in the file {first:?}"
                 );
-                ground += usize::from(f.surface == spandrel::site::Surface::Terrain);
-                bridge += usize::from(f.surface == spandrel::site::Surface::Bridge);
+                ground += usize::from(f.surface == spandrel_model::site::Surface::Terrain);
+                bridge += usize::from(f.surface == spandrel_model::site::Surface::Bridge);
             }
             None => assert!(first.0 > 190.0 - ALONG_M / LEAST_COS, "{origin:?} {towards:?}: nothing, in the file {first:?}"),
         }

@@ -1,12 +1,12 @@
 //! Free flight against closed forms.
 
 use super::aircraft::quad;
-use spandrel::base::frames::{Frd, Ned, Rotation, Vec3};
-use spandrel::base::math::{self, GRAVITY_M_S2};
-use spandrel::base::time::SimTime;
-use spandrel::scenario::BatteryModel;
-use spandrel::sitl::physics::{AIR_DENSITY_KG_M3, Actuators, Air, Load, MAX_ROTORS, Model, OpenSky, State};
-use spandrel::vehicle::Vehicle;
+use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
+use spandrel_model::math::{self, GRAVITY_M_S2};
+use spandrel_model::scenario::BatteryModel;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_sitl::physics::{AIR_DENSITY_KG_M3, Actuators, Air, Load, MAX_ROTORS, Model, OpenSky, State};
 
 const DT: SimTime = SimTime::from_ms(1);
 

@@ -1,9 +1,9 @@
 //! The ground's triangles: nearest points, rays and contacts against slow searches over all of them.
 
 use super::site::to_triangle;
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::random::RandomStream;
-use spandrel::site::heights::HeightGrid;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_model::site::heights::HeightGrid;
 
 /// m; rounding at the scale of the test field.
 const ROUNDING_M: f64 = 1e-9;

@@ -1,16 +1,16 @@
 //! Traffic at its fastest against what the contact look-ahead trusts.
 
-use spandrel::base::time::SimTime;
-use spandrel::scenario::Scenario;
-use spandrel::site::traffic::TrafficPlan;
-use spandrel::sitl::physics::FASTEST_OBJECT_M_S;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::traffic::TrafficPlan;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::physics::FASTEST_OBJECT_M_S;
 
 /// The paper's job with the fastest cars that a file may ask for.
 fn fastest_legal() -> Scenario {
     let text = include_str!("../../scenarios/two-bridges.toml");
     let with = |speed: &str| {
         let text = text.replacen("car_speed_m_s = 13.4", &format!("car_speed_m_s = {speed}"), 1);
-        spandrel::scenario::read("fast.toml", &text, &|_| Err("none".into()))
+        spandrel_model::scenario::read("fast.toml", &text, &|_| Err("none".into()))
     };
     let refused = with("1e6").unwrap_err().to_string();
     let most = refused.split(" to ").nth(1).and_then(|rest| rest.split(')').next()).unwrap_or_else(|| panic!("{refused}"));

@@ -1,22 +1,22 @@
 //! Aircraft on and against the members of the shipped bridges, and beside steep ground.
 
-use spandrel::base::frames::{Enu, Rotation, Vec3};
-use spandrel::base::math::{self, GRAVITY_M_S2};
-use spandrel::base::random::RandomStream;
-use spandrel::base::time::SimTime;
-use spandrel::scenario::{BatteryModel, Scenario};
-use spandrel::site::{Contact, Probe, RayHit, Site};
-use spandrel::sitl::physics::{Actuators, Air, Load, Model, Obstacles, State};
-use spandrel::vehicle::Vehicle;
+use spandrel_model::frames::{Enu, Rotation, Vec3};
+use spandrel_model::math::{self, GRAVITY_M_S2};
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::{BatteryModel, Scenario};
+use spandrel_model::site::{Contact, Probe, RayHit, Site};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_sitl::physics::{Actuators, Air, Load, Model, Obstacles, State};
 
 const DT: SimTime = SimTime::from_ms(1);
-/// m; radius of the feet's balls (src/sitl/physics/hull.rs).
+/// m; radius of the feet's balls (crates/sitl/src/physics/hull.rs).
 const FOOT_M: f64 = 0.015;
 
 fn scenario() -> Scenario {
     let text = include_str!("../../scenarios/two-bridges.toml");
     let mut scenario =
-        spandrel::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap_or_else(|p| panic!("{p}"));
+        spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap_or_else(|p| panic!("{p}"));
     // Nobody drives over what stands on the deck.
     (scenario.traffic.cars, scenario.traffic.trucks, scenario.traffic.pedestrians) = (0, 0, 0);
     scenario
@@ -29,7 +29,7 @@ fn vehicles() -> Vec<Vehicle> {
         include_str!("../../vehicle-params/m30.toml"),
         include_str!("../../vehicle-params/elios3.toml"),
     ]
-    .map(|text| spandrel::vehicle::read("shipped.toml", text).unwrap_or_else(|p| panic!("{p}")))
+    .map(|text| spandrel_model::vehicle::read("shipped.toml", text).unwrap_or_else(|p| panic!("{p}")))
     .to_vec()
 }
 

@@ -1,8 +1,8 @@
 //! The numbers that a scorer must reproduce (shared assessment, the pilot study's figures), from the formulas alone.
 
-use spandrel::monitor::score::accuracy::Counts;
-use spandrel::monitor::score::conformity::{self, TaskShares};
-use spandrel::monitor::score::{efficiency, safety};
+use spandrel_monitor::score::accuracy::Counts;
+use spandrel_monitor::score::conformity::{self, TaskShares};
+use spandrel_monitor::score::{efficiency, safety};
 
 const LIMIT_M_S: f64 = 4.4704;
 const MAX_M_S: f64 = 13.4112;

@@ -1,16 +1,16 @@
 //! The site's geometry queries against slow and simple ones over the same faces.
 
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::random::RandomStream;
-use spandrel::scenario::{Scenario, TaskKind};
-use spandrel::site::geometry::Geometry;
-use spandrel::site::{Contact, Probe, Surface};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::{Scenario, TaskKind};
+use spandrel_model::site::geometry::Geometry;
+use spandrel_model::site::{Contact, Probe, Surface};
 
 /// m; rounding of positions some hundred metres from the origin.
 const ROUNDING_M: f64 = 1e-9;
 
 fn scenario(text: &str) -> Scenario {
-    spandrel::scenario::read("shipped.toml", text, &|_| Err("no file".into())).unwrap_or_else(|p| panic!("{p}"))
+    spandrel_model::scenario::read("shipped.toml", text, &|_| Err("no file".into())).unwrap_or_else(|p| panic!("{p}"))
 }
 
 fn two_bridges() -> Scenario {
@@ -20,7 +20,7 @@ fn two_bridges() -> Scenario {
 pub type Triangle = [Vec3<Enu>; 3];
 
 fn triangles(geometry: &Geometry) -> Vec<Triangle> {
-    let of = |solid: &spandrel::scenario::bridges::Solid| {
+    let of = |solid: &spandrel_model::scenario::bridges::Solid| {
         solid.triangles().into_iter().map(|t| t.map(|k| solid.vertices_m[k as usize])).collect::<Vec<_>>()
     };
     geometry.members().iter().flat_map(|m| of(&m.solid)).collect()

@@ -1,9 +1,9 @@
 //! Arming, take-off, landing, return, missions and external set-points.
 
 use super::bench::{Bench, VEHICLES, vehicle};
-use spandrel::base::frames::Vec3;
-use spandrel::base::time::SimTime;
-use spandrel::sitl::autopilot::{Landed, MissionStep, Mode, OffboardSetpoint, Outcome, Request, Sticks};
+use spandrel_model::frames::Vec3;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::autopilot::{Landed, MissionStep, Mode, OffboardSetpoint, Outcome, Request, Sticks};
 
 /// m: the receiver's error plus the control's.
 const NEAR_M: f64 = 1.5;

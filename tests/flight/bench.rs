@@ -1,14 +1,14 @@
 //! An aircraft in the air over flat ground.
 
-use spandrel::base::frames::{Ned, Vec3};
-use spandrel::base::time::{Schedule, SimTime};
-use spandrel::scenario::{BatteryModel, Rules, Scenario};
-use spandrel::site::Site;
-use spandrel::sitl::autopilot::{Autopilot, CONTROL_HZ, Landed, Mode, Outcome, Request, Sticks, Tuning};
-use spandrel::sitl::faults::Faults;
-use spandrel::sitl::physics::{Actuators, Air, Load, Model, State};
-use spandrel::sitl::sensors::{BatteryReading, Readings, Sensors, Truth};
-use spandrel::vehicle::Vehicle;
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::scenario::{BatteryModel, Rules, Scenario};
+use spandrel_model::site::Site;
+use spandrel_model::time::{Schedule, SimTime};
+use spandrel_model::vehicle::Vehicle;
+use spandrel_sitl::autopilot::{Autopilot, CONTROL_HZ, Landed, Mode, Outcome, Request, Sticks, Tuning};
+use spandrel_sitl::faults::Faults;
+use spandrel_sitl::physics::{Actuators, Air, Load, Model, State};
+use spandrel_sitl::sensors::{BatteryReading, Readings, Sensors, Truth};
 use std::path::Path;
 
 pub const VEHICLES: [&str; 4] = ["phantom2", "f450", "m30", "elios3"];
@@ -20,12 +20,12 @@ fn shipped(path: &str) -> String {
 
 pub fn vehicle(name: &str) -> Vehicle {
     let file = format!("vehicle-params/{name}.toml");
-    spandrel::vehicle::read(&file, &shipped(&file)).unwrap_or_else(|problems| panic!("{problems}"))
+    spandrel_model::vehicle::read(&file, &shipped(&file)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 pub fn scenario(name: &str) -> Scenario {
     let file = format!("scenarios/{name}.toml");
-    spandrel::scenario::read(&file, &shipped(&file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
+    spandrel_model::scenario::read(&file, &shipped(&file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 pub struct Bench {

@@ -2,17 +2,17 @@
 
 use super::bench::{VEHICLES, vehicle};
 use nalgebra::{DMatrix, DVector};
-use spandrel::base::frames::{Enu, Frd, Ned, Rotation, Vec3};
-use spandrel::base::geodesy::Geo;
-use spandrel::base::math;
-use spandrel::base::random::RandomStream;
-use spandrel::base::time::SimTime;
-use spandrel::sitl::autopilot::estimator::align::ROCKING_SHARE;
-use spandrel::sitl::autopilot::estimator::covariance::{P, THETA, V};
-use spandrel::sitl::autopilot::estimator::{Estimator, Truth};
-use spandrel::sitl::physics::{MAX_ROTORS, RigidState};
-use spandrel::sitl::sensors::{self, Plain, Sensors, Surroundings};
-use spandrel::vehicle::Vehicle;
+use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use spandrel_model::geodesy::Geo;
+use spandrel_model::math;
+use spandrel_model::random::RandomStream;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_sitl::autopilot::estimator::align::ROCKING_SHARE;
+use spandrel_sitl::autopilot::estimator::covariance::{P, THETA, V};
+use spandrel_sitl::autopilot::estimator::{Estimator, Truth};
+use spandrel_sitl::physics::{MAX_ROTORS, RigidState};
+use spandrel_sitl::sensors::{self, Plain, Sensors, Surroundings};
 
 const SEEDS: u64 = 50;
 const ORIGIN: Geo = Geo { latitude_deg: 46.5, longitude_deg: 8.25, altitude_m: 430.0 };

@@ -1,9 +1,9 @@
 //! What goes wrong: links, satellites, battery, attitude.
 
 use super::bench::{Bench, VEHICLES, vehicle};
-use spandrel::base::frames::{Frd, Ned, Rotation, Vec3};
-use spandrel::base::math;
-use spandrel::sitl::autopilot::{Landed, LinkLoss, Mode, Request, Severity, Sticks};
+use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
+use spandrel_model::math;
+use spandrel_sitl::autopilot::{Landed, LinkLoss, Mode, Request, Severity, Sticks};
 
 #[test]
 fn flight_lost_sticks_lead_to_hold_and_found_ones_give_the_mode_back() {

@@ -1,9 +1,9 @@
 //! Hover, step, stop, turn, circle and gust flights by the sticks, with stated bounds, for every shipped aircraft.
 
 use super::bench::{Bench, VEHICLES, vehicle};
-use spandrel::base::frames::{Frd, Vec3};
-use spandrel::base::math;
-use spandrel::sitl::autopilot::{Mode, Request, Sticks};
+use spandrel_model::frames::{Frd, Vec3};
+use spandrel_model::math;
+use spandrel_sitl::autopilot::{Mode, Request, Sticks};
 
 /// Dead band of the sticks (the tuning's default).
 const DEADBAND: f64 = 0.03;

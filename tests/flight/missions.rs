@@ -1,10 +1,10 @@
 //! Missions: the planned way through waypoints, take-offs, speeds.
 
 use super::bench::{Bench, VEHICLES, vehicle};
-use spandrel::base::frames::{Ned, Vec3};
-use spandrel::base::random::RandomStream;
-use spandrel::sitl::autopilot::trajectory::{Bounds, Planned, Speeds, Trajectory, Waypoint};
-use spandrel::sitl::autopilot::{Landed, MissionStep, Mode, Request};
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_sitl::autopilot::trajectory::{Bounds, Planned, Speeds, Trajectory, Waypoint};
+use spandrel_sitl::autopilot::{Landed, MissionStep, Mode, Request};
 
 const STEP_S: f64 = 0.0025;
 const SPEEDS: Speeds = Speeds { usual_m_s: 5.0, most_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };

@@ -1,13 +1,13 @@
 //! What an operator sets of failsafes, returns, limits, missions and the geofence, flown.
 
 use super::bench::{Bench, vehicle};
-use spandrel::base::frames::Vec3;
-use spandrel::base::math;
-use spandrel::sitl::autopilot::fence::FenceAction;
-use spandrel::sitl::autopilot::operator_rules::{
+use spandrel_model::frames::Vec3;
+use spandrel_model::math;
+use spandrel_sitl::autopilot::fence::FenceAction;
+use spandrel_sitl::autopilot::operator_rules::{
     Exceptions, FenceParts, Heading, JOB_BATTERY, MissionNeeds, OffboardLoss, Response, ReturnPlaces,
 };
-use spandrel::sitl::autopilot::{Landed, MissionStep, Mode, OffboardSetpoint, Outcome, Request, Sticks, Tuning};
+use spandrel_sitl::autopilot::{Landed, MissionStep, Mode, OffboardSetpoint, Outcome, Request, Sticks, Tuning};
 
 /// A limit on a speed is held within this share: the velocity loop overshoots a little.
 const SPEED_SHARE: f64 = 1.1;
@@ -190,7 +190,7 @@ fn flight_the_cone_and_the_least_climb_set_the_height_of_a_return() {
 
 #[test]
 fn flight_a_return_goes_to_the_places_that_its_type_allows() {
-    use spandrel::sitl::autopilot::fence::Refuge;
+    use spandrel_sitl::autopilot::fence::Refuge;
     let rally = Refuge { place_m: Vec3::new(30.0, 10.0, 0.0), over_home: false };
     let landing = MissionStep::Land { position_m: Some(Vec3::new(0.0, 30.0, 0.0)) };
     let cases = [

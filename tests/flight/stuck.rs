@@ -1,11 +1,11 @@
 //! Sensors that repeat their last value or contradict the others, injected in flight.
 
 use super::bench::{Bench, VEHICLES, vehicle};
-use spandrel::base::frames::Vec3;
-use spandrel::base::time::SimTime;
-use spandrel::sitl::autopilot::{Landed, Mode, Request};
-use spandrel::sitl::faults::{Kind, Unit};
-use spandrel::sitl::sensors::Readings;
+use spandrel_model::frames::Vec3;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::autopilot::{Landed, Mode, Request};
+use spandrel_sitl::faults::{Kind, Unit};
+use spandrel_sitl::sensors::Readings;
 
 /// m: a vehicle that flies on without its barometer holds its height by the receiver alone, whose height drifts by 0.64 m (1 sigma).
 const HEIGHT_M: f64 = 2.5;

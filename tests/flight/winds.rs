@@ -1,11 +1,11 @@
 //! Take-off, hover and landing of every shipped vehicle on the shipped job, in every wind level, over many seeds.
 
 use super::station::{Station, p, shipped};
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::time::SimTime;
-use spandrel::mav::dialect::{MavCmd, MavMessage, MavModeFlag, MavResult};
-use spandrel::scenario::Scenario;
-use spandrel::sitl::sim::SimEvent;
+use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavModeFlag, MavResult};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::sim::SimEvent;
 
 /// Levels of `wind.level`.
 const LEVELS: [&str; 4] = ["calm", "light", "gentle", "medium"];
@@ -30,7 +30,7 @@ struct Flight {
 fn job(level: &str) -> Scenario {
     let text = shipped("scenarios/two-bridges.toml").replace("level = \"light\"", &format!("level = \"{level}\""));
     assert!(text.contains(&format!("level = \"{level}\"")));
-    spandrel::scenario::read("two-bridges.toml", &text, &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
+    spandrel_model::scenario::read("two-bridges.toml", &text, &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 /// How a flight went.
@@ -164,6 +164,6 @@ fn regress_a_caged_vehicle_without_feet_below_its_cage_is_refused() {
     let text = shipped("vehicle-params/elios3.toml");
     let short = text.replace("0.24]", "0.22]");
     assert_ne!(short, text);
-    let problems = spandrel::vehicle::read("elios3.toml", &short).unwrap_err().to_string();
+    let problems = spandrel_model::vehicle::read("elios3.toml", &short).unwrap_err().to_string();
     assert!(problems.contains("feet_m") && problems.contains("0.24 m or more below the center"), "{problems}");
 }

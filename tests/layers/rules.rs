@@ -1,7 +1,20 @@
-//! The rules: the table of rooms and the three capital rules of ARCHITECTURE.md.
+//! What Cargo cannot hold: the table of rooms within crates, and the capital rules of ARCHITECTURE.md.
 
 use crate::paths::{code_only, named};
 
+/// Each crate with the rooms that are modules of its own; every other module belongs to the room named last.
+const CRATES: &[(&str, &[&str], &str)] = &[
+    ("model", &["scenario", "vehicle", "site"], "base"),
+    ("mavlink", &["telemetry"], "mav"),
+    ("sitl", &[], "sitl"),
+    ("monitor", &[], "monitor"),
+    ("training", &["report", "web"], "training"),
+    ("clients", &["pilot"], "rc"),
+    ("view", &[], "view"),
+    (PROGRAM, &[], "app"),
+];
+/// The package at the workspace's root.
+const PROGRAM: &str = "";
 /// Each room with the rooms that it may know.
 const TABLE: &[(&str, &[&str])] = &[
     ("base", &[]),
@@ -67,7 +80,13 @@ const PLAIN_DATA: &[&[&str]] = &[&["std", "time", "Duration"], &["std", "net", "
 const ACTUATION: &[&str] = &["Actuators", "MAX_ROTORS"];
 const ROOTS: &[&str] = &[
     "crate",
-    "spandrel",
+    "spandrel_model",
+    "spandrel_mavlink",
+    "spandrel_sitl",
+    "spandrel_monitor",
+    "spandrel_training",
+    "spandrel_clients",
+    "spandrel_view",
     "std",
     "core",
     "tokio",
@@ -81,9 +100,9 @@ const ROOTS: &[&str] = &[
     "jiff",
 ];
 
-/// True for a room of the table.
-pub fn is_room(name: &str) -> bool {
-    TABLE.iter().any(|(room, _)| *room == name)
+/// All crates but the program, by folder.
+pub fn crates() -> impl Iterator<Item = &'static str> {
+    CRATES.iter().map(|(folder, ..)| *folder).filter(|folder| *folder != PROGRAM)
 }
 
 /// All rooms.
@@ -91,18 +110,33 @@ pub fn rooms() -> impl Iterator<Item = &'static str> {
     TABLE.iter().map(|(room, _)| *room)
 }
 
-/// Everything that a file (its path below `src/`) names and must not.
+/// The crates that a crate may depend on: those whose rooms its rooms may know.
+pub fn may_depend_on(folder: &str) -> Vec<&'static str> {
+    let known = TABLE.iter().filter(|(room, _)| home(room) == folder).flat_map(|(_, known)| *known);
+    crates().filter(|other| *other != folder && known.clone().any(|room| home(room) == *other)).collect()
+}
+
+/// The crate that a room lies in.
+fn home(room: &str) -> &'static str {
+    CRATES.iter().find(|(_, own, rest)| own.contains(&room) || *rest == room).map_or(PROGRAM, |(folder, ..)| *folder)
+}
+
+/// The room of a crate's module.
+fn room_of(folder: &str, module: Option<&str>) -> Option<&'static str> {
+    let (_, own, rest) = CRATES.iter().find(|(name, ..)| *name == folder)?;
+    Some(own.iter().find(|room| Some(**room) == module).unwrap_or(rest))
+}
+
+/// Everything that a file (its path below the workspace's root) names and must not.
 pub fn violations(file: &str, source: &str) -> Vec<String> {
-    let module = module_of(file);
-    let room = module.first().map_or("", String::as_str);
-    // lib.rs and main.rs stand above the rooms.
-    let Some((_, allowed)) = TABLE.iter().find(|(name, _)| *name == room) else { return Vec::new() };
+    let Some((folder, module)) = place_of(file) else { return vec![format!("{file}: no crate of tests/layers/rules.rs")] };
+    let room = room_of(folder, module.first().map(String::as_str)).unwrap_or("app");
     let code = code_only(source);
     let mut found: Vec<String> = named(&code, &module, ROOTS)
         .into_iter()
         .filter_map(|(line, path)| {
             let path: Vec<&str> = path.iter().map(String::as_str).collect();
-            let why = forbidden(room, allowed, &module, &path)?;
+            let why = forbidden(folder, room, &module, &path)?;
             Some(format!("{file}:{line}: {}: {why}", path.join("::")))
         })
         .collect();
@@ -115,32 +149,36 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
 fn clock_readings(room: &str, file: &str, code: &str) -> Vec<String> {
     let reads = |line: &str| room != "app" && line.contains("::now()");
     let lines = code.lines().enumerate().filter(|(_, line)| reads(line));
-    lines.map(|(k, line)| format!("{file}:{}: {}: ONLY APP TOUCHES THE OUTSIDE WORLD", k + 1, line.trim())).collect()
+    lines.map(|(k, line)| format!("{file}:{}: {}: ONLY THE PROGRAM TOUCHES THE OUTSIDE WORLD", k + 1, line.trim())).collect()
 }
 
-/// `sitl/autopilot/core.rs` is the module `sitl::autopilot::core`.
-fn module_of(file: &str) -> Vec<String> {
-    let mut parts: Vec<String> = file.trim_end_matches(".rs").split(['/', '\\']).map(str::to_owned).collect();
-    if parts.last().is_some_and(|last| ["mod", "lib", "main"].contains(&last.as_str())) {
-        parts.pop();
-    }
-    parts
+/// `crates/sitl/src/autopilot/core.rs` is the module `autopilot::core` of the crate `sitl`.
+fn place_of(file: &str) -> Option<(&'static str, Vec<String>)> {
+    let parts: Vec<&str> = file.trim_end_matches(".rs").split(['/', '\\']).collect();
+    let (folder, module) = match &parts[..] {
+        ["crates", folder, "src", module @ ..] => (*folder, module),
+        ["src", module @ ..] => (PROGRAM, module),
+        _ => return None,
+    };
+    let (folder, ..) = CRATES.iter().find(|(name, ..)| *name == folder)?;
+    let ends_here = module.last().is_some_and(|last| ["mod", "lib", "main"].contains(last));
+    let module = if ends_here { &module[..module.len() - 1] } else { module };
+    Some((folder, module.iter().map(|part| (*part).to_owned()).collect()))
 }
 
-fn forbidden(room: &str, allowed: &[&str], module: &[String], path: &[&str]) -> Option<String> {
+fn forbidden(folder: &str, room: &str, module: &[String], path: &[&str]) -> Option<String> {
     if room != "app" && OUTSIDE.iter().any(|outside| path.starts_with(outside)) && !PLAIN_DATA.contains(&path) {
-        return Some("ONLY APP TOUCHES THE OUTSIDE WORLD".into());
+        return Some("ONLY THE PROGRAM TOUCHES THE OUTSIDE WORLD".into());
     }
-    let [root, target, rest @ ..] = path else { return None };
-    if !["crate", "spandrel"].contains(root) {
-        return None;
-    }
-    if is_room(target) && *target != room && !allowed.contains(target) {
+    let (root, rest) = path.split_first()?;
+    let other = if *root == "crate" { folder } else { root.strip_prefix("spandrel_")? };
+    let target = room_of(other, rest.first().copied())?;
+    let (_, allowed) = TABLE.iter().find(|(name, _)| *name == room)?;
+    if target != room && !allowed.contains(&target) {
         return Some(format!("{room} must not know {target}"));
     }
-    let in_autopilot = module.starts_with(&["sitl".to_owned(), "autopilot".to_owned()]);
-    let truth =
-        *target == "sitl" && rest.first() == Some(&"physics") && !rest.get(1).is_some_and(|name| ACTUATION.contains(name));
+    let in_autopilot = folder == "sitl" && module.first().is_some_and(|first| first == "autopilot");
+    let truth = target == "sitl" && rest.first() == Some(&"physics") && !rest.get(1).is_some_and(|name| ACTUATION.contains(name));
     (in_autopilot && truth).then(|| "AUTOPILOT NEVER SEES PHYSICS' TRUTH".into())
 }
 
@@ -154,37 +192,35 @@ mod tests {
 
     #[test]
     fn exact_the_wings_never_import_each_other() {
-        assert_eq!(check("monitor/watch.rs", "use crate::sitl::sim::Sim;"), 1);
-        assert_eq!(check("monitor/watch.rs", "use crate::{base::time::SimTime, sitl};"), 1);
-        assert_eq!(check("sitl/sim.rs", "fn f() { crate::monitor::assess(); }"), 1);
-        assert_eq!(check("sitl/sim.rs", "use super::super::monitor::Monitor;"), 1);
-        assert_eq!(check("pilot/mod.rs", "use crate::sitl::physics::RigidState;"), 1);
-        assert_eq!(check("app/demo.rs", "use crate::{monitor::Monitor, sitl::sim::Sim};"), 0);
+        assert_eq!(check("crates/monitor/src/watch.rs", "use spandrel_sitl::sim::Sim;"), 1);
+        assert_eq!(check("crates/training/src/report/mod.rs", "use spandrel_sitl::{sim::Sim, endpoint};"), 1);
+        assert_eq!(check("crates/sitl/src/sim.rs", "fn f() { spandrel_monitor::assess(); }"), 1);
+        assert_eq!(check("crates/clients/src/pilot/mod.rs", "use spandrel_sitl::physics::RigidState;"), 1);
+        assert_eq!(check("src/demo.rs", "use spandrel_monitor::Monitor; use spandrel_sitl::sim::Sim;"), 0);
     }
 
     #[test]
     fn exact_lower_rooms_never_look_up() {
-        assert_eq!(check("base/time.rs", "use crate::mav::codec::Decoder;"), 1);
-        assert_eq!(check("scenario/mod.rs", "use crate::site::Site;"), 1);
-        assert_eq!(check("site/mod.rs", "use crate::telemetry::Frame;"), 1);
-        assert_eq!(check("site/mod.rs", "use crate::scenario::Scenario; use crate::vehicle::Camera;"), 0);
-        assert_eq!(check("monitor/mod.rs", "use crate::app::AppError;"), 1);
+        assert_eq!(check("crates/model/src/time.rs", "use spandrel_mavlink::codec::Decoder;"), 1);
+        assert_eq!(check("crates/model/src/scenario/mod.rs", "use crate::site::Site;"), 1);
+        assert_eq!(check("crates/mavlink/src/codec.rs", "use super::telemetry::Frame;"), 1);
+        assert_eq!(check("crates/model/src/site/mod.rs", "use crate::scenario::Scenario; use super::super::vehicle::Camera;"), 0);
     }
 
     #[test]
     fn exact_the_autopilot_sees_what_it_drives_and_nothing_else_of_physics() {
-        let file = "sitl/autopilot/core.rs";
-        assert_eq!(check(file, "use crate::sitl::physics::{Actuators, MAX_ROTORS};"), 0);
-        assert_eq!(check(file, "use crate::sitl::physics::RigidState;"), 1);
-        assert_eq!(check(file, "use crate::sitl::physics::{Actuators, RigidState};"), 1);
+        let file = "crates/sitl/src/autopilot/core.rs";
+        assert_eq!(check(file, "use crate::physics::{Actuators, MAX_ROTORS};"), 0);
+        assert_eq!(check(file, "use crate::physics::RigidState;"), 1);
+        assert_eq!(check(file, "use crate::physics::{Actuators, RigidState};"), 1);
         assert_eq!(check(file, "use super::super::physics::RigidState;"), 1);
-        assert_eq!(check("sitl/autopilot/mod.rs", "use super::physics;"), 1);
-        assert_eq!(check("sitl/autopilot/mod.rs", "use crate::sitl::physics::*;"), 1);
-        assert_eq!(check("sitl/sensors/mod.rs", "use crate::sitl::physics::RigidState;"), 0);
+        assert_eq!(check("crates/sitl/src/autopilot/mod.rs", "use super::physics;"), 1);
+        assert_eq!(check("crates/sitl/src/autopilot/mod.rs", "use crate::physics::*;"), 1);
+        assert_eq!(check("crates/sitl/src/sensors/mod.rs", "use crate::physics::RigidState;"), 0);
     }
 
     #[test]
-    fn exact_only_app_touches_the_outside_world() {
+    fn exact_only_the_program_touches_the_outside_world() {
         for outside in [
             "use std::net::UdpSocket;",
             "let text = std::fs::read_to_string(path);",
@@ -197,16 +233,16 @@ mod tests {
             "let now = Timestamp::now();",
             "std::env::var(name)",
         ] {
-            assert_eq!(check("monitor/watch.rs", outside), 1, "{outside}");
-            assert_eq!(check("sitl/sim.rs", outside), 1, "{outside}");
-            assert_eq!(check("app/net.rs", outside), 0, "{outside}");
+            assert_eq!(check("crates/monitor/src/watch.rs", outside), 1, "{outside}");
+            assert_eq!(check("crates/sitl/src/sim.rs", outside), 1, "{outside}");
+            assert_eq!(check("src/net.rs", outside), 0, "{outside}");
         }
-        assert_eq!(check("monitor/watch.rs", "use std::time::Duration; use std::collections::BTreeMap;"), 0);
+        assert_eq!(check("crates/monitor/src/watch.rs", "use std::time::Duration; use std::collections::BTreeMap;"), 0);
     }
 
     #[test]
     fn exact_a_violation_is_named_with_file_and_line() {
-        let found = violations("site/mod.rs", "// a comment\n\nuse crate::monitor::Monitor;\n");
-        assert_eq!(found, ["site/mod.rs:3: crate::monitor::Monitor: site must not know monitor"]);
+        let found = violations("crates/model/src/site/mod.rs", "// a comment\n\nuse spandrel_monitor::Monitor;\n");
+        assert_eq!(found, ["crates/model/src/site/mod.rs:3: spandrel_monitor::Monitor: site must not know monitor"]);
     }
 }

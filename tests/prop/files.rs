@@ -1,14 +1,14 @@
 //! Scenario and vehicle files, spoilt by seeded mutations: refused with a place and a reason, or read into something that builds.
 
-use spandrel::base::frames::Vec3;
-use spandrel::base::random::RandomStream;
-use spandrel::base::time::SimTime;
-use spandrel::base::toml::Problems;
-use spandrel::scenario::bridges::Field;
-use spandrel::scenario::bridges::arch::Arch;
-use spandrel::scenario::bridges::suspension::Suspension;
-use spandrel::scenario::{Defects, Scenario, Terrain};
-use spandrel::site::Site;
+use spandrel_model::frames::Vec3;
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::bridges::Field;
+use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::suspension::Suspension;
+use spandrel_model::scenario::{Defects, Scenario, Terrain};
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::toml::Problems;
 use std::path::Path;
 
 const SCENARIO_MUTANTS: usize = 2_000;
@@ -45,7 +45,7 @@ fn texts(folder: &str) -> Vec<String> {
 }
 
 fn read(text: &str) -> Result<Scenario, Problems> {
-    spandrel::scenario::read("job.toml", text, &|name| Err(format!("no file {name}")))
+    spandrel_model::scenario::read("job.toml", text, &|name| Err(format!("no file {name}")))
 }
 
 fn spoil(text: &str, random: &mut RandomStream) -> String {
@@ -167,7 +167,7 @@ fn prop_a_spoilt_aircraft_is_refused_with_a_place_or_finite() {
     let (mut accepted, mut refused) = (0, 0);
     for _ in 0..VEHICLE_MUTANTS {
         let text = spoil(&texts[random.below(texts.len())], &mut random);
-        match spandrel::vehicle::read("aircraft.toml", &text) {
+        match spandrel_model::vehicle::read("aircraft.toml", &text) {
             Ok(vehicle) => {
                 accepted += 1;
                 let flies = vehicle.rotor.idle_speed_rad_s < vehicle.rotor.max_speed_rad_s && vehicle.mass_kg > 0.0;
@@ -214,7 +214,7 @@ fn number_sets(fields: &'static [Field]) -> Vec<Vec<(&'static str, f64)>> {
 }
 
 fn closed(scenario: &Scenario) {
-    for member in scenario.bridges.iter().flat_map(spandrel::scenario::Bridge::members) {
+    for member in scenario.bridges.iter().flat_map(spandrel_model::scenario::Bridge::members) {
         let solid = &member.solid;
         let at = |k: u32| solid.vertices_m[k as usize];
         let fan = |face: &Vec<u32>| -> f64 {

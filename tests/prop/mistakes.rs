@@ -1,6 +1,6 @@
 //! Mistakes that people make in a scenario file, one at a time.
 
-use spandrel::base::toml::Problems;
+use spandrel_model::toml::Problems;
 use std::path::Path;
 
 fn shipped() -> String {
@@ -8,7 +8,7 @@ fn shipped() -> String {
 }
 
 fn problems(text: &str) -> Problems {
-    let result = spandrel::scenario::read("job.toml", text, &|name| Err(format!("no file {name}")));
+    let result = spandrel_model::scenario::read("job.toml", text, &|name| Err(format!("no file {name}")));
     result.err().unwrap_or(Problems(Vec::new()))
 }
 
@@ -41,7 +41,7 @@ fn prop_every_misspelt_key_is_named_with_its_line_and_the_right_spelling() {
 fn prop_a_missing_required_key_is_named_and_any_other_may_go() {
     let text = shipped();
     let siblings = |_: &str| Err(String::new());
-    let asked = spandrel::scenario::read_asked("job.toml", &text, &siblings).1;
+    let asked = spandrel_model::scenario::read_asked("job.toml", &text, &siblings).1;
     let mut required = 0;
     for (at, key) in keys(&text) {
         let section = text.lines().take(at).filter(|l| l.starts_with('[')).last().unwrap_or("");
@@ -138,11 +138,12 @@ fn regress_the_words_for_a_path_of_a_thousand_kilometres() {
 #[test]
 fn regress_inline_tables_read_like_tables_and_survive_resolving() {
     let text = shipped().replace("[defects]\ncount = 10\n", "").replacen("[origin]", "defects = { count = 2 }\n\n[origin]", 1);
-    let read = |text: &str| spandrel::scenario::read("job.toml", text, &|_| Err(String::new())).unwrap_or_else(|p| panic!("{p}"));
+    let read =
+        |text: &str| spandrel_model::scenario::read("job.toml", text, &|_| Err(String::new())).unwrap_or_else(|p| panic!("{p}"));
     let scenario = read(&text);
-    let site = spandrel::site::Site::build(&scenario, 5);
+    let site = spandrel_model::site::Site::build(&scenario, 5);
     assert_eq!(site.defects().len(), 2);
-    let again = read(&spandrel::scenario::resolve(&text, 5, site.defects()));
+    let again = read(&spandrel_model::scenario::resolve(&text, 5, site.defects()));
     assert_eq!(again.crc, scenario.crc);
     assert_eq!(again.defects.placed.as_deref(), Some(site.defects()));
 }

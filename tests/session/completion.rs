@@ -2,12 +2,12 @@
 
 use crate::cut::grade;
 use crate::job::*;
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::monitor::measures::coverage::coverage;
-use spandrel::monitor::measures::on_path::{OnPath, Paths};
-use spandrel::monitor::score::completion::TaskState;
-use spandrel::monitor::session::EndReason;
-use spandrel::scenario::Scenario;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::Scenario;
+use spandrel_monitor::measures::coverage::coverage;
+use spandrel_monitor::measures::on_path::{OnPath, Paths};
+use spandrel_monitor::score::completion::TaskState;
+use spandrel_monitor::session::EndReason;
 
 /// The nearest point changes half a point spacing (1 m) before and after the place where a stretch ends, share of a path of 100 m.
 const HALF_A_POINT: f64 = 0.01;
@@ -115,9 +115,9 @@ fn prop_whoever_flies_every_shipped_path_has_done_every_task() {
     let mut jobs = 0;
     for file in files.filter(|file| file.extension().is_some_and(|ending| ending == "toml")) {
         let name = file.file_name().unwrap().to_string_lossy().into_owned();
-        let scenario = spandrel::scenario::read(&name, &std::fs::read_to_string(&file).unwrap(), &beside).unwrap();
+        let scenario = spandrel_model::scenario::read(&name, &std::fs::read_to_string(&file).unwrap(), &beside).unwrap();
         let paths = Paths::new(&scenario);
-        let along = |task: &spandrel::scenario::Task| {
+        let along = |task: &spandrel_model::scenario::Task| {
             let wrap = task.closed.then(|| task.path_m[0]);
             let points: Vec<Vec3<Enu>> = task.path_m.iter().copied().chain(wrap).collect();
             let steps = points.windows(2).flat_map(|pair| (0..4).map(|k| pair[0].lerp(pair[1], f64::from(k) / 4.0)));

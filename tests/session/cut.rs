@@ -1,16 +1,16 @@
 //! From datagrams to frames and scores: gaps, respawns, contacts, windows, ends.
 
 use crate::job::*;
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::geodesy::LocalPlane;
-use spandrel::base::time::SimTime;
-use spandrel::monitor::assessment::{Graded, assess_log};
-use spandrel::monitor::measures::attention::Survey;
-use spandrel::monitor::session::EndReason;
-use spandrel::scenario::{PlacedDefect, Scenario};
-use spandrel::site::{CameraPose, DefectView};
-use spandrel::telemetry::{Contact, Timeline};
-use spandrel::vehicle::{Camera, Lamp};
+use spandrel_mavlink::telemetry::{Contact, Timeline};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::scenario::{PlacedDefect, Scenario};
+use spandrel_model::site::{CameraPose, DefectView};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::{Camera, Lamp};
+use spandrel_monitor::assessment::{Graded, assess_log};
+use spandrel_monitor::measures::attention::Survey;
+use spandrel_monitor::session::EndReason;
 
 pub fn grade(tape: &Tape, scenario: &Scenario) -> Graded {
     assess_log(&tape.log(1_000_000), scenario, &vehicle(), fence_of_ten).unwrap()
@@ -67,7 +67,7 @@ fn exact_missing_frames_hold_the_last_position_and_touch_nothing() {
     tape.hold(0.2);
     let held = tape.at_m;
     tape.silence(3_000);
-    tape.at_m = held + spandrel::base::frames::Vec3::new(4.0, 0.0, 0.0);
+    tape.at_m = held + spandrel_model::frames::Vec3::new(4.0, 0.0, 0.0);
     tape.contact(0);
     tape.hold(1.0);
     let graded = grade(&tape, &one_task());
@@ -87,11 +87,11 @@ fn exact_nothing_is_interpolated_across_a_respawn() {
     let crashed = tape.at_m;
     tape.silence(400);
     tape.int("respawns", 1);
-    tape.at_m = spandrel::base::frames::Vec3::new(28.0, 0.0, 12.0);
+    tape.at_m = spandrel_model::frames::Vec3::new(28.0, 0.0, 12.0);
     let put_back = tape.at_m;
     tape.hold(1.0);
     let graded = grade(&tape, &one_task());
-    let near = |p: spandrel::base::frames::Vec3<spandrel::base::frames::Enu>, q| (p - q).norm() < 0.02;
+    let near = |p: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>, q| (p - q).norm() < 0.02;
     let between = graded.frames.iter().filter(|f| f.time.ms() > i64::from(tape.now_ms) - 1_400);
     for frame in between {
         assert!(near(frame.position_m, crashed) || near(frame.position_m, put_back), "{frame:?}");
@@ -109,7 +109,7 @@ fn exact_an_empty_battery_outranks_a_respawn() {
     tape.hold(1.0);
     tape.int("respawns", 1);
     tape.contact(0);
-    tape.at_m = spandrel::base::frames::Vec3::new(28.0, 0.0, 12.0);
+    tape.at_m = spandrel_model::frames::Vec3::new(28.0, 0.0, 12.0);
     tape.hold(5.0);
     let graded = grade(&tape, &one_task());
     assert_eq!(graded.assessment.end.reason, EndReason::Battery);
@@ -359,7 +359,7 @@ fn exact_a_picture_is_judged_by_the_field_of_view_that_the_camera_tells() {
 
 #[test]
 fn exact_a_field_of_view_that_is_the_aircrafts_own_changes_no_bit_of_its_camera() {
-    use spandrel::monitor::measures::attention::camera;
+    use spandrel_monitor::measures::attention::camera;
     let own = vehicle().camera;
     let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
     let mut tape = Tape::new();

@@ -2,9 +2,9 @@
 
 use crate::job::*;
 use crate::live::{monitor_of, sent};
-use spandrel::mav::dialect::MavMessage;
-use spandrel::monitor::Monitor;
-use spandrel::monitor::feedback::cue;
+use spandrel_mavlink::dialect::MavMessage;
+use spandrel_monitor::Monitor;
+use spandrel_monitor::feedback::cue;
 
 struct Watch {
     monitor: Monitor,
@@ -17,7 +17,7 @@ impl Watch {
         Self::of(one_task())
     }
 
-    fn of(scenario: spandrel::scenario::Scenario) -> Self {
+    fn of(scenario: spandrel_model::scenario::Scenario) -> Self {
         let mut watch = Self { monitor: monitor_of(scenario), tape: Tape::new(), texts: Vec::new() };
         watch.tape.fly((0.0, 0.0, 10.0), 2.0);
         watch.run();

@@ -2,10 +2,10 @@
 
 use crate::job::*;
 use crate::live::monitor_of;
-use spandrel::base::random::RandomStream;
-use spandrel::base::time::SimTime;
-use spandrel::mav::dialect::MavMessage;
-use spandrel::monitor::assess_log;
+use spandrel_mavlink::dialect::MavMessage;
+use spandrel_model::random::RandomStream;
+use spandrel_model::time::SimTime;
+use spandrel_monitor::assess_log;
 
 /// Datagrams per run.
 const MUTATED: usize = 20_000;

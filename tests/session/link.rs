@@ -1,11 +1,11 @@
 //! What a bad link does: lost, doubled, shuffled, cut off.
 
 use crate::job::*;
-use spandrel::base::geodesy::LocalPlane;
-use spandrel::base::random::RandomStream;
-use spandrel::monitor::assessment::{AssessError, Graded, assess_log};
-use spandrel::monitor::export;
-use spandrel::telemetry::{Timeline, tlog};
+use spandrel_mavlink::telemetry::{Timeline, tlog};
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::random::RandomStream;
+use spandrel_monitor::assessment::{AssessError, Graded, assess_log};
+use spandrel_monitor::export;
 
 fn grade(datagrams: &[Vec<u8>]) -> Graded {
     assess_log(&log_of(datagrams, 5_000_000), &one_task(), &vehicle(), fence_of_ten).unwrap()
@@ -33,7 +33,7 @@ fn busy_flight_at(epoch_ms: u64) -> Tape {
     tape
 }
 
-fn counts(datagrams: &[Vec<u8>]) -> spandrel::telemetry::timeline::LinkCounts {
+fn counts(datagrams: &[Vec<u8>]) -> spandrel_mavlink::telemetry::timeline::LinkCounts {
     let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
     datagrams.iter().for_each(|datagram| {
         timeline.push(datagram);
@@ -163,8 +163,8 @@ fn exact_an_empty_log_and_one_without_a_flight_are_named() {
 
 #[test]
 fn exact_what_other_systems_say_does_not_touch_the_session() {
-    use spandrel::mav::codec::Encoder;
-    use spandrel::mav::dialect::*;
+    use spandrel_mavlink::codec::Encoder;
+    use spandrel_mavlink::dialect::*;
     let mut monitor = crate::live::monitor_of(one_task());
     let tape = clean_flight();
     let mut stranger = Encoder::new(255, 190);
@@ -182,6 +182,6 @@ fn exact_what_other_systems_say_does_not_touch_the_session() {
         }
     }
     let outcome = monitor.finished().expect("landed").clone().expect("scored");
-    assert_eq!(outcome.assessment.end.reason, spandrel::monitor::session::EndReason::Landed);
+    assert_eq!(outcome.assessment.end.reason, spandrel_monitor::session::EndReason::Landed);
     assert_eq!((monitor.link().restarts, outcome.frames.len()), (0, grade(&tape.datagrams).frames.len()));
 }

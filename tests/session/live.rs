@@ -1,12 +1,12 @@
 //! The live monitor: what it answers, what it writes, and that a replay says the same.
 
 use crate::job::*;
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::*;
-use spandrel::monitor::assessment::{AssessError, assess_log};
-use spandrel::monitor::{Monitor, MonitorConfig, Record, export};
-use spandrel::scenario::Scenario;
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::time::SimTime;
+use spandrel_monitor::assessment::{AssessError, assess_log};
+use spandrel_monitor::{Monitor, MonitorConfig, Record, export};
 
 const START_US: u64 = 1_700_000_000_000_000;
 
@@ -77,11 +77,11 @@ fn exact_stamps_are_session_start_plus_simulation_time() {
     tape.hold(2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let (log, _) = written(&mut monitor);
-    let stamps: Vec<u64> = spandrel::telemetry::tlog::Reader::new(&log).map(|record| record.stamp_us).collect();
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::Reader::new(&log).map(|record| record.stamp_us).collect();
     assert_eq!(stamps.first(), Some(&START_US));
     assert_eq!(stamps.last(), Some(&(START_US + 2_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
-    assert_eq!(spandrel::telemetry::tlog::session_start_us(&log), Some(START_US));
+    assert_eq!(spandrel_mavlink::telemetry::tlog::session_start_us(&log), Some(START_US));
 }
 
 /// A vehicle that has been up for an hour: what it does now is stamped with now, and not with an hour later.
@@ -93,11 +93,12 @@ fn regress_stamps_of_a_monitor_that_joins_late_begin_at_the_sessions_start() {
     let mut monitor = monitor_of(one_task());
     tape.datagrams[late..].iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let (mut log, _) = written(&mut monitor);
-    let stamps = |log: &[u8]| -> Vec<u64> { spandrel::telemetry::tlog::Reader::new(log).map(|record| record.stamp_us).collect() };
+    let stamps =
+        |log: &[u8]| -> Vec<u64> { spandrel_mavlink::telemetry::tlog::Reader::new(log).map(|record| record.stamp_us).collect() };
     let (first, last) = (stamps(&log)[0], *stamps(&log).last().unwrap());
     assert_eq!(first, START_US);
     assert!((START_US + 1_900_000..=START_US + 2_100_000).contains(&last), "{} us", last - START_US);
-    let zero = spandrel::telemetry::tlog::simulation_zero_us(&log).unwrap();
+    let zero = spandrel_mavlink::telemetry::tlog::simulation_zero_us(&log).unwrap();
     assert!((59_900_000..=60_100_000).contains(&(START_US - zero)), "{} us", START_US - zero);
     assert_eq!(monitor.session_info(b"", b"", String::new(), 1).started_unix_us, START_US);
     // One that was killed goes on with the same clock.
@@ -146,7 +147,7 @@ fn exact_stamps_go_on_rising_after_the_simulator_starts_anew() {
         tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     }
     let (log, _) = written(&mut monitor);
-    let stamps: Vec<u64> = spandrel::telemetry::tlog::Reader::new(&log).map(|record| record.stamp_us).collect();
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::Reader::new(&log).map(|record| record.stamp_us).collect();
     assert_eq!(stamps.last(), Some(&(START_US + 22_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
 }
@@ -159,7 +160,7 @@ fn exact_a_killed_monitor_goes_on_where_its_log_stops() {
     tape.datagrams[..half].iter().for_each(|datagram| first.handle_datagram(datagram));
     let (mut log, _) = written(&mut first);
     log.truncate(log.len() - 5);
-    log.truncate(spandrel::telemetry::tlog::whole_len(&log));
+    log.truncate(spandrel_mavlink::telemetry::tlog::whole_len(&log));
     let mut second = Monitor::resume(config(one_task()), &log).unwrap();
     assert!(second.flown().is_some());
     tape.datagrams[half..].iter().for_each(|datagram| second.handle_datagram(datagram));
@@ -262,7 +263,7 @@ fn exact_closing_in_mid_flight_scores_an_abort() {
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     monitor.close();
     let graded = monitor.finished().unwrap().clone().unwrap();
-    assert_eq!(graded.assessment.end.reason, spandrel::monitor::session::EndReason::Abort);
+    assert_eq!(graded.assessment.end.reason, spandrel_monitor::session::EndReason::Abort);
     assert!(!graded.assessment.certification.passed);
     let (log, _) = written(&mut monitor);
     assert!(assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap() == graded, "the replay differs");

@@ -3,7 +3,7 @@
 use crate::cut::grade;
 use crate::job::*;
 use serde_json::Value;
-use spandrel::monitor::export::{self, ScenarioExport};
+use spandrel_monitor::export::{self, ScenarioExport};
 
 fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
@@ -69,11 +69,11 @@ fn exact_the_assessment_says_who_flew_when() {
 
 #[test]
 fn exact_without_defects_accuracy_does_not_apply_and_the_sum_is_out_of_300() {
-    let empty = |_: &spandrel::scenario::Scenario,
+    let empty = |_: &spandrel_model::scenario::Scenario,
                  _: u64|
-     -> std::sync::Arc<dyn spandrel::monitor::measures::attention::Survey> { std::sync::Arc::new(Fence::of(0)) };
+     -> std::sync::Arc<dyn spandrel_monitor::measures::attention::Survey> { std::sync::Arc::new(Fence::of(0)) };
     let log = clean_flight().log(0);
-    let graded = spandrel::monitor::assess_log(&log, &one_task(), &vehicle(), empty).unwrap();
+    let graded = spandrel_monitor::assess_log(&log, &one_task(), &vehicle(), empty).unwrap();
     let value = serde_json::to_value(&graded.assessment).unwrap();
     assert!(value["scores"]["accuracy"].is_null() && value["snapshots"]["f_beta"].is_null());
     assert_eq!((&value["scores"]["overall"], &value["scores"]["overall_max"]), (&300.0.into(), &300.0.into()));

@@ -1,9 +1,9 @@
 //! A telemetry log that is read in pieces.
 
-use spandrel::mav::codec::Encoder;
-use spandrel::mav::dialect::{HEARTBEAT_DATA, MavMessage};
-use spandrel::telemetry::log_stream::Splitter;
-use spandrel::telemetry::tlog::{Reader, Record, record};
+use spandrel_mavlink::codec::Encoder;
+use spandrel_mavlink::dialect::{HEARTBEAT_DATA, MavMessage};
+use spandrel_mavlink::telemetry::log_stream::Splitter;
+use spandrel_mavlink::telemetry::tlog::{Reader, Record, record};
 use std::ops::ControlFlow;
 
 /// A log with damage in it, cut in the middle of a record.

@@ -2,10 +2,10 @@
 
 use crate::cut::grade;
 use crate::job::*;
-use spandrel::monitor::assessment::Graded;
-use spandrel::monitor::measures::attention::Survey;
-use spandrel::scenario::Scenario;
-use spandrel::training::record::{Hashes, Record, Source, record};
+use spandrel_model::scenario::Scenario;
+use spandrel_monitor::assessment::Graded;
+use spandrel_monitor::measures::attention::Survey;
+use spandrel_training::record::{Hashes, Record, Source, record};
 
 /// A fault begins and ends within a frame (40 ms at 25 Hz), at both its ends, s.
 const TWO_FRAMES_S: f64 = 0.081;

@@ -2,15 +2,15 @@
 
 use crate::inspection::{flown, phantom, two_bridges};
 use crate::job::*;
-use spandrel::mav::codec::Encoder;
-use spandrel::mav::note;
-use spandrel::monitor::assess_log;
-use spandrel::monitor::watch::{COMPONENT, build_site};
-use spandrel::report::coverage::{Fate, REQUIRED_GSD_M};
-use spandrel::report::cues::KINDS;
-use spandrel::report::{About, Review, page};
-use spandrel::scenario::Scenario;
-use spandrel::site::look::INCIDENCE_MAX_RAD;
+use spandrel_mavlink::codec::Encoder;
+use spandrel_mavlink::note;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::look::INCIDENCE_MAX_RAD;
+use spandrel_monitor::assess_log;
+use spandrel_monitor::watch::{COMPONENT, build_site};
+use spandrel_training::report::coverage::{Fate, REQUIRED_GSD_M};
+use spandrel_training::report::cues::KINDS;
+use spandrel_training::report::{About, Review, page};
 use std::sync::OnceLock;
 
 /// The ceiling for a page, bytes.
@@ -66,7 +66,7 @@ fn fetched(page: &str) -> Vec<&str> {
 
 /// The page without what the libraries and our own script and style bring.
 fn own(page: &str) -> String {
-    use spandrel::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
+    use spandrel_training::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
     [COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE]
         .iter()
         .fold(page.to_owned(), |page, text| page.replacen(text, "", 1))
@@ -81,7 +81,7 @@ fn exact_the_review_holds_the_scorers_own_assessment() {
     let each = &graded.assessment.snapshots.each;
     assert!(each.len() > 5, "pictures to judge");
     let verdicts: Vec<bool> =
-        review.pictures.iter().map(|picture| picture.verdict == spandrel::report::pictures::Verdict::Hit).collect();
+        review.pictures.iter().map(|picture| picture.verdict == spandrel_training::report::pictures::Verdict::Hit).collect();
     assert_eq!(verdicts, each.iter().map(|picture| picture.hit).collect::<Vec<_>>());
     let found = review.defects.iter().filter(|fate| fate.found_by.is_some()).count();
     assert_eq!(found, graded.assessment.snapshots.defects_found);

@@ -1,21 +1,21 @@
 //! The shipped job with its real site: paths, defects, light, camera geometry, end to end from datagrams.
 
 use crate::job::Tape;
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::math;
-use spandrel::monitor::measures::attention::Survey;
-use spandrel::monitor::watch::build_site;
-use spandrel::monitor::{assess_log, export};
-use spandrel::scenario::{PlacedDefect, Scenario};
-use spandrel::site::CameraPose;
-use spandrel::vehicle::Vehicle;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::{PlacedDefect, Scenario};
+use spandrel_model::site::CameraPose;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_monitor::measures::attention::Survey;
+use spandrel_monitor::watch::build_site;
+use spandrel_monitor::{assess_log, export};
 
 fn shipped() -> (Scenario, Vehicle) {
     let none = |name: &str| Err(format!("no {name} here"));
     let text = include_str!("../../scenarios/two-bridges.toml");
-    let scenario = spandrel::scenario::read("two-bridges.toml", text, &none).unwrap();
+    let scenario = spandrel_model::scenario::read("two-bridges.toml", text, &none).unwrap();
     let text = include_str!("../../vehicle-params/phantom2.toml");
-    (scenario, spandrel::vehicle::read("phantom2.toml", text).unwrap())
+    (scenario, spandrel_model::vehicle::read("phantom2.toml", text).unwrap())
 }
 
 /// Where to stand (m), heading and gimbal pitch (rad) to photograph a defect from within a task's threshold of its path.
@@ -32,7 +32,7 @@ fn stand(defect: &PlacedDefect, scenario: &Scenario, vehicle: &Vehicle, site: &d
         let (yaw, pitch) = (math::atan2(to.east(), to.north()), math::asin(to.up()));
         let right = Vec3::new(math::cos(yaw), -math::sin(yaw), 0.0);
         let pose = CameraPose { position_m: place, forward: to, right, lamp_on: true };
-        let views = site.look(&pose, &vehicle.camera, &vehicle.lamp, spandrel::base::time::SimTime::from_ms(60_000));
+        let views = site.look(&pose, &vehicle.camera, &vehicle.lamp, spandrel_model::time::SimTime::from_ms(60_000));
         views.iter().any(|view| view.defect_id == defect.id && view.hit).then_some((place, yaw, pitch))
     })
 }
@@ -99,7 +99,7 @@ fn flight_the_shipped_jobs_paths_flown_to_the_letter_are_worth_full_conformity()
     }
     assert_eq!(assessment.scores.conformity.unwrap().pct, 100.0);
     assert_eq!(assessment.scores.efficiency.pct, 100.0);
-    assert_eq!(assessment.end.reason, spandrel::monitor::session::EndReason::Landed);
+    assert_eq!(assessment.end.reason, spandrel_monitor::session::EndReason::Landed);
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn regress_defects_are_placed_on_free_tasks_at_a_bridge() {
     // The slab's path written point by point: nothing names the bridge, and nobody says where to look.
     let mut free = scenario.tasks[0].clone();
     (free.kind, free.bridge, free.look) =
-        (spandrel::scenario::TaskKind::Free, None, vec![Vec3::new(1.0, 0.0, 0.0); free.path_m.len()]);
+        (spandrel_model::scenario::TaskKind::Free, None, vec![Vec3::new(1.0, 0.0, 0.0); free.path_m.len()]);
     scenario.tasks = vec![free];
     scenario.defects.count = 4;
     for seed in 1..=3 {
@@ -122,7 +122,7 @@ fn regress_defects_are_placed_on_free_tasks_at_a_bridge() {
 
 #[test]
 fn regress_numbers_that_decide_are_shown_with_the_digits_that_decide() {
-    let view = spandrel::site::DefectView {
+    let view = spandrel_model::site::DefectView {
         defect_id: 1,
         in_frame: true,
         unoccluded: true,

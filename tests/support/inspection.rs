@@ -2,19 +2,19 @@
 #![allow(dead_code, reason = "each test binary uses its part")]
 
 use crate::job::Tape;
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::math;
-use spandrel::scenario::Scenario;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::Scenario;
 
 /// The paper's job.
 pub fn two_bridges() -> Scenario {
     let text = include_str!("../../scenarios/two-bridges.toml");
-    spandrel::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap()
+    spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap()
 }
 
 /// The aircraft that it is flown with.
-pub fn phantom() -> spandrel::vehicle::Vehicle {
-    spandrel::vehicle::read("phantom2.toml", include_str!("../../vehicle-params/phantom2.toml")).unwrap()
+pub fn phantom() -> spandrel_model::vehicle::Vehicle {
+    spandrel_model::vehicle::read("phantom2.toml", include_str!("../../vehicle-params/phantom2.toml")).unwrap()
 }
 
 /// Flies the tasks in turn, looking where a camera on the path would look, until `seconds` have passed; then lands on the pad.

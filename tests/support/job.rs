@@ -1,16 +1,16 @@
 //! A small job, a site that answers what a test wrote down, and a tape of datagrams as a vehicle would send them.
 #![allow(dead_code, reason = "each test binary uses its part")]
 
-use spandrel::base::frames::{Enu, Frd, Rotation, Vec3};
-use spandrel::base::geodesy::{Geo, LocalPlane};
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::Encoder;
-use spandrel::mav::dialect::*;
-use spandrel::monitor::measures::attention::Survey;
-use spandrel::scenario::*;
-use spandrel::site::{CameraPose, DefectView};
-use spandrel::telemetry::tlog;
-use spandrel::vehicle::*;
+use spandrel_mavlink::codec::Encoder;
+use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::telemetry::tlog;
+use spandrel_model::frames::{Enu, Frd, Rotation, Vec3};
+use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::scenario::*;
+use spandrel_model::site::{CameraPose, DefectView};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::*;
+use spandrel_monitor::measures::attention::Survey;
 use std::sync::Arc;
 
 /// Frames per second of the test job; a divisor of the truth's 50 Hz, so that frames fall on samples.

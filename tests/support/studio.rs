@@ -1,20 +1,20 @@
 //! A site ready to be drawn, and cameras in it.
 #![allow(dead_code, reason = "each program uses its part")]
 
-use spandrel::base::frames::{Enu, Rotation, Vec3};
-use spandrel::base::math;
-use spandrel::base::time::SimTime;
-use spandrel::scenario::Scenario;
-use spandrel::site::Site;
-use spandrel::vehicle::{Camera, Vehicle};
-use spandrel::view::camera::Eye;
-use spandrel::view::gpu::{Gpu, Overlay, Renderer};
-use spandrel::view::hud::Item;
-use spandrel::view::picture::Picture;
-use spandrel::view::quality::Quality;
-use spandrel::view::scene::{DronePose, Scene};
-use spandrel::view::shot::Shot;
-use spandrel::view::stage::{Moment, Stage, aimed, parked};
+use spandrel_model::frames::{Enu, Rotation, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::{Camera, Vehicle};
+use spandrel_view::camera::Eye;
+use spandrel_view::gpu::{Gpu, Overlay, Renderer};
+use spandrel_view::hud::Item;
+use spandrel_view::picture::Picture;
+use spandrel_view::quality::Quality;
+use spandrel_view::scene::{DronePose, Scene};
+use spandrel_view::shot::Shot;
+use spandrel_view::stage::{Moment, Stage, aimed, parked};
 use std::sync::Arc;
 
 /// A midsummer forenoon, 2026-06-21 09:00 UTC: high sun in the south-east.
@@ -27,7 +27,7 @@ pub fn at(east: f64, north: f64, up: f64) -> Vec3<Enu> {
 /// The paper's job.
 pub fn two_bridges() -> Scenario {
     let text = include_str!("../../scenarios/two-bridges.toml");
-    spandrel::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap()
+    spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap()
 }
 
 /// The same on a bright summer day.
@@ -47,7 +47,7 @@ pub fn dusk() -> Scenario {
 
 /// The aircraft that it is flown with.
 pub fn phantom() -> Vehicle {
-    spandrel::vehicle::read("phantom2.toml", include_str!("../../vehicle-params/phantom2.toml")).unwrap()
+    spandrel_model::vehicle::read("phantom2.toml", include_str!("../../vehicle-params/phantom2.toml")).unwrap()
 }
 
 /// A site and what draws it.

@@ -1,7 +1,7 @@
 //! The READMEs beside the files document exactly the keys, ranges and defaults that the code asks for.
 
 use crate::shipped::files;
-use spandrel::base::toml::Asked;
+use spandrel_model::toml::Asked;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn scenario_keys() -> Keys {
     let mut all = Keys::new();
     let shipped = files("scenarios").into_iter().map(|path| std::fs::read_to_string(path).unwrap());
     for text in shipped.chain(OTHER_BRANCHES.map(String::from)) {
-        merge(&mut all, spandrel::scenario::read_asked("keys.toml", &text, &|_| Err("no file".into())).1);
+        merge(&mut all, spandrel_model::scenario::read_asked("keys.toml", &text, &|_| Err("no file".into())).1);
     }
     all
 }
@@ -33,7 +33,7 @@ fn scenario_keys() -> Keys {
 fn vehicle_keys() -> Keys {
     let mut all = Keys::new();
     for path in files("vehicle-params") {
-        merge(&mut all, spandrel::vehicle::read_asked("keys.toml", &std::fs::read_to_string(path).unwrap()).1);
+        merge(&mut all, spandrel_model::vehicle::read_asked("keys.toml", &std::fs::read_to_string(path).unwrap()).1);
     }
     all
 }

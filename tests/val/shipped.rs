@@ -1,9 +1,9 @@
 //! Every shipped scenario and aircraft reads, and every bridge path keeps its distance.
 
-use spandrel::base::time::SimTime;
-use spandrel::scenario::{Scenario, TaskKind};
-use spandrel::site::Site;
-use spandrel::vehicle::Vehicle;
+use spandrel_model::scenario::{Scenario, TaskKind};
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
 use std::path::{Path, PathBuf};
 
 pub fn files(folder: &str) -> Vec<PathBuf> {
@@ -18,20 +18,20 @@ pub fn files(folder: &str) -> Vec<PathBuf> {
 pub fn scenario(path: &Path) -> Scenario {
     let text = std::fs::read_to_string(path).unwrap();
     let name = path.file_name().unwrap().to_string_lossy().into_owned();
-    spandrel::scenario::read(&name, &text, &|f| Err(format!("no file {f}"))).unwrap_or_else(|problems| panic!("{problems}"))
+    spandrel_model::scenario::read(&name, &text, &|f| Err(format!("no file {f}"))).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 pub fn vehicle(path: &Path) -> Vehicle {
     let text = std::fs::read_to_string(path).unwrap();
     let name = path.file_name().unwrap().to_string_lossy().into_owned();
-    spandrel::vehicle::read(&name, &text).unwrap_or_else(|problems| panic!("{problems}"))
+    spandrel_model::vehicle::read(&name, &text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 #[test]
 fn val_every_shipped_aircraft_reads_and_covers_the_reference_camera() {
     for path in files("vehicle-params") {
         let vehicle = vehicle(&path);
-        let short = spandrel::site::defects::short_of_reference(&vehicle.camera, &vehicle.lamp);
+        let short = spandrel_model::site::defects::short_of_reference(&vehicle.camera, &vehicle.lamp);
         assert!(short.is_empty(), "{}: {short:?}", path.display());
     }
 }
@@ -55,7 +55,7 @@ fn val_every_shipped_path_is_flyable_with_the_default_aircraft() {
         let scenario = scenario(&path);
         let site = Site::build(
             &Scenario {
-                traffic: spandrel::scenario::Traffic { cars: 0, trucks: 0, pedestrians: 0, ..scenario.traffic.clone() },
+                traffic: spandrel_model::scenario::Traffic { cars: 0, trucks: 0, pedestrians: 0, ..scenario.traffic.clone() },
                 ..scenario.clone()
             },
             7,
@@ -94,8 +94,8 @@ fn val_ten_defects_are_placed_on_the_two_bridges() {
         let site = Site::build(&scenario, seed);
         assert_eq!(site.defects().len(), 10, "seed {seed}");
         let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/two-bridges.toml")).unwrap();
-        let resolved = spandrel::scenario::resolve(&text, seed, site.defects());
-        let again = spandrel::scenario::read("resolved", &resolved, &|_| Err(String::new())).unwrap();
+        let resolved = spandrel_model::scenario::resolve(&text, seed, site.defects());
+        let again = spandrel_model::scenario::read("resolved", &resolved, &|_| Err(String::new())).unwrap();
         assert_eq!(again.crc, scenario.crc);
         assert_eq!(again.seed, Some(seed));
         assert_eq!(Site::build(&again, seed).defects(), site.defects());
@@ -109,7 +109,7 @@ const NEEDED_LX: f64 = 122.5;
 fn val_in_the_papers_job_it_takes_the_lamp_between_deck_and_arch_and_nowhere_else() {
     let scenario = scenario(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/two-bridges.toml"));
     let phantom = vehicle(&Path::new(env!("CARGO_MANIFEST_DIR")).join("vehicle-params/phantom2.toml"));
-    assert!((spandrel::site::look::needed_lux(&phantom.camera) - NEEDED_LX).abs() < 0.1);
+    assert!((spandrel_model::site::look::needed_lux(&phantom.camera) - NEEDED_LX).abs() < 0.1);
     let (mut dark, mut inside) = (0, 0);
     for seed in 1..=10 {
         let site = Site::build(&scenario, seed);

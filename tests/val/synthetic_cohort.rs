@@ -1,9 +1,9 @@
 //! The example study (examples/cohort, flown by `tools/cohort`): 22 synthetic trainees, eight of them three times. It has caught nothing
 //! yet; it holds that the paper's design gives the paper's tables on flights that really were flown, and what plans say of them.
 
-use spandrel::training::cohort::{Cohort, Selection, cohort, tables};
-use spandrel::training::plan::{RULES, plan, read_rules};
-use spandrel::training::record::{Incomplete, Record};
+use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
+use spandrel_training::plan::{RULES, plan, read_rules};
+use spandrel_training::record::{Incomplete, Record};
 
 const RECORDS: &str = include_str!("../../examples/cohort/records.jsonl");
 /// Off the path or over the speed limit for a larger share of the time, or a crash, is not holding the interlayer (the shipped limits).
@@ -54,7 +54,7 @@ fn val_who_does_not_hold_the_interlayer_is_sent_to_the_gap_drill_and_nobody_else
         let task = record.tasks.iter().find(|task| task.kind == "interlayer").unwrap();
         let steady = 1.0 - task.on_path <= OFF_PATH && task.speeding_s / task.seconds <= SPEEDING;
         let holds = task.attempted && steady && task.crashes.total() == 0;
-        let whole = spandrel::training::plan::Rules { steps: 20, ..rules.clone() };
+        let whole = spandrel_training::plan::Rules { steps: 20, ..rules.clone() };
         let plan = plan(std::slice::from_ref(&record), &whole, record.started_unix_us).unwrap();
         let gap = plan.steps.iter().find(|step| step.scenario == "drill-gap");
         assert_eq!(gap.is_some(), !holds, "{}: {task:?}", record.id);

@@ -1,9 +1,9 @@
 //! A second view on a device of its own.
 
 use super::studio::{Studio, at, two_bridges};
-use spandrel::app::aside::Aside;
-use spandrel::base::time::SimTime;
-use spandrel::view::quality::Quality;
+use spandrel::aside::Aside;
+use spandrel_model::time::SimTime;
+use spandrel_view::quality::Quality;
 use std::sync::Arc;
 
 /// Small: the comparison is of every pixel.

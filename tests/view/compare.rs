@@ -1,6 +1,6 @@
 //! How like two pictures are, and the committed ones to hold new ones against.
 
-use spandrel::view::picture::Picture;
+use spandrel_view::picture::Picture;
 use std::path::{Path, PathBuf};
 
 /// Pictures are compared after averaging squares of this side, px: the film's grain and JPEG's own losses shrink, shapes stay.

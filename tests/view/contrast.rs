@@ -1,13 +1,13 @@
 //! A crack's contrast against the ground sampling distance (domain.md 3a: detected from half a pixel's width, identified from one), without steps.
 
 use super::studio::{Studio, at, sunny};
-use spandrel::base::math;
-use spandrel::base::time::SimTime;
-use spandrel::scenario::PlacedDefect;
-use spandrel::site::catalogue;
-use spandrel::view::picture::Picture;
-use spandrel::view::scene::Patch;
-use spandrel::view::scene::defects::patch;
+use spandrel_model::math;
+use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::site::catalogue;
+use spandrel_model::time::SimTime;
+use spandrel_view::picture::Picture;
+use spandrel_view::scene::Patch;
+use spandrel_view::scene::defects::patch;
 
 /// Crops of the camera's picture at its own resolution, px.
 const CROP: (u32, u32) = (160, 200);

@@ -2,17 +2,17 @@
 
 use super::compare::{Difference, beside, held, held_at};
 use super::studio::{Studio, at, dusk, sunny};
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::math;
-use spandrel::base::time::SimTime;
-use spandrel::scenario::PlacedDefect;
-use spandrel::site::catalogue;
-use spandrel::view::arrange::fitted_px;
-use spandrel::view::camera::Eye;
-use spandrel::view::hud::state::cue;
-use spandrel::view::hud::{self, Gnss, Hud, Track};
-use spandrel::view::picture::Picture;
-use spandrel::view::scene::defects::patch;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::site::catalogue;
+use spandrel_model::time::SimTime;
+use spandrel_view::arrange::fitted_px;
+use spandrel_view::camera::Eye;
+use spandrel_view::hud::state::cue;
+use spandrel_view::hud::{self, Gnss, Hud, Track};
+use spandrel_view::picture::Picture;
+use spandrel_view::scene::defects::patch;
 use std::path::Path;
 
 /// Size of a scene, px.
@@ -156,7 +156,7 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
 
 /// Shows a defect in the light of its place, and no other.
 fn hang_patch(studio: &mut Studio, defect: &PlacedDefect) {
-    let light = spandrel::site::light::spread(64);
+    let light = spandrel_model::site::light::spread(64);
     let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
     let sun = studio.site.light().daylight(studio.at).sun;
     let (sky, bounced) = studio.site.light().indirect_shares(defect.position_m, defect.normal, sun, &light, &cast);
@@ -223,7 +223,7 @@ fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
         let defect = placed(&studio, sight, kind, size_m, down);
         hang_patch(&mut studio, &defect);
         let row = [1.0, 3.0, 8.0].map(|distance_m| close_up(&mut studio, &defect, distance_m, TUTORIAL_DEG, TUTORIAL));
-        let taught = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/view/flow/pictures/{name}.jpg"));
+        let taught = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("crates/view/src/flow/pictures/{name}.jpg"));
         wall.take(name, held_at(&taught, &format!("tutorial-{name}"), &beside(&row)));
     }
     wall.all_hold();
@@ -231,7 +231,7 @@ fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
 
 /// What the display says in flight when nothing is wrong.
 fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
-    let track = |task: &spandrel::scenario::Task| Track { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
+    let track = |task: &spandrel_model::scenario::Task| Track { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 4.4704,

@@ -2,9 +2,9 @@
 //! has pixels.
 
 use super::studio::{Studio, at, two_bridges};
-use spandrel::base::math;
-use spandrel::base::time::SimTime;
-use spandrel::site::Surface;
+use spandrel_model::math;
+use spandrel_model::site::Surface;
+use spandrel_model::time::SimTime;
 
 const SIZE: (u32, u32) = (160, 120);
 /// Share of pixels whose label may differ from a ray's: edges, where the drawn picture and a ray decide by different rounding, and trees, which

@@ -2,17 +2,17 @@
 //! the defects, at the camera's own resolution around the defect.
 
 use super::studio::{Studio, two_bridges};
-use spandrel::base::frames::Vec3;
-use spandrel::base::math;
-use spandrel::base::random::RandomStream;
-use spandrel::base::time::SimTime;
-use spandrel::scenario::PlacedDefect;
-use spandrel::site::{CameraPose, DefectView, Site};
-use spandrel::vehicle::{Camera, Vehicle};
-use spandrel::view::camera::Eye;
-use spandrel::view::picture::Picture;
-use spandrel::view::scene::defects;
-use spandrel::view::stage::aimed;
+use spandrel_model::frames::Vec3;
+use spandrel_model::math;
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::site::{CameraPose, DefectView, Site};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::{Camera, Vehicle};
+use spandrel_view::camera::Eye;
+use spandrel_view::picture::Picture;
+use spandrel_view::scene::defects;
+use spandrel_view::stage::aimed;
 use std::collections::BTreeMap;
 
 /// Photographs that show a defect.

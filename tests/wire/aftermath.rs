@@ -1,8 +1,8 @@
 //! Landings away from home and crashes: what stays, what is put back.
 
 use super::station::{Station, one, p, scenario, shipped};
-use spandrel::mav::dialect::*;
-use spandrel::scenario::AfterCrash;
+use spandrel_mavlink::dialect::*;
+use spandrel_model::scenario::AfterCrash;
 
 /// Forward by hand, until it is no longer at home.
 fn fly_away(station: &mut Station) {
@@ -69,7 +69,7 @@ fn regress_a_simulator_without_a_session_leaves_a_crashed_vehicle_where_it_is() 
     let rule = help.split("--after-crash").nth(1).expect("the option is there");
     assert!(rule.split("--").next().is_some_and(|text| text.contains("[default: continue]")), "{rule}");
     // A session brings the job's own rule.
-    for source in ["src/app/demo.rs", "src/app/train/flight.rs"] {
+    for source in ["src/demo.rs", "src/train/flight.rs"] {
         assert!(shipped(source).contains("\"--after-crash\""), "{source}");
     }
 }

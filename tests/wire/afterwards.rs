@@ -3,7 +3,7 @@
 use super::copter::{AUTO, copter_at};
 use super::plans::{ACCEPTED, home_north, item, ready, upload};
 use super::station::{Station, one, p};
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const NAN: f32 = f32::NAN;

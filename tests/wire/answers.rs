@@ -2,11 +2,11 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::station::{GCS, Station};
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::*;
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
-use spandrel::sitl::sim::Sim;
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::sim::Sim;
 
 /// Acknowledgements of a command by any number, laid out by hand: the dialect does not know them all.
 fn acknowledgements(sim: &mut Sim, encoder: &mut Encoder, id: u32, number: u16, target: (u8, u8)) -> Vec<(u16, u8)> {
@@ -78,7 +78,7 @@ fn wire_the_cameras_component_does_not_fly() {
 
 #[test]
 fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
-    use spandrel::sitl::endpoint::streams::STREAMS;
+    use spandrel_sitl::endpoint::streams::STREAMS;
     let mut station = Station::airborne("two-bridges", 7);
     // Something to say for the stream about orbits.
     let orbit = [3.0, 0.5, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN];
@@ -88,7 +88,7 @@ fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
     for stream in STREAMS {
         let id = stream.id as f32;
         station.sticks(0, 0, 500, 0);
-        if !stream.is_spoken(&spandrel::sitl::endpoint::flavour::px4::FLAVOUR) {
+        if !stream.is_spoken(&spandrel_sitl::endpoint::flavour::px4::FLAVOUR) {
             let refused = station.command(stream.component, MavCmd::MAV_CMD_REQUEST_MESSAGE, [id, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
             let rate =
                 station.command(stream.component, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id, 5e4, 0.0, 0.0, 0.0, 0.0, 0.0]);

@@ -3,11 +3,11 @@
 
 use super::plans::{home_north, item, upload};
 use super::station::{Station, p, scenario, shipped};
-use spandrel::base::geodesy::LocalPlane;
-use spandrel::base::math;
-use spandrel::mav::dialect::*;
-use spandrel::monitor::measures::attention::camera;
-use spandrel::telemetry::Timeline;
+use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::telemetry::Timeline;
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::math;
+use spandrel_monitor::measures::attention::camera;
 
 const CAMERA: u8 = 100;
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
@@ -183,7 +183,7 @@ fn wire_a_continuous_zoom_stops_when_told_and_a_reset_leads_back_to_the_wide_end
 fn wire_before_every_picture_stands_the_field_of_view_that_it_has() {
     let mut station = on_the_pad(ZOOMS);
     let file = format!("vehicle-params/{ZOOMS}.toml");
-    let wide = spandrel::vehicle::read(&file, &shipped(&file)).unwrap().camera;
+    let wide = spandrel_model::vehicle::read(&file, &shipped(&file)).unwrap().camera;
     station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, p(&[1.0, 1.0]));
     for _ in 0..5 {
         station.run_ms(430);

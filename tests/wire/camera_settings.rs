@@ -1,8 +1,8 @@
 //! The camera's settings by name and number, and the file that describes them.
 
 use super::station::Station;
-use spandrel::mav::dialect::*;
-use spandrel::mav::ftp::{ACK, NAK, Opcode, Packet};
+use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::ftp::{ACK, NAK, Opcode, Packet};
 
 const CAMERA: u8 = 100;
 const UINT32: MavParamExtType = MavParamExtType::MAV_PARAM_EXT_TYPE_UINT32;
@@ -108,7 +108,7 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
 }
 
 fn transfer(station: &mut Station, component: u8, opcode: Opcode, (session, offset): (u8, u32), data: &[u8], size: u8) -> Packet {
-    let mut all = [0; spandrel::mav::ftp::DATA_MAX];
+    let mut all = [0; spandrel_mavlink::ftp::DATA_MAX];
     all[..data.len()].copy_from_slice(data);
     let sequence = (station.sim.now().ms() % 60_000) as u16;
     let request = Packet { sequence, session, opcode: opcode as u8, size, request: 0, burst_complete: false, offset, data: all };

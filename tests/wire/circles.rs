@@ -2,7 +2,7 @@
 
 use super::plans::{ACCEPTED, home_north, item, ready, upload};
 use super::station::Station;
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 /// The circle as the vehicle itself sees it is flown this exactly, m.
 const RADIUS_TOLERANCE_M: f64 = 0.6;

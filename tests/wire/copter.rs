@@ -3,8 +3,8 @@
 
 use super::copter_plans::item;
 use super::station::{Station, one};
-use spandrel::mav::dialect::*;
-use spandrel::sitl::endpoint::flavour::ardupilot;
+use spandrel_mavlink::dialect::*;
+use spandrel_sitl::endpoint::flavour::ardupilot;
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;

@@ -6,7 +6,7 @@ use super::copter::{ARM, AUTO, BRAKE, GUIDED, LOITER, M_PER_E7, PAD, SET_MODE, c
 use super::copter_plans::item;
 use super::plans::upload;
 use super::station::{Station, one, p};
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;

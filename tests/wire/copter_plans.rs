@@ -4,7 +4,7 @@
 use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
 use super::plans::upload;
 use super::station::{Station, one};
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;

@@ -1,11 +1,11 @@
 //! What an instructor breaks, and what the vehicle makes of it.
 
 use super::station::{Station, p, scenario};
-use spandrel::mav::dialect::*;
-use spandrel::site::gates::Gates;
-use spandrel::site::traffic::CREW_TRUCK;
-use spandrel::site::{Site, Surface};
-use spandrel::sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
+use spandrel_mavlink::dialect::*;
+use spandrel_model::site::gates::Gates;
+use spandrel_model::site::traffic::CREW_TRUCK;
+use spandrel_model::site::{Site, Surface};
+use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
 
 const OFF: f32 = 1.0;
 const OK: f32 = 0.0;

@@ -2,7 +2,7 @@
 
 use super::plans::{ACCEPTED, home_north, item, ready, upload};
 use super::station::Station;
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 const FENCE: MavMissionType = MavMissionType::MAV_MISSION_TYPE_FENCE;
 const RALLY: MavMissionType = MavMissionType::MAV_MISSION_TYPE_RALLY;

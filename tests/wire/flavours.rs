@@ -3,10 +3,10 @@
 
 use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_beat};
 use super::station::{GCS, Station, one};
-use spandrel::mav::dialect::*;
-use spandrel::mav::ftp::{ACK, Opcode, Packet};
-use spandrel::sitl::endpoint::flavour::{ardupilot, generic, px4};
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
+use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::ftp::{ACK, Opcode, Packet};
+use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
@@ -196,11 +196,11 @@ fn wire_a_copter_says_nothing_but_heartbeats_until_it_is_asked_and_the_sidecar_i
     let sidecar = LinkId(9);
     station.sim.open_link(sidecar, LinkKind::Payload, false);
     let mut told = std::collections::BTreeSet::new();
-    let until = station.sim.now() + spandrel::base::time::SimTime::from_ms(6_000);
+    let until = station.sim.now() + spandrel_model::time::SimTime::from_ms(6_000);
     station.sim.handle_timeout(until);
     while let Some(transmit) = station.sim.poll_transmit() {
         if transmit.link == sidecar {
-            told.extend(spandrel::mav::codec::Decoder::new().datagram(&transmit.bytes).iter().map(|f| f.message_id));
+            told.extend(spandrel_mavlink::codec::Decoder::new().datagram(&transmit.bytes).iter().map(|f| f.message_id));
         } else {
             assert_eq!(transmit.link, GCS);
         }

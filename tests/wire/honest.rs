@@ -3,13 +3,13 @@
 
 use super::plans::{self, home_north, item, ready, upload};
 use super::station::Station;
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::*;
-use spandrel::mav::signing::{Key, Signing};
-use spandrel::sitl::endpoint::flavour::ardupilot;
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
-use spandrel::sitl::sim::Sim;
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::signing::{Key, Signing};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::flavour::ardupilot;
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::sim::Sim;
 
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;

@@ -4,10 +4,10 @@
 use super::impaired_files::Disk;
 use super::plans::{home_north, item};
 use super::station::{GCS, Station};
-use spandrel::base::random::RandomStream;
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
+use spandrel_model::random::RandomStream;
+use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The figures: share lost, mean delay and its spread (which exchanges datagrams), share doubled.

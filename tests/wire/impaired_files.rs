@@ -2,12 +2,12 @@
 
 use super::impaired::{Client, LIMIT_S, PATIENCE_MS};
 use super::station::{GCS, Station};
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::*;
-use spandrel::mav::ftp::{ACK, DATA_MAX, NAK, Opcode, Packet, Refusal, checksum};
-use spandrel::sitl::endpoint::files::job::{Action, CHECKSUM_SLICE, Done, FileError};
-use spandrel::sitl::endpoint::params::{face, metadata};
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::ftp::{ACK, DATA_MAX, NAK, Opcode, Packet, Refusal, checksum};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::files::job::{Action, CHECKSUM_SLICE, Done, FileError};
+use spandrel_sitl::endpoint::params::{face, metadata};
 use std::collections::BTreeMap;
 
 /// A client that asks again before an answer can be back: its repetitions arrive behind its next questions.

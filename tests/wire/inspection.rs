@@ -4,17 +4,17 @@
 use super::plans::{ACCEPTED, upload};
 use super::station::{Station, one, scenario, shipped};
 use serde_json::Value;
-use spandrel::base::frames::{Enu, Vec3};
-use spandrel::base::time::SimTime;
-use spandrel::mav::dialect::*;
-use spandrel::monitor::feedback::cue;
-use spandrel::monitor::watch::build_site;
-use spandrel::monitor::{Monitor, MonitorConfig, Record};
-use spandrel::pilot::flight_plan;
-use spandrel::pilot::job::Map;
-use spandrel::site::Site;
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
-use spandrel::vehicle::Vehicle;
+use spandrel_clients::pilot::flight_plan;
+use spandrel_clients::pilot::job::Map;
+use spandrel_mavlink::dialect::*;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_monitor::feedback::cue;
+use spandrel_monitor::watch::build_site;
+use spandrel_monitor::{Monitor, MonitorConfig, Record};
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
 
 /// Share of a task's reference points that must be passed within its threshold: the estimate strays by its own error, and a lone
 /// point at an end may be missed.
@@ -24,7 +24,7 @@ const LIMIT_S: f64 = 1_500.0;
 
 fn phantom() -> Vehicle {
     let file = "vehicle-params/phantom2.toml";
-    spandrel::vehicle::read(file, &shipped(file)).unwrap()
+    spandrel_model::vehicle::read(file, &shipped(file)).unwrap()
 }
 
 fn plan_for(name: &str, autopilot: MavAutopilot) -> Value {

@@ -3,7 +3,7 @@
 
 use super::plans::{ACCEPTED, PLAN, home_north, item, ready, upload};
 use super::station::Station;
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 const NAN: f32 = f32::NAN;
 /// A circle is kept within this much of its radius, m (the orbit's own test has the same).

@@ -3,7 +3,7 @@
 use super::copter::{ARM, GUIDED, SET_MODE, copter, mode};
 use super::plans::{home_north, item, ready, upload};
 use super::station::{Station, one, p};
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 /// Over the ground, m: well clear of the height at which the lift-off is felt.

@@ -3,8 +3,8 @@
 
 use super::plans::{ACCEPTED, home_north, item, ready, upload};
 use super::station::Station;
-use spandrel::mav::dialect::*;
-use spandrel::sitl::endpoint::flavour::ardupilot;
+use spandrel_mavlink::dialect::*;
+use spandrel_sitl::endpoint::flavour::ardupilot;
 
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const NAN: f32 = f32::NAN;

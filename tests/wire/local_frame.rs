@@ -1,10 +1,10 @@
 //! MAVLink's local frame: its origin is where the estimator was initialized, and every message that uses it agrees.
 
 use super::station::{Station, p, scenario};
-use spandrel::base::frames::{Ned, Vec3};
-use spandrel::base::geodesy::{Geo, LocalPlane};
-use spandrel::mav::dialect::*;
-use spandrel::sitl::endpoint::flavour;
+use spandrel_mavlink::dialect::*;
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_sitl::endpoint::flavour;
 
 /// How far an estimate at rest moves after the origin was set, m: three sigma of the white noise of GNSS heights (0.48 m), averaged over
 /// the first eight fixes.

@@ -1,11 +1,11 @@
 //! Sticks by either message, who holds them, and how long a client may be silent.
 
 use super::station::{GCS, Station};
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::Decoder;
-use spandrel::mav::dialect::*;
-use spandrel::sitl::endpoint::flavour::{ardupilot, generic, px4};
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
+use spandrel_mavlink::codec::Decoder;
+use spandrel_mavlink::dialect::*;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
 
 const HOLD: u32 = 4 << 16 | 3 << 24;
 const POSITION: u32 = 3 << 16;
@@ -97,7 +97,7 @@ fn wire_a_sidecar_hears_every_sample_of_the_sticks_as_it_was_sent() {
     let mut station = Station::new("drill-hover", 7);
     station.sim.open_link(sidecar, LinkKind::Payload, false);
     let beat = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
-    station.sim.handle_datagram(sidecar, &spandrel::mav::codec::Encoder::new(1, 191).encode(&beat));
+    station.sim.handle_datagram(sidecar, &spandrel_mavlink::codec::Encoder::new(1, 191).encode(&beat));
     station.run_ms(10);
     let (mut sent, mut heard) = (Vec::new(), Vec::new());
     for at in 0..60 {
@@ -195,7 +195,7 @@ fn answer_lockstep(station: &mut Station) {
     if station.sim.waiting() {
         let now = station.sim.now().ns();
         let answer = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 1, ts1: now, ..Default::default() });
-        let bytes = spandrel::mav::codec::Encoder::new(1, 191).encode(&answer);
+        let bytes = spandrel_mavlink::codec::Encoder::new(1, 191).encode(&answer);
         station.sim.handle_datagram(LinkId(9), &bytes);
     }
 }
@@ -275,7 +275,7 @@ fn texts(station: &Station) -> Vec<String> {
 /// A second ground station with the same ids, on a link of its own, pulls to the right.
 fn rival(station: &mut Station, y: i16) {
     let sticks = MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() };
-    let frame = spandrel::mav::codec::Encoder::new(255, 190).encode(&MavMessage::MANUAL_CONTROL(sticks));
+    let frame = spandrel_mavlink::codec::Encoder::new(255, 190).encode(&MavMessage::MANUAL_CONTROL(sticks));
     station.sim.handle_datagram(OTHER, &frame);
 }
 

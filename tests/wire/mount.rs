@@ -2,8 +2,8 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::station::{Station, p};
-use spandrel::mav::dialect::*;
-use spandrel::sitl::endpoint::flavour::{ardupilot, generic, px4};
+use spandrel_mavlink::dialect::*;
+use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};
 
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;

@@ -1,12 +1,12 @@
 //! Many peers, a flood, a slow radio, an old client: what one link does costs the others nothing.
 
 use super::station::{GCS, Station};
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder, Received};
-use spandrel::mav::dialect::*;
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
-use spandrel::sitl::sim::Sim;
-use spandrel::sitl::sim::inbox::{BYTES_A_TICK, DATAGRAMS_A_TICK};
+use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::dialect::*;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::sim::Sim;
+use spandrel_sitl::sim::inbox::{BYTES_A_TICK, DATAGRAMS_A_TICK};
 use std::collections::BTreeMap;
 
 const FLOOD: LinkId = LinkId(2);

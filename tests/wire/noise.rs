@@ -1,8 +1,8 @@
 //! A running simulator and its socket under noise: it goes on answering, and says at the end what it could not read.
 
-use spandrel::base::random::RandomStream;
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::{MavMessage, PARAM_REQUEST_READ_DATA};
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::{MavMessage, PARAM_REQUEST_READ_DATA};
+use spandrel_model::random::RandomStream;
 use std::io::{BufRead, BufReader, Read};
 use std::net::UdpSocket;
 use std::process::{Command, Stdio};

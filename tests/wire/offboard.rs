@@ -2,7 +2,7 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::station::Station;
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 type Local = SET_POSITION_TARGET_LOCAL_NED_DATA;
 

@@ -3,13 +3,13 @@
 
 use super::copter::{ARM, AUTO, SET_MODE, copter, copter_at, mode, next_beat};
 use super::station::{Station, one, p};
-use spandrel::mav::dialect::*;
-use spandrel::sitl::autopilot::operator_rules::{
+use spandrel_mavlink::dialect::*;
+use spandrel_sitl::autopilot::operator_rules::{
     Envelope, Exceptions, Heading, MissionNeeds, OffboardLoss, Response, ReturnPlaces,
 };
-use spandrel::sitl::autopilot::{LinkLoss, Mode, OperatorRules, Tuning};
-use spandrel::sitl::endpoint::params::face::{COPTER, Face, PX4};
-use spandrel::sitl::endpoint::params::{Pack, Params, Thresholds, Value, metadata};
+use spandrel_sitl::autopilot::{LinkLoss, Mode, OperatorRules, Tuning};
+use spandrel_sitl::endpoint::params::face::{COPTER, Face, PX4};
+use spandrel_sitl::endpoint::params::{Pack, Params, Thresholds, Value, metadata};
 use std::io::Cursor;
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;

@@ -1,7 +1,7 @@
 //! Camera and gimbal as clients use them.
 
 use super::station::Station;
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 use std::f32::consts::FRAC_PI_2;
 
 /// The gimbal turns at a limited rate: within this it has arrived, ms.

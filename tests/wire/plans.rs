@@ -2,7 +2,7 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::station::Station;
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 const NAN: f32 = f32::NAN;
 /// Degrees north for a metre on the ground (40,000 km round).

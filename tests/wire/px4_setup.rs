@@ -1,7 +1,7 @@
 //! What QGroundControl's setup pages and its console ask of a PX4: calibration, the MAVLink console, follow-me.
 
 use super::station::{Station, one, p};
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const CALIBRATE: MavCmd = MavCmd::MAV_CMD_PREFLIGHT_CALIBRATION;
@@ -116,7 +116,7 @@ fn regress_the_mavlink_console_answers() {
     assert!(armed.unwrap().contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED));
     assert!(console(&mut station, "commander mode nowhere").contains("no mode nowhere"));
     assert!(console(&mut station, "reboot now").contains("reboot: command not found"));
-    let mut copter = Station::speaking(&spandrel::sitl::endpoint::flavour::ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut copter = Station::speaking(&spandrel_sitl::endpoint::flavour::ardupilot::FLAVOUR, "drill-hover", 7);
     copter.run_ms(1_000);
     assert_eq!(console(&mut copter, "help"), "", "ArduPilot has none");
 }

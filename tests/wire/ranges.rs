@@ -1,12 +1,12 @@
 //! What the range finders tell: the site's own distances, in their directions, in places where something stands in every one of them.
 
 use super::station::{Station, scenario};
-use spandrel::base::frames::{Enu, Frd, Vec3};
-use spandrel::base::math;
-use spandrel::base::time::SimTime;
-use spandrel::mav::dialect::*;
-use spandrel::scenario::Scenario;
-use spandrel::site::Site;
+use spandrel_mavlink::dialect::*;
+use spandrel_model::frames::{Enu, Frd, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
 use std::f64::consts::FRAC_PI_4;
 
 /// Noise of 2 cm and biases of 1 cm, five of both together, and the centimetres of the wire, m; the drone stands still.

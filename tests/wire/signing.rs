@@ -1,11 +1,11 @@
 //! With signatures demanded, only who knows the key is obeyed.
 
 use super::station::{GCS, Station};
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, MavCmd, MavMessage, STATUSTEXT_DATA};
-use spandrel::mav::signing::{Key, Signing, Verdict};
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
-use spandrel::sitl::sim::Sim;
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, MavCmd, MavMessage, STATUSTEXT_DATA};
+use spandrel_mavlink::signing::{Key, Signing, Verdict};
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::sim::Sim;
 
 const NOW: u64 = 30_000_000_000_000;
 const SIDECAR: LinkId = LinkId(2);
@@ -35,7 +35,7 @@ fn lamp_on(encoder: &mut Encoder) -> Vec<u8> {
 
 /// Acknowledgements and texts that each link heard.
 fn heard(sim: &mut Sim) -> Vec<(LinkId, &'static str)> {
-    let until = sim.now() + spandrel::base::time::SimTime::from_ms(5);
+    let until = sim.now() + spandrel_model::time::SimTime::from_ms(5);
     sim.handle_timeout(until);
     let mut out = Vec::new();
     while let Some(transmit) = sim.poll_transmit() {
@@ -71,7 +71,7 @@ fn wire_only_who_signs_is_obeyed_and_never_twice() {
 #[test]
 fn wire_everything_the_vehicle_says_is_signed() {
     let mut sim = signed_vehicle();
-    let until = sim.now() + spandrel::base::time::SimTime::from_ms(2_000);
+    let until = sim.now() + spandrel_model::time::SimTime::from_ms(2_000);
     sim.handle_timeout(until);
     let mut guards = [Signing::new(key(), 0, NOW), Signing::new(key(), 0, NOW)];
     let mut frames = 0;

@@ -6,11 +6,11 @@ use super::copter::{ARM, AUTO, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode}
 use super::copter_plans::item;
 use super::plans::{ready, upload};
 use super::station::{GCS, Station, one, p, scenario};
-use spandrel::base::geodesy::{Geo, LocalPlane};
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::*;
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
+use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 /// A peer in lockstep, and a sidecar.
@@ -259,7 +259,7 @@ fn answer(clock: i64, token: i64) -> Vec<u8> {
 fn regress_lockstep_begins_with_a_peers_first_answer() {
     let mut sim = Station::new("drill-hover", 7).sim;
     sim.open_link(PEER, LinkKind::Sdk, true);
-    let heard = |sim: &mut spandrel::sitl::sim::Sim| -> Vec<MavMessage> {
+    let heard = |sim: &mut spandrel_sitl::sim::Sim| -> Vec<MavMessage> {
         let sent = std::iter::from_fn(|| sim.poll_transmit()).filter(|t| t.link == PEER);
         sent.flat_map(|t| Decoder::new().datagram(&t.bytes)).filter_map(|frame| frame.message).collect()
     };

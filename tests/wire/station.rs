@@ -1,14 +1,14 @@
 //! A ground station and a monitor's place on an in-process vehicle: no sockets, no clock.
 
-use spandrel::base::geodesy::Geo;
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder, Received};
-use spandrel::mav::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavResult};
-use spandrel::scenario::{AfterCrash, Scenario};
-use spandrel::site::Site;
-use spandrel::sitl::endpoint::flavour::{self, Flavour};
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
-use spandrel::sitl::sim::{Sim, SimConfig};
+use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavResult};
+use spandrel_model::geodesy::Geo;
+use spandrel_model::scenario::{AfterCrash, Scenario};
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::flavour::{self, Flavour};
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::sim::{Sim, SimConfig};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub fn shipped(path: &str) -> String {
 
 pub fn scenario(name: &str) -> Scenario {
     let file = format!("scenarios/{name}.toml");
-    spandrel::scenario::read(&file, &shipped(&file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
+    spandrel_model::scenario::read(&file, &shipped(&file), &|f| Err(f.into())).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 /// A command's parameters; those that are not given are 0.
@@ -74,7 +74,7 @@ impl Station {
     ) -> Self {
         let scenario = Arc::new(scenario);
         let file = format!("vehicle-params/{vehicle}.toml");
-        let vehicle = Arc::new(spandrel::vehicle::read(&file, &shipped(&file)).unwrap());
+        let vehicle = Arc::new(spandrel_model::vehicle::read(&file, &shipped(&file)).unwrap());
         let site = Arc::new(Site::build(&scenario, seed));
         let mut sim = Sim::new(SimConfig { scenario, vehicle, seed, instance, flavour, after_crash }, site);
         sim.open_link(GCS, LinkKind::GroundStation, false);

@@ -1,7 +1,7 @@
 //! What ground stations ask and what they must be answered.
 
 use super::station::Station;
-use spandrel::mav::dialect::{
+use spandrel_mavlink::dialect::{
     MavCmd, MavMessage, MavMissionType, MavModeFlag, MavResult, MavSysStatusSensor, PARAM_REQUEST_LIST_DATA,
 };
 
@@ -71,7 +71,7 @@ fn wire_an_empty_mission_is_counted_as_such() {
     for kind in
         [MavMissionType::MAV_MISSION_TYPE_MISSION, MavMissionType::MAV_MISSION_TYPE_FENCE, MavMissionType::MAV_MISSION_TYPE_RALLY]
     {
-        station.send(&MavMessage::MISSION_REQUEST_LIST(spandrel::mav::dialect::MISSION_REQUEST_LIST_DATA {
+        station.send(&MavMessage::MISSION_REQUEST_LIST(spandrel_mavlink::dialect::MISSION_REQUEST_LIST_DATA {
             target_system: 1,
             target_component: 1,
             mission_type: kind,

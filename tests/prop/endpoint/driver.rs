@@ -1,14 +1,14 @@
 //! Feeds datagrams to a vehicle and looks for what must never happen.
 
 use super::mutate;
-use spandrel::base::random::RandomStream;
-use spandrel::base::time::SimTime;
-use spandrel::mav::codec::{Decoder, Encoder, Received};
-use spandrel::mav::dialect::*;
-use spandrel::sitl::endpoint::files::job::{Action, Done, Entry, FileError};
-use spandrel::sitl::endpoint::flavour::{ardupilot, px4};
-use spandrel::sitl::endpoint::{LinkId, LinkKind};
-use spandrel::sitl::sim::Sim;
+use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::dialect::*;
+use spandrel_model::random::RandomStream;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::files::job::{Action, Done, Entry, FileError};
+use spandrel_sitl::endpoint::flavour::{ardupilot, px4};
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::sim::Sim;
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

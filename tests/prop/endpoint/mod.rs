@@ -11,12 +11,12 @@ mod station;
 
 use driver::{Depth, Driver, Finding, STATION, Subject, Vehicle};
 use mavlink::Message;
-use spandrel::base::random::RandomStream;
-use spandrel::mav::codec::Decoder;
-use spandrel::mav::dialect::{MavCmd, MavMessage, MavResult};
-use spandrel::sitl::endpoint::HANDLED;
-use spandrel::sitl::endpoint::flavour::ardupilot;
-use spandrel::sitl::sim::Sim;
+use spandrel_mavlink::codec::Decoder;
+use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavResult};
+use spandrel_model::random::RandomStream;
+use spandrel_sitl::endpoint::HANDLED;
+use spandrel_sitl::endpoint::flavour::ardupilot;
+use spandrel_sitl::sim::Sim;
 use station::Station;
 
 /// Datagrams of the whole run (issue: 20,000).

@@ -2,9 +2,9 @@
 
 use super::seeds;
 use mavlink::{MavlinkVersion, Message};
-use spandrel::base::random::RandomStream;
-use spandrel::mav::dialect::{MISSION_ITEM_INT_DATA, MavMessage, MavMissionType};
-use spandrel::sitl::endpoint::HANDLED;
+use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavMessage, MavMissionType};
+use spandrel_model::random::RandomStream;
+use spandrel_sitl::endpoint::HANDLED;
 
 const REALS: [f32; 14] = [
     f32::NAN,

@@ -1,8 +1,8 @@
 //! Vehicles with a fault in them, each for one rare value of one field: if the fuzzing does not find these, it finds nothing.
 
 use super::driver::{Subject, Vehicle};
-use spandrel::mav::codec::{Decoder, Encoder};
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {

@@ -2,8 +2,8 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use mavlink::Message;
-use spandrel::base::random::RandomStream;
-use spandrel::mav::dialect::*;
+use spandrel_mavlink::dialect::*;
+use spandrel_model::random::RandomStream;
 
 const NAN: f32 = f32::NAN;
 /// The practice lake's origin, 1e-7 degrees: the job that the vehicle of these tests flies.
@@ -365,7 +365,7 @@ fn commands() -> Vec<MavMessage> {
 /// A command with any number and parameters that are often small and whole, as commands' are.
 pub fn command(number: u16, stream: &mut RandomStream) -> (u32, Vec<u8>) {
     // Questions about messages: mostly about one that is spoken.
-    let spoken = &spandrel::sitl::endpoint::streams::STREAMS;
+    let spoken = &spandrel_sitl::endpoint::streams::STREAMS;
     let asks = matches!(number, 510..=512) && stream.below(4) > 0;
     let whole = stream.below(3) > 0;
     let id = if whole { 76 } else { 75 };

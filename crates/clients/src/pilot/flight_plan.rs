@@ -1,0 +1,197 @@
+//! The job as a plan file of QGroundControl (<https://docs.qgroundcontrol.com/master/en/qgc-dev-user-guide/file_formats/plan.html>): the
+//! tasks' reference paths with the transits between them, speeds, gimbal, lamp and pictures.
+
+use super::job::{Job, Map, over_pad};
+use super::track::Leg;
+use serde_json::{Value, json};
+use spandrel_mavlink::dialect::{MavAutopilot, MavType};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::math;
+
+/// Waypoints of a task are at most this far apart, and a turn or a new line of sight gets one of its own, m, rad.
+const TASK_STRIDE_M: f64 = 4.0;
+const TRANSIT_STRIDE_M: f64 = 12.0;
+const TURN_RAD: f64 = 0.15;
+/// A waypoint counts as reached within, m: less than the narrowest threshold of a shipped task by what the flight may stray (estimate).
+const TASK_ACCEPT_M: f64 = 0.8;
+const TRANSIT_ACCEPT_M: f64 = 1.2;
+/// No leg of the plan is faster than this share of the job's speed limit: gusts and the estimate's error stay under it (estimate).
+const SPEED_SHARE: f64 = 0.9;
+/// Transits keep this much more clearance than the job's distance for "too close", m (estimate: the receiver's slow error reaches 1 m, and
+/// corners are rounded).
+const CLEAR_BY_M: f64 = 2.0;
+/// The gimbal is told when its pitch changes by more than this, degrees.
+const GIMBAL_STEP_DEG: f64 = 3.0;
+/// A picture every so many seconds in a task (estimate: one for each few metres of path).
+const PICTURE_EVERY_S: f64 = 2.0;
+
+/// Frames of items: relative to home, and no place at all.
+const RELATIVE: u8 = 3;
+const NO_PLACE: u8 = 2;
+/// Commands, by their numbers in MAVLink common.
+const WAYPOINT: u16 = 16;
+const RETURN: u16 = 20;
+const TAKEOFF: u16 = 22;
+const CHANGE_SPEED: u16 = 178;
+const SET_ACTUATOR: u16 = 187;
+const MOUNT_CONTROL: u16 = 205;
+const START_CAPTURE: u16 = 2000;
+const STOP_CAPTURE: u16 = 2001;
+/// MAV_MOUNT_MODE_MAVLINK_TARGETING.
+const TARGETING: f64 = 2.0;
+
+/// Writes items one after the other.
+struct Writer {
+    plane: LocalPlane,
+    pad_up_m: f64,
+    items: Vec<Value>,
+    speed_m_s: f64,
+    fastest_m_s: f64,
+    pitch_deg: f64,
+}
+
+impl Writer {
+    fn item(&mut self, command: u16, frame: u8, params: [Option<f64>; 7]) {
+        let mut item = json!({
+            "autoContinue": true,
+            "command": command,
+            "doJumpId": self.items.len() + 1,
+            "frame": frame,
+            "params": params,
+            "type": "SimpleItem",
+        });
+        if frame == RELATIVE {
+            item["Altitude"] = json!(params[6]);
+            // Relative to home.
+            item["AltitudeMode"] = json!(1);
+            item["AMSLAltAboveTerrain"] = Value::Null;
+        }
+        self.items.push(item);
+    }
+
+    fn act(&mut self, command: u16, params: [f64; 7]) {
+        self.item(command, NO_PLACE, params.map(Some));
+    }
+
+    fn place(&self, point_m: Vec3<Enu>) -> [f64; 3] {
+        let geo = self.plane.geo_from_enu(point_m);
+        [geo.latitude_deg, geo.longitude_deg, point_m.up() - self.pad_up_m]
+    }
+
+    fn waypoint(&mut self, point_m: Vec3<Enu>, accept_m: f64, yaw_deg: Option<f64>) {
+        let [lat, lon, height] = self.place(point_m).map(Some);
+        self.item(WAYPOINT, RELATIVE, [Some(0.0), Some(accept_m), Some(0.0), yaw_deg, lat, lon, height]);
+    }
+
+    fn fly_at(&mut self, speed_m_s: f64) {
+        let speed_m_s = speed_m_s.min(self.fastest_m_s);
+        if (self.speed_m_s - speed_m_s).abs() > 0.05 {
+            self.speed_m_s = speed_m_s;
+            self.act(CHANGE_SPEED, [1.0, speed_m_s, -1.0, 0.0, 0.0, 0.0, 0.0]);
+        }
+    }
+
+    fn tilt_gimbal(&mut self, pitch_deg: f64) {
+        if (self.pitch_deg - pitch_deg).abs() > GIMBAL_STEP_DEG {
+            self.pitch_deg = pitch_deg;
+            self.act(MOUNT_CONTROL, [pitch_deg, 0.0, 0.0, 0.0, 0.0, 0.0, TARGETING]);
+        }
+    }
+
+    fn lamp(&mut self, on: bool) {
+        let value = if on { 1.0 } else { -1.0 };
+        self.item(SET_ACTUATOR, NO_PLACE, [Some(value), None, None, None, None, None, Some(0.0)]);
+    }
+
+    fn leg(&mut self, leg: &Leg) {
+        for k in kept(leg) {
+            let task = leg.task[k].is_some();
+            self.fly_at(leg.speed_m_s[k]);
+            let look = leg.look[k];
+            if let Some(look) = look {
+                self.tilt_gimbal(math::atan2(look.up(), look.horizontal_norm()).to_degrees());
+            }
+            let yaw_deg = look.map(|look| math::atan2(look.east(), look.north()).to_degrees().rem_euclid(360.0));
+            let accept_m = if task { TASK_ACCEPT_M } else { TRANSIT_ACCEPT_M };
+            self.waypoint(leg.points_m[k], accept_m, yaw_deg);
+        }
+    }
+}
+
+/// Points of a leg that become waypoints: its ends, its turns, and one at every stride.
+fn kept(leg: &Leg) -> Vec<usize> {
+    let mut kept: Vec<usize> = Vec::new();
+    for k in 0..leg.points_m.len() {
+        let last = kept.last().copied();
+        let stride = if leg.task[k].is_some() { TASK_STRIDE_M } else { TRANSIT_STRIDE_M };
+        let end = k == 0 || k + 1 == leg.points_m.len();
+        let far = last.is_none_or(|last| (leg.points_m[k] - leg.points_m[last]).norm() >= stride);
+        if end || far || turns(leg, k) || leg.task[k] != leg.task[k - 1] || leg.speed_m_s[k] != leg.speed_m_s[k - 1] {
+            kept.push(k);
+        }
+    }
+    kept
+}
+
+fn turns(leg: &Leg, k: usize) -> bool {
+    let way = |a: usize, b: usize| (leg.points_m[b] - leg.points_m[a]).unit();
+    let angle = |a: Vec3<Enu>, b: Vec3<Enu>| math::acos(a.dot(b).clamp(-1.0, 1.0));
+    let bent = angle(way(k - 1, k), way(k, k + 1)) > TURN_RAD;
+    bent || matches!((leg.look[k - 1], leg.look[k]), (Some(before), Some(now)) if angle(before, now) > TURN_RAD)
+}
+
+/// The plan file: take-off, every task in order with pictures, return. Heights count from the pad, where home will be. `firmware` is the
+/// autopilot that it is for.
+#[must_use]
+pub fn plan(map: &Map, firmware: MavAutopilot) -> Value {
+    let scenario = map.scenario;
+    let map = &Map { keep_clear_m: Some(scenario.feedback.too_close_m + CLEAR_BY_M), ..*map };
+    let pad = scenario.ground_team.pad_m;
+    let plane = LocalPlane::new(scenario.origin);
+    let home = plane.geo_from_enu(pad);
+    let fastest_m_s = SPEED_SHARE * scenario.scoring.speed_limit_m_s;
+    let mut w = Writer { plane, pad_up_m: pad.up(), items: Vec::new(), speed_m_s: 0.0, fastest_m_s, pitch_deg: f64::INFINITY };
+    let mut here = over_pad(scenario);
+    let [lat, lon, height] = w.place(here).map(Some);
+    w.item(TAKEOFF, RELATIVE, [Some(0.0), Some(0.0), Some(0.0), None, lat, lon, height]);
+    for (index, task) in scenario.tasks.iter().enumerate() {
+        let leg = map.leg(Job::Task(index), here);
+        let start = leg.task.iter().position(Option::is_some).unwrap_or(0);
+        let (way, path) = leg.split_at(start);
+        w.leg(&way);
+        if task.dark {
+            w.lamp(true);
+        }
+        w.act(START_CAPTURE, [0.0, PICTURE_EVERY_S, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        w.leg(&path);
+        w.act(STOP_CAPTURE, [0.0; 7]);
+        if task.dark {
+            w.lamp(false);
+        }
+        here = path.points_m.last().copied().unwrap_or(here);
+    }
+    w.leg(&map.leg(Job::Home, here));
+    w.item(RETURN, NO_PLACE, [Some(0.0); 7]);
+    file(w.items, home, firmware, fastest_m_s)
+}
+
+fn file(items: Vec<Value>, home: Geo, firmware: MavAutopilot, speed_m_s: f64) -> Value {
+    json!({
+        "fileType": "Plan",
+        "version": 1,
+        "groundStation": "QGroundControl",
+        "geoFence": { "circles": [], "polygons": [], "version": 2 },
+        "rallyPoints": { "points": [], "version": 2 },
+        "mission": {
+            "version": 2,
+            "firmwareType": firmware as u8,
+            "vehicleType": MavType::MAV_TYPE_QUADROTOR as u8,
+            "globalPlanAltitudeMode": 1,
+            "cruiseSpeed": speed_m_s,
+            "hoverSpeed": speed_m_s,
+            "plannedHomePosition": [home.latitude_deg, home.longitude_deg, home.altitude_m],
+            "items": items,
+        },
+    })
+}

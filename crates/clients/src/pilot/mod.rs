@@ -1,0 +1,327 @@
+//! The synthetic trainee: flies over MAVLink as a person's ground station does, with MANUAL_CONTROL, lamp, gimbal and snapshot
+//! commands alone. It knows the job (scenario, reference paths, where it would look) and sees the world late and with error; it never
+//! errs by type. Sans-IO: datagrams in, datagrams out, the vehicle's own clock.
+
+pub mod eye;
+pub mod hand;
+pub mod job;
+pub mod perception;
+pub mod plan;
+pub mod skill;
+pub mod track;
+pub mod wire;
+
+mod flight;
+pub mod flight_plan;
+
+pub use skill::{Factor, Skill};
+
+use eye::Eye;
+use flight::Flight;
+use hand::Hand;
+use job::Job;
+use perception::{Motion, Perception};
+use spandrel_mavlink::dialect::MavCmd;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+use spandrel_model::time::{Schedule, SimTime};
+use spandrel_model::vehicle::Vehicle;
+use std::collections::VecDeque;
+use std::sync::Arc;
+use wire::{News, Wire};
+
+/// Between two tries of a command that has not had its effect, s.
+const RETRY_S: f64 = 1.5;
+/// Within this of the pad's middle one comes down, m (estimate: the reach of the last correction).
+const OVER_PAD_M: f64 = 2.5;
+/// From farther aside one approaches at this height at least, m (estimate: over the truck).
+const APPROACH_M: f64 = 5.0;
+/// The mind gives up a flight that cannot begin after this, s of simulation time.
+const PATIENCE_S: f64 = 60.0;
+
+/// Who flies what.
+#[derive(Debug, Clone)]
+pub struct PilotConfig {
+    /// The job.
+    pub scenario: Arc<Scenario>,
+    /// The aircraft.
+    pub vehicle: Arc<Vehicle>,
+    /// The pilot's numbers.
+    pub skill: Skill,
+    /// The pilot's own randomness.
+    pub seed: u64,
+}
+
+/// How the flight ended, as the pilot saw it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PilotReport {
+    /// In words.
+    pub reason: String,
+    /// Simulation time at the end.
+    pub at: SimTime,
+    /// Tasks flown to their end.
+    pub tasks_flown: usize,
+    /// Pictures taken.
+    pub pictures: u32,
+}
+
+/// What the pilot is doing.
+#[derive(Debug, Clone, PartialEq)]
+enum Phase {
+    /// Waiting for the vehicle to be ready, then arming.
+    Prepare,
+    /// Climbing off the pad.
+    Climb,
+    /// Flying the job.
+    Fly,
+    /// Coming down on the pad.
+    Descend,
+    /// Over.
+    Done,
+}
+
+/// The synthetic trainee.
+#[derive(Debug)]
+pub struct Pilot {
+    config: PilotConfig,
+    site: Option<Site>,
+    wire: Wire,
+    eyes: Perception,
+    hand: Hand,
+    eye: Eye,
+    jobs: VecDeque<Job>,
+    flight: Flight,
+    phase: Phase,
+    now: SimTime,
+    heartbeat: Schedule,
+    last_try: SimTime,
+    phase_since: SimTime,
+    respawns: i32,
+    lamp: bool,
+    gimbal_rad: f64,
+    gimbal_sent: SimTime,
+    report: Option<PilotReport>,
+    tasks_flown: usize,
+    pictures: u32,
+}
+
+impl Pilot {
+    /// A pilot who has read the job.
+    #[must_use]
+    pub fn new(config: PilotConfig) -> Self {
+        let jobs = (0..config.scenario.tasks.len()).map(Job::Task).chain([Job::Home]).collect();
+        Self {
+            site: None,
+            wire: Wire::new(),
+            eyes: Perception::new(config.seed),
+            hand: Hand::new(config.seed),
+            eye: Eye::new(config.seed),
+            jobs,
+            flight: Flight::new(),
+            phase: Phase::Prepare,
+            now: SimTime::ZERO,
+            heartbeat: Schedule::new(SimTime::ZERO, 1.0),
+            last_try: SimTime::ZERO,
+            phase_since: SimTime::ZERO,
+            respawns: 0,
+            lamp: false,
+            gimbal_rad: 0.0,
+            gimbal_sent: SimTime::ZERO,
+            report: None,
+            tasks_flown: 0,
+            pictures: 0,
+            config,
+        }
+    }
+
+    /// Reads one datagram and acts on it.
+    pub fn handle_datagram(&mut self, bytes: &[u8]) {
+        let plane = spandrel_model::geodesy::LocalPlane::new(self.config.scenario.origin);
+        for news in self.wire.receive(bytes, &plane) {
+            match news {
+                News::Truth(motion) => self.see(motion),
+                News::Timesync(token) => {
+                    self.beat(SimTime::from_ns(token));
+                    self.wire.timesync(token, self.now);
+                }
+            }
+        }
+        if self.site.is_none()
+            && let Some(seed) = self.wire.heard.seed
+        {
+            self.site = Some(Site::build(&self.config.scenario, seed));
+        }
+    }
+
+    /// Lets the pilot's own clock run when nothing has been heard yet: it greets the vehicle, so that a vehicle that waits to be
+    /// dialled learns of it.
+    pub fn handle_timeout(&mut self, now: SimTime) {
+        if self.now == SimTime::ZERO {
+            self.beat(now);
+        }
+    }
+
+    /// The next datagram to send.
+    pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
+        self.wire.poll_transmit()
+    }
+
+    /// How it ended, once it has.
+    #[must_use]
+    pub fn finished(&self) -> Option<&PilotReport> {
+        self.report.as_ref()
+    }
+
+    /// What the pilot is doing, in words, for progress lines.
+    #[must_use]
+    pub fn doing(&self) -> String {
+        match (&self.phase, self.flight.task()) {
+            (Phase::Prepare, _) => "preparing".into(),
+            (Phase::Climb, _) => "taking off".into(),
+            (Phase::Fly, Some(task)) => format!("task {}", self.config.scenario.tasks[task].id),
+            (Phase::Fly, None) => "in transit".into(),
+            (Phase::Descend, _) => "landing".into(),
+            (Phase::Done, _) => "done".into(),
+        }
+    }
+
+    fn beat(&mut self, now: SimTime) {
+        if self.heartbeat.fire(now) {
+            self.wire.heartbeat();
+        }
+    }
+
+    /// One look at the world: 50 times a second.
+    fn see(&mut self, motion: Motion) {
+        let put_back = self.wire.heard.respawns != self.respawns;
+        if motion.time <= self.now || (self.phase == Phase::Done && !(put_back && self.landed())) {
+            return;
+        }
+        let dt_s = (motion.time - self.now).s().min(0.1);
+        self.now = motion.time;
+        self.beat(motion.time);
+        if put_back {
+            self.respawns = self.wire.heard.respawns;
+            if self.phase == Phase::Done {
+                // It stood beside its home and is in the air again.
+                self.report = None;
+                self.enter(Phase::Descend);
+            }
+            self.eyes.forget();
+            self.hand.release();
+            self.flight.replan();
+        }
+        self.eyes.show(motion);
+        let skill = self.config.skill;
+        let Some(belief) = self.eyes.believe(&skill, dt_s) else { return };
+        let axes = self.act(&belief);
+        let axes = self.hand.step(axes, &skill, self.now, dt_s);
+        self.wire.sticks(axes);
+    }
+
+    fn enter(&mut self, phase: Phase) {
+        self.phase = phase;
+        self.phase_since = self.now;
+    }
+
+    fn in_phase_s(&self) -> f64 {
+        (self.now - self.phase_since).s()
+    }
+
+    fn act(&mut self, belief: &Motion) -> hand::Axes {
+        match self.phase {
+            Phase::Prepare => self.prepare(),
+            Phase::Climb => self.climb(belief),
+            Phase::Fly => self.fly(belief),
+            Phase::Descend => self.descend(belief),
+            Phase::Done => [0.0; 4],
+        }
+    }
+
+    /// True when a command may be tried again.
+    fn may_try(&mut self) -> bool {
+        let may = (self.now - self.last_try).s() > RETRY_S;
+        if may {
+            self.last_try = self.now;
+        }
+        may
+    }
+
+    fn arm(&mut self) {
+        if self.may_try() {
+            self.wire.position_mode();
+            self.wire.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        }
+    }
+
+    fn prepare(&mut self) -> hand::Axes {
+        if self.wire.heard.armed && self.site.is_some() {
+            self.enter(Phase::Climb);
+        } else if self.wire.heard.ready && self.site.is_some() && self.in_phase_s() > 1.0 {
+            self.arm();
+        }
+        if self.in_phase_s() > PATIENCE_S {
+            self.finish("the vehicle never became ready");
+        }
+        [0.0; 4]
+    }
+
+    fn climb(&mut self, belief: &Motion) -> hand::Axes {
+        let up = job::over_pad(&self.config.scenario).up();
+        if !self.wire.heard.armed && self.in_phase_s() > 2.0 {
+            self.arm();
+        }
+        if belief.position_m.up() > up - 1.0 {
+            self.enter(Phase::Fly);
+        } else if self.in_phase_s() > PATIENCE_S {
+            self.finish("the aircraft did not climb");
+        }
+        let rate = if belief.position_m.up() > up - 3.0 { 0.8 } else { 1.8 };
+        [0.0, 0.0, rate / self.config.vehicle.limits.climb_m_s, 0.0]
+    }
+
+    /// The whole way down is by hand: first over the pad, slower near the ground, then the stick stays down until the vehicle says that
+    /// it stands. Whoever stands beside the home circle takes off again.
+    fn descend(&mut self, belief: &Motion) -> hand::Axes {
+        let team = &self.config.scenario.ground_team;
+        let off = team.pad_m - belief.position_m;
+        let level = spandrel_model::frames::Vec3::new(off.east(), off.north(), 0.0);
+        let (height_m, aside_m) = (-off.up(), level.norm());
+        if self.wire.heard.on_ground && self.in_phase_s() > 2.0 {
+            let home = aside_m <= team.home_radius_m;
+            match (home, self.wire.heard.armed) {
+                (true, false) => self.finish("landed"),
+                (true, true) if self.may_try() => {
+                    self.wire.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [0.0; 7]);
+                }
+                (false, false) => self.arm(),
+                _ => {}
+            }
+            return [0.0, 0.0, if home || !self.wire.heard.armed { -1.0 } else { 0.5 }, 0.0];
+        }
+        let rate = match (aside_m > OVER_PAD_M, height_m) {
+            (true, ..APPROACH_M) => -0.8,
+            (true, _) => 0.0,
+            (false, ..=3.0) => 0.5,
+            (false, _) => 1.2,
+        };
+        let speed_m_s = if aside_m > OVER_PAD_M { 2.0 } else { 1.0 };
+        let wish =
+            (level * (0.6 * self.config.skill.gain)).limited(speed_m_s) + spandrel_model::frames::Vec3::new(0.0, 0.0, -rate);
+        let mut axes = flight::sticks(wish, belief, None, &self.config);
+        if height_m < 0.5 && aside_m <= OVER_PAD_M {
+            axes[2] = -1.0_f64.min(0.5 / self.config.vehicle.limits.descend_m_s).abs();
+        }
+        axes
+    }
+
+    fn landed(&self) -> bool {
+        self.report.as_ref().is_some_and(|report| report.reason == "landed")
+    }
+
+    fn finish(&mut self, reason: &str) {
+        self.report =
+            Some(PilotReport { reason: reason.into(), at: self.now, tasks_flown: self.tasks_flown, pictures: self.pictures });
+        self.enter(Phase::Done);
+    }
+}

@@ -1,0 +1,147 @@
+//! What the pilot believes to see: the aircraft's motion, late and with drifting error.
+
+use super::skill::Skill;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::random::RandomStream;
+use spandrel_model::time::SimTime;
+use std::collections::VecDeque;
+
+/// Drifting error of judged position for the trained pilot, m (1 sigma per axis; estimate).
+const POSITION_ERROR_M: f64 = 0.4;
+/// Its correlation time, s (estimate).
+const POSITION_TAU_S: f64 = 4.0;
+/// Drifting relative error of judged speed for the trained pilot (1 sigma; estimate).
+const SPEED_ERROR: f64 = 0.13;
+/// Its correlation time, s (estimate).
+const SPEED_TAU_S: f64 = 3.0;
+/// Error of judged heading for the trained pilot, rad (1 sigma; estimate).
+const HEADING_ERROR_RAD: f64 = 0.03;
+
+/// Motion of the aircraft at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// When.
+    pub time: SimTime,
+    /// Where, m.
+    pub position_m: Vec3<Enu>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Enu>,
+    /// Heading, rad clockwise from north.
+    pub yaw_rad: f64,
+}
+
+/// An Ornstein-Uhlenbeck process of unit variance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drift {
+    value: f64,
+    tau_s: f64,
+}
+
+impl Drift {
+    /// Starts at a draw from its own distribution.
+    pub fn new(tau_s: f64, random: &mut RandomStream) -> Self {
+        Self { value: random.normal(), tau_s }
+    }
+
+    /// Advances by `dt_s` and returns the new value.
+    pub fn step(&mut self, dt_s: f64, random: &mut RandomStream) -> f64 {
+        let keep = math::exp(-dt_s / self.tau_s);
+        self.value = keep * self.value + (1.0 - keep * keep).max(0.0).sqrt() * random.normal();
+        self.value
+    }
+}
+
+/// Delay line and drifting errors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Perception {
+    seen: VecDeque<Motion>,
+    random: RandomStream,
+    position: [Drift; 3],
+    speed: Drift,
+    heading: Drift,
+    speed_sense: f64,
+}
+
+impl Perception {
+    /// A pilot's eyes.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        let mut random = RandomStream::new(seed, "pilot perception");
+        let position = [(); 3].map(|()| Drift::new(POSITION_TAU_S, &mut random));
+        let speed = Drift::new(SPEED_TAU_S, &mut random);
+        let heading = Drift::new(SPEED_TAU_S, &mut random);
+        Self { seen: VecDeque::new(), random, position, speed, heading, speed_sense: 1.0 }
+    }
+
+    /// What happens now; it reaches the mind after the delay.
+    pub fn show(&mut self, motion: Motion) {
+        self.seen.push_back(motion);
+        while self.seen.len() > 2 && self.seen[1].time + SimTime::from_s(1.0) < motion.time {
+            self.seen.pop_front();
+        }
+    }
+
+    /// What was, `delay_s` ago, without error (a picture on the screen).
+    #[must_use]
+    pub fn picture(&self, delay_s: f64) -> Option<Motion> {
+        let last = self.seen.back()?;
+        let wanted = last.time - SimTime::from_s(delay_s);
+        self.seen.iter().rev().find(|m| m.time <= wanted).or_else(|| self.seen.front()).copied()
+    }
+
+    /// What the pilot believes: late, extrapolated by nothing, and wrong by the drifting errors.
+    pub fn believe(&mut self, skill: &Skill, dt_s: f64) -> Option<Motion> {
+        let truth = self.picture(skill.delay_s)?;
+        let mut offset = [0.0; 3];
+        for (axis, drift) in self.position.iter_mut().enumerate() {
+            offset[axis] = drift.step(dt_s, &mut self.random) * POSITION_ERROR_M * skill.noise;
+        }
+        let speed_error = self.speed.step(dt_s, &mut self.random) * SPEED_ERROR * skill.noise;
+        let heading_error = self.heading.step(dt_s, &mut self.random) * HEADING_ERROR_RAD * skill.noise;
+        self.speed_sense = (1.0 + speed_error).clamp(0.4, 2.0);
+        Some(Motion {
+            time: truth.time,
+            position_m: truth.position_m + Vec3::new(offset[0], offset[1], offset[2]),
+            velocity_m_s: truth.velocity_m_s * self.speed_sense,
+            yaw_rad: math::wrap_pi(truth.yaw_rad + heading_error),
+        })
+    }
+
+    /// Judged over true speed at present: who judges the speed too high flies too slowly, and the other way round.
+    #[must_use]
+    pub fn speed_sense(&self) -> f64 {
+        self.speed_sense
+    }
+
+    /// Forgets the past, after a jump (the aircraft was put back).
+    pub fn forget(&mut self) {
+        self.seen.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_picture_is_as_old_as_the_delay() {
+        let mut eyes = Perception::new(1);
+        for ms in (0..=1000).step_by(20) {
+            let t = SimTime::from_ms(ms);
+            eyes.show(Motion { time: t, position_m: Vec3::new(t.s(), 0.0, 0.0), velocity_m_s: Vec3::zero(), yaw_rad: 0.0 });
+        }
+        assert_eq!(eyes.picture(0.35).map(|m| m.time), Some(SimTime::from_ms(640)));
+    }
+
+    #[test]
+    fn exact_the_drift_has_unit_variance() {
+        // Correlated samples: 40 000 s at 0.2 s with tau 4 s are about 5 000 independent ones; five standard errors.
+        const TOLERANCE: f64 = 0.1;
+        let mut random = RandomStream::new(3, "drift");
+        let mut drift = Drift::new(4.0, &mut random);
+        let values: Vec<f64> = (0..200_000).map(|_| drift.step(0.2, &mut random)).collect();
+        let variance = values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
+        assert!((variance - 1.0).abs() < TOLERANCE, "{variance}");
+    }
+}

@@ -1,0 +1,104 @@
+//! Who flies: five numbers of a human operator. Errors come out of them; none is made by type.
+
+use std::str::FromStr;
+
+/// A pilot's numbers. Sources: domain.md section 6 (crossover model, McRuer; gaze of drone pilots 1.5 s ahead, n = 21).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Skill {
+    /// Delay from what happens to the hand's answer, s.
+    pub delay_s: f64,
+    /// Gain of the position and heading loops, as a factor on the trained pilot's.
+    pub gain: f64,
+    /// Noise of perception and hand, and with it the size that is noticed, as a factor on the trained pilot's.
+    pub noise: f64,
+    /// How far ahead the eyes run, s.
+    pub preview_s: f64,
+    /// Lapses of attention a minute: the hands stay where they are.
+    pub lapses_per_min: f64,
+}
+
+/// One of the five numbers, for trading them between pilots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Factor {
+    /// [`Skill::delay_s`]
+    Delay,
+    /// [`Skill::gain`]
+    Gain,
+    /// [`Skill::noise`]
+    Noise,
+    /// [`Skill::preview_s`]
+    Preview,
+    /// [`Skill::lapses_per_min`]
+    Lapses,
+}
+
+impl Factor {
+    /// All five.
+    pub const ALL: [Self; 5] = [Self::Delay, Self::Gain, Self::Noise, Self::Preview, Self::Lapses];
+}
+
+impl FromStr for Factor {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "delay" => Ok(Self::Delay),
+            "gain" => Ok(Self::Gain),
+            "noise" => Ok(Self::Noise),
+            "preview" => Ok(Self::Preview),
+            "lapses" => Ok(Self::Lapses),
+            other => Err(format!("unknown factor '{other}' (delay, gain, noise, preview, lapses)")),
+        }
+    }
+}
+
+impl Skill {
+    /// A beginner: slow, timid, noisy, eyes near, easily distracted (lapses: estimate; the other numbers as in the source above).
+    pub const NOVICE: Self = Self { delay_s: 0.35, gain: 0.6, noise: 2.0, preview_s: 0.7, lapses_per_min: 0.5 };
+    /// After training.
+    pub const TRAINED: Self = Self { delay_s: 0.22, gain: 1.0, noise: 1.0, preview_s: 1.5, lapses_per_min: 0.1 };
+    /// A professional.
+    pub const EXPERT: Self = Self { delay_s: 0.18, gain: 1.0, noise: 0.7, preview_s: 1.5, lapses_per_min: 0.02 };
+
+    /// The same pilot with one number taken from another.
+    #[must_use]
+    pub fn with(mut self, factor: Factor, from: Self) -> Self {
+        match factor {
+            Factor::Delay => self.delay_s = from.delay_s,
+            Factor::Gain => self.gain = from.gain,
+            Factor::Noise => self.noise = from.noise,
+            Factor::Preview => self.preview_s = from.preview_s,
+            Factor::Lapses => self.lapses_per_min = from.lapses_per_min,
+        }
+        self
+    }
+
+    /// Length of a defect that is noticed half of the time, mm: 26 for the trained (Campbell et al. 2020), 15 for the expert and
+    /// 60 for the novice (domain.md section 6), which a power law of the noise passes through within 10 %.
+    #[must_use]
+    pub fn median_length_mm(&self) -> f64 {
+        26.0 * spandrel_model::math::pow(self.noise, 1.3)
+    }
+}
+
+impl FromStr for Skill {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "novice" => Ok(Self::NOVICE),
+            "trained" => Ok(Self::TRAINED),
+            "expert" => Ok(Self::EXPERT),
+            other => Err(format!("unknown skill '{other}' (novice, trained, expert)")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_five_gifts_make_the_novice_an_expert() {
+        let gifted = Factor::ALL.into_iter().fold(Skill::NOVICE, |pilot, factor| pilot.with(factor, Skill::EXPERT));
+        assert_eq!(gifted, Skill::EXPERT);
+    }
+}

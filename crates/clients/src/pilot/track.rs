@@ -1,0 +1,218 @@
+//! Following a line by eye: aim at a point that runs ahead, brake for what the preview shows, pull back what has drifted off.
+
+use super::perception::Motion;
+use super::skill::Skill;
+use spandrel_model::frames::{Enu, Vec3};
+
+/// Pull towards the line for the trained pilot, 1/s (a third of the crossover of a rate-command loop, domain.md section 6).
+const PULL_PER_S: f64 = 0.9;
+/// Braking that a person plans with, m/s² (estimate).
+const BRAKE_M_S2: f64 = 1.2;
+/// Shortest distance to the aimed point, m (estimate).
+const MIN_AIM_M: f64 = 1.0;
+
+/// A line to fly with a wanted speed and a wanted line of sight at each point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Leg {
+    /// Points, m; two or more.
+    pub points_m: Vec<Vec3<Enu>>,
+    /// Wanted speed towards each point, m/s.
+    pub speed_m_s: Vec<f64>,
+    /// Where to look at each point, unit vectors; `None`: along the line.
+    pub look: Vec<Option<Vec3<Enu>>>,
+    /// Which task each point belongs to.
+    pub task: Vec<Option<usize>>,
+}
+
+/// Where on a leg: the segment that ends at `next`, and how far along the whole leg.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Progress {
+    /// Index of the segment's end point.
+    pub next: usize,
+    /// Distance from the leg's start, m.
+    pub along_m: f64,
+}
+
+/// What the pilot wants at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wish {
+    /// Velocity over ground, m/s.
+    pub velocity_m_s: Vec3<Enu>,
+    /// Line of sight; `None`: keep.
+    pub look: Option<Vec3<Enu>>,
+    /// Task being worked.
+    pub task: Option<usize>,
+    /// The end of the leg is reached.
+    pub done: bool,
+}
+
+impl Leg {
+    /// An empty leg.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { points_m: Vec::new(), speed_m_s: Vec::new(), look: Vec::new(), task: Vec::new() }
+    }
+
+    /// The leg before a point, and the leg from there on.
+    #[must_use]
+    pub fn split_at(&self, k: usize) -> (Self, Self) {
+        let part = |from: usize, to: usize| Self {
+            points_m: self.points_m[from..to].to_vec(),
+            speed_m_s: self.speed_m_s[from..to].to_vec(),
+            look: self.look[from..to].to_vec(),
+            task: self.task[from..to].to_vec(),
+        };
+        let k = k.min(self.points_m.len());
+        (part(0, k), part(k, self.points_m.len()))
+    }
+
+    /// Adds a point.
+    pub fn push(&mut self, point_m: Vec3<Enu>, speed_m_s: f64, look: Option<Vec3<Enu>>, task: Option<usize>) {
+        if self.points_m.last().is_some_and(|last| (*last - point_m).norm() < 1e-3) {
+            return;
+        }
+        self.points_m.push(point_m);
+        self.speed_m_s.push(speed_m_s);
+        self.look.push(look);
+        self.task.push(task);
+    }
+
+    fn segment_m(&self, next: usize) -> f64 {
+        (self.points_m[next] - self.points_m[next - 1]).norm()
+    }
+
+    /// The point `distance_m` ahead of `progress`.
+    fn ahead(&self, progress: Progress, distance_m: f64) -> Vec3<Enu> {
+        let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
+        let mut left = progress.along_m - start + distance_m;
+        for next in progress.next..self.points_m.len() {
+            let length = self.segment_m(next);
+            if left <= length {
+                return self.points_m[next - 1].lerp(self.points_m[next], left / length.max(1e-9));
+            }
+            left -= length;
+        }
+        self.points_m[self.points_m.len() - 1]
+    }
+
+    /// Moves the progress to the nearest place not far behind or ahead of it.
+    pub fn advance(&self, progress: &mut Progress, position_m: Vec3<Enu>) {
+        const WINDOW_M: f64 = 6.0;
+        let mut start: f64 = (1..progress.next.max(1)).map(|k| self.segment_m(k)).sum();
+        let mut best = (f64::INFINITY, *progress);
+        for next in progress.next.max(1)..self.points_m.len() {
+            if start > progress.along_m + WINDOW_M {
+                break;
+            }
+            let (a, b) = (self.points_m[next - 1], self.points_m[next]);
+            let length = self.segment_m(next).max(1e-9);
+            let t = ((position_m - a).dot(b - a) / (length * length)).clamp(0.0, 1.0);
+            let along_m = (start + t * length).max(progress.along_m);
+            // A little dearer the farther ahead, so that a bend is not cut by jumping over it.
+            let cost = (position_m - a.lerp(b, t)).norm() + 0.15 * (along_m - progress.along_m);
+            if cost < best.0 {
+                best = (cost, Progress { next, along_m });
+            }
+            start += length;
+        }
+        *progress = best.1;
+    }
+
+    /// Speed that the pilot dares: the wanted one, less what the eyes see coming within the preview.
+    fn speed(&self, progress: Progress, skill: &Skill, now_m_s: f64) -> f64 {
+        let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
+        let mut ahead_m = start - progress.along_m;
+        let mut speed = self.speed_m_s[progress.next];
+        let horizon_m = skill.preview_s * now_m_s.max(1.0) + 1.0;
+        for next in progress.next..self.points_m.len() {
+            ahead_m += self.segment_m(next);
+            if ahead_m > horizon_m {
+                break;
+            }
+            let there = match self.speed_m_s.get(next + 1) {
+                Some(following) => following * self.corner(next),
+                None => 0.0,
+            };
+            speed = speed.min((there * there + 2.0 * BRAKE_M_S2 * ahead_m.max(0.0)).sqrt());
+        }
+        speed.max(0.3)
+    }
+
+    /// Share of the speed that a bend at a point leaves: 1 straight on, 0.3 for a turn back.
+    fn corner(&self, at: usize) -> f64 {
+        let Some(after) = self.points_m.get(at + 1) else { return 0.0 };
+        let into = (self.points_m[at] - self.points_m[at - 1]).unit();
+        let out = (*after - self.points_m[at]).unit();
+        0.65 + 0.35 * into.dot(out)
+    }
+
+    /// What the pilot wants, believing `motion`.
+    pub fn wish(&self, progress: &mut Progress, motion: &Motion, skill: &Skill) -> Wish {
+        self.advance(progress, motion.position_m);
+        let speed = self.speed(*progress, skill, motion.velocity_m_s.norm());
+        let here = self.ahead(*progress, 0.0);
+        // One and a half seconds is where trained eyes rest; nearer eyes aim nearer.
+        let aim = self.ahead(*progress, (speed * skill.preview_s).max(MIN_AIM_M));
+        let pull = (here - motion.position_m) * (PULL_PER_S * skill.gain);
+        let run = (aim - here).unit() * speed;
+        let end = self.points_m[self.points_m.len() - 1];
+        let total: f64 = (1..self.points_m.len()).map(|k| self.segment_m(k)).sum();
+        let left_m = total - progress.along_m;
+        let run = if left_m < 0.5 { Vec3::zero() } else { run };
+        Wish {
+            velocity_m_s: run + pull.limited(2.0),
+            look: self.look[progress.next].or_else(|| self.heading_ahead(*progress)),
+            task: self.task[progress.next],
+            done: left_m < 1.0 && (motion.position_m - end).norm() < 2.5,
+        }
+    }
+
+    fn heading_ahead(&self, progress: Progress) -> Option<Vec3<Enu>> {
+        let ahead = self.ahead(progress, 4.0) - self.ahead(progress, 0.0);
+        let level = Vec3::new(ahead.east(), ahead.north(), 0.0);
+        (level.norm() > 0.5).then(|| level.unit())
+    }
+}
+
+impl Default for Leg {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::time::SimTime;
+
+    fn straight() -> Leg {
+        let mut leg = Leg::new();
+        for k in 0..=20 {
+            leg.push(Vec3::new(f64::from(k), 0.0, 5.0), 3.0, None, None);
+        }
+        leg
+    }
+
+    fn at(east: f64, north: f64) -> Motion {
+        let position_m = Vec3::new(east, north, 5.0);
+        Motion { time: SimTime::ZERO, position_m, velocity_m_s: Vec3::new(3.0, 0.0, 0.0), yaw_rad: 0.0 }
+    }
+
+    #[test]
+    fn exact_off_the_line_the_wish_leads_back_to_it() {
+        let leg = straight();
+        let mut progress = Progress { next: 1, along_m: 0.0 };
+        let wish = leg.wish(&mut progress, &at(2.0, 1.0), &Skill::TRAINED);
+        assert!(wish.velocity_m_s.north() < -0.5 && wish.velocity_m_s.east() > 2.0, "{wish:?}");
+    }
+
+    #[test]
+    fn exact_short_eyes_brake_later_than_long_ones() {
+        let leg = straight();
+        let mut a = Progress { next: 17, along_m: 16.5 };
+        let mut b = a;
+        let novice = leg.wish(&mut a, &at(16.5, 0.0), &Skill::NOVICE).velocity_m_s.east();
+        let expert = leg.wish(&mut b, &at(16.5, 0.0), &Skill::EXPERT).velocity_m_s.east();
+        assert!(novice > expert, "{novice} {expert}");
+    }
+}

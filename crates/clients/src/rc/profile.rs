@@ -1,0 +1,286 @@
+//! What is known of a device: which axis is which stick, which button does what; as a file that outlives the program.
+
+use super::action::{self, Action};
+use super::axis::{Axis, LEAST_WAY};
+use super::{Device, Raw, Sticks};
+use spandrel_model::toml::{Problems, Reader, Section};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Newest format that this program reads.
+pub const FORMAT: i64 = 1;
+/// Dead band of a new profile (estimate: the play of a worn gamepad stick).
+pub const DEAD_BAND: f64 = 0.05;
+/// Expo of a new profile (estimate: between a transmitter's usual 0.2 and 0.4).
+pub const EXPO: f64 = 0.3;
+/// Largest number of an axis or a button: what a 32-bit count can say.
+const MOST: i64 = u32::MAX as i64;
+
+/// Where a stick moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Way {
+    /// Left stick, up positive.
+    LeftVertical,
+    /// Left stick, right positive.
+    LeftHorizontal,
+    /// Right stick, up positive.
+    RightVertical,
+    /// Right stick, right positive.
+    RightHorizontal,
+}
+
+/// All four, with their names in files and for people.
+pub const WAYS: [(&str, Way, &str); 4] = [
+    ("left_vertical", Way::LeftVertical, "the LEFT stick fully UP"),
+    ("left_horizontal", Way::LeftHorizontal, "the LEFT stick fully to the RIGHT"),
+    ("right_vertical", Way::RightVertical, "the RIGHT stick fully UP"),
+    ("right_horizontal", Way::RightHorizontal, "the RIGHT stick fully to the RIGHT"),
+];
+
+/// Which stick does what, as transmitters number it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StickMode {
+    /// Left: pitch and yaw. Right: throttle and roll.
+    One,
+    /// Left: throttle and yaw. Right: pitch and roll. The usual one in America and Europe, and DJI's default.
+    Two,
+    /// Left: pitch and roll. Right: throttle and yaw.
+    Three,
+    /// Left: throttle and roll. Right: pitch and yaw.
+    Four,
+}
+
+impl StickMode {
+    /// From its number.
+    #[must_use]
+    pub fn numbered(number: i64) -> Option<Self> {
+        [Self::One, Self::Two, Self::Three, Self::Four].into_iter().find(|mode| mode.number() == number)
+    }
+
+    /// Its number, 1 to 4.
+    #[must_use]
+    pub fn number(self) -> i64 {
+        match self {
+            Self::One => 1,
+            Self::Two => 2,
+            Self::Three => 3,
+            Self::Four => 4,
+        }
+    }
+
+    /// Where the sticks of a person in this mode stand for these wishes: left up, left right, right up, right right.
+    #[must_use]
+    pub fn hands(self, sticks: Sticks) -> [f64; 4] {
+        let Sticks { forward, right, up, yaw } = sticks;
+        match self {
+            Self::One => [forward, yaw, up, right],
+            Self::Two => [up, yaw, forward, right],
+            Self::Three => [forward, right, up, yaw],
+            Self::Four => [up, right, forward, yaw],
+        }
+    }
+
+    /// The sticks' directions as wishes: each is a wish of its own, so modes are permutations.
+    #[must_use]
+    pub fn sticks(self, read: impl Fn(Way) -> f64) -> Sticks {
+        let [lv, lh, rv, rh] = WAYS.map(|(_, way, _)| read(way));
+        match self {
+            Self::One => Sticks { forward: lv, yaw: lh, up: rv, right: rh },
+            Self::Two => Sticks { up: lv, yaw: lh, forward: rv, right: rh },
+            Self::Three => Sticks { forward: lv, right: lh, up: rv, yaw: rh },
+            Self::Four => Sticks { up: lv, right: lh, forward: rv, yaw: rh },
+        }
+    }
+}
+
+/// A device with a meaning.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    /// Whose it is.
+    pub device: Device,
+    /// Which stick does what.
+    pub mode: StickMode,
+    /// How each way of the sticks is read.
+    pub ways: BTreeMap<Way, Axis>,
+    /// Buttons that do something.
+    pub buttons: BTreeMap<u32, Action>,
+}
+
+impl Profile {
+    /// The sticks as the device stands; a way that has not been heard of yet is centred.
+    #[must_use]
+    pub fn sticks(&self, raw: &Raw) -> Sticks {
+        self.mode.sticks(|way| {
+            let axis = self.ways.get(&way);
+            axis.and_then(|axis| raw.axes.get(&axis.axis).map(|value| axis.read(*value))).unwrap_or(0.0)
+        })
+    }
+
+    /// The profile as a file.
+    #[must_use]
+    pub fn write(&self) -> String {
+        let mut text = format!(
+            "# Written by `spandrel rc --calibrate`. low, centre, high: raw readings, -1 to 1.\nformat = {FORMAT}\ndevice = {}\nid = {}\nstick_mode = {}\n",
+            quoted(&self.device.name),
+            quoted(&self.device.id),
+            self.mode.number(),
+        );
+        for (name, way, _) in WAYS {
+            if let Some(a) = self.ways.get(&way) {
+                let _ = write!(
+                    text,
+                    "\n[{name}]\naxis = {}\nlow = {:?}\ncentre = {:?}\nhigh = {:?}\ndead_band = {:?}\nexpo = {:?}\n",
+                    a.axis, a.low, a.centre, a.high, a.dead_band, a.expo
+                );
+            }
+        }
+        text.push_str("\n[buttons]\n");
+        for (name, action) in action::ALL {
+            let numbers: Vec<String> = self.buttons.iter().filter(|(_, a)| **a == action).map(|(n, _)| n.to_string()).collect();
+            if !numbers.is_empty() {
+                let _ = writeln!(text, "{name} = [{}]", numbers.join(", "));
+            }
+        }
+        text
+    }
+
+    /// Reads a profile. `file` is its name for messages.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, each with line, key, value and allowed range.
+    pub fn read(file: &str, text: &str) -> Result<Self, Problems> {
+        let mut reader = Reader::new(file, text);
+        let profile = reader.parse().map(|document| {
+            let mut root = reader.root(&document);
+            let profile = whole(&mut reader, &mut root);
+            reader.finish(&root);
+            profile
+        });
+        match profile {
+            Some(profile) if reader.problems.is_empty() => Ok(profile),
+            _ => Err(Problems(reader.problems)),
+        }
+    }
+}
+
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+fn whole(r: &mut Reader, root: &mut Section) -> Profile {
+    r.whole(root, "format", (1, FORMAT), None);
+    let device = Device { name: r.text(root, "device", None), id: r.text(root, "id", None) };
+    let mode = StickMode::numbered(r.whole(root, "stick_mode", (1, 4), Some(2))).unwrap_or(StickMode::Two);
+    let mut ways: BTreeMap<Way, Axis> = BTreeMap::new();
+    for (name, way, _) in WAYS {
+        let mut section = r.section(root, name);
+        let axis = axis(r, &mut section);
+        if let Some((other, _)) = ways.iter().find(|(_, known)| known.axis == axis.axis) {
+            let other = WAYS.iter().find(|(_, way, _)| way == other).map_or("", |(name, ..)| name);
+            r.complain(&section, "axis", &axis.axis.to_string(), "an axis of its own", &format!("is {other}'s already"));
+        }
+        r.finish(&section);
+        ways.insert(way, axis);
+    }
+    let mut section = r.section(root, "buttons");
+    let mut buttons = BTreeMap::new();
+    for (name, action) in action::ALL {
+        for number in r.wholes(&mut section, name, (0, MOST)) {
+            let number = u32::try_from(number).unwrap_or(u32::MAX);
+            if let Some(before) = buttons.insert(number, action) {
+                r.complain(
+                    &section,
+                    name,
+                    &number.to_string(),
+                    "a button of its own",
+                    &format!("does {} already", before.name()),
+                );
+            }
+        }
+    }
+    r.finish(&section);
+    Profile { device, mode, ways, buttons }
+}
+
+fn axis(r: &mut Reader, s: &mut Section) -> Axis {
+    let axis = Axis {
+        axis: u32::try_from(r.whole(s, "axis", (0, MOST), None)).unwrap_or(u32::MAX),
+        low: r.number(s, "low", (-1.0, 1.0), None),
+        centre: r.number(s, "centre", (-1.0, 1.0), None),
+        high: r.number(s, "high", (-1.0, 1.0), None),
+        dead_band: r.number(s, "dead_band", (0.0, 0.5), Some(DEAD_BAND)),
+        expo: r.number(s, "expo", (0.0, 1.0), Some(EXPO)),
+    };
+    let (below, above) = (axis.centre - axis.low, axis.high - axis.centre);
+    if below * above <= 0.0 || below.abs() < LEAST_WAY || above.abs() < LEAST_WAY {
+        let allowed = format!("between low and high, at least {LEAST_WAY} from both");
+        r.complain(s, "centre", &axis.centre.to_string(), &allowed, "no axis of a stick");
+    }
+    axis
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rc::Event;
+
+    fn profile() -> Profile {
+        let axis = |axis, high: f64| Axis { axis, low: -high, centre: 0.02, high, dead_band: 0.0, expo: 0.0 };
+        Profile {
+            device: Device { name: "A \"quoted\" transmitter".into(), id: "0483:5710".into() },
+            mode: StickMode::Two,
+            ways: WAYS
+                .iter()
+                .enumerate()
+                .map(|(k, (_, way, _))| (*way, axis(k as u32 + 3, if k == 1 { -1.0 } else { 1.0 })))
+                .collect(),
+            buttons: [(0, Action::Lamp), (7, Action::Snapshot), (9, Action::Snapshot), (11, Action::CameraZoomIn)].into(),
+        }
+    }
+
+    #[test]
+    fn exact_what_is_written_is_read_again() {
+        let profile = profile();
+        assert_eq!(Profile::read("p.toml", &profile.write()).unwrap(), profile);
+    }
+
+    #[test]
+    fn exact_modes_are_what_transmitters_call_them() {
+        let mut raw = Raw::default();
+        for (axis, value) in [(3, 1.0), (4, 1.0), (5, -1.0), (6, 1.0)] {
+            raw.take(Event::Axis { axis, value });
+        }
+        let flown = |mode| Profile { mode, ..profile() }.sticks(&raw);
+        // Left up, left fully left (its axis counts down), right down, right fully right.
+        assert_eq!(flown(StickMode::One), Sticks { forward: 1.0, yaw: -1.0, up: -1.0, right: 1.0 });
+        assert_eq!(flown(StickMode::Two), Sticks { up: 1.0, yaw: -1.0, forward: -1.0, right: 1.0 });
+        assert_eq!(flown(StickMode::Three), Sticks { forward: 1.0, right: -1.0, up: -1.0, yaw: 1.0 });
+        assert_eq!(flown(StickMode::Four), Sticks { up: 1.0, right: -1.0, forward: -1.0, yaw: 1.0 });
+        assert_eq!(profile().sticks(&Raw::default()), Sticks::default(), "nothing heard, nothing asked");
+        for mode in [StickMode::One, StickMode::Two, StickMode::Three, StickMode::Four] {
+            assert_eq!(mode.hands(flown(mode)), [1.0, -1.0, -1.0, 1.0], "hands stand where they push");
+        }
+    }
+
+    #[test]
+    fn exact_a_wrong_file_is_told_line_by_line() {
+        let text = profile()
+            .write()
+            .replace("axis = 4", "axis = 3")
+            .replace("high = 1.0", "high = 0.05")
+            .replace("stick_mode = 2", "stick_mode = 5");
+        let text = text.replace("snapshot = [7, 9]", "snapshot = [0, 9]\nloop = [1]");
+        let told = Profile::read("mine.toml", &text).unwrap_err().to_string();
+        for part in [
+            "stick_mode",
+            "allowed: whole number 1 to 4",
+            "left_vertical's already",
+            "no axis of a stick",
+            "does lamp already",
+            "loop",
+        ] {
+            assert!(told.contains(part), "{part}: {told}");
+        }
+        assert!(told.lines().all(|line| line.starts_with("mine.toml:")), "{told}");
+    }
+}

@@ -1,0 +1,297 @@
+//! MAVLink framing: bytes in, whole frames out. Bad bytes are counted and skipped; they never stop a link.
+
+use super::dialect::MavMessage;
+use mavlink::{MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message};
+
+const STX_V1: u8 = 0xFE;
+const STX_V2: u8 = 0xFD;
+const FLAG_SIGNED: u8 = 0x01;
+const SIGNATURE_LEN: usize = 13;
+
+/// A message with its sender, and the bytes it came in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Received {
+    /// Sender's system id (1..=255).
+    pub system_id: u8,
+    /// Sender's component id.
+    pub component_id: u8,
+    /// Sequence number.
+    pub sequence: u8,
+    /// Message id, also when the body is unknown.
+    pub message_id: u32,
+    /// The decoded body; `None` for a well-formed frame of a message that the dialect does not know, or whose body does not parse.
+    pub message: Option<MavMessage>,
+    /// The frame exactly as received, for routing and logging.
+    pub bytes: Vec<u8>,
+}
+
+impl Received {
+    /// The payload padded with zeros to `len` bytes (MAVLink 2 cuts trailing zeros).
+    #[must_use]
+    pub fn payload(&self, len: usize) -> Vec<u8> {
+        let start = if self.bytes.first() == Some(&STX_V2) { 10 } else { 6 };
+        let used = self.bytes.get(1).copied().unwrap_or(0) as usize;
+        let mut out = self.bytes.get(start..start + used).unwrap_or_default().to_vec();
+        out.resize(len.max(out.len()), 0);
+        out
+    }
+}
+
+/// Splits a byte stream (or datagrams, one after the other) into frames.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Decoder {
+    buffer: Vec<u8>,
+    bad_bytes: u64,
+}
+
+enum Step {
+    Frame(usize, Box<Received>),
+    Skip(usize),
+    NeedMore,
+}
+
+impl Decoder {
+    /// An empty decoder.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Bytes that belonged to no valid frame so far.
+    #[must_use]
+    pub fn bad_bytes(&self) -> u64 {
+        self.bad_bytes
+    }
+
+    /// Feeds bytes of a stream; incomplete tails are kept for the next call.
+    pub fn push(&mut self, bytes: &[u8]) -> Vec<Received> {
+        self.buffer.extend_from_slice(bytes);
+        let mut frames = Vec::new();
+        let mut at = 0;
+        loop {
+            match next(&self.buffer[at..]) {
+                Step::Frame(len, frame) => {
+                    frames.push(*frame);
+                    at += len;
+                }
+                Step::Skip(len) => at += self.bad(len),
+                Step::NeedMore => break,
+            }
+        }
+        self.buffer.drain(..at);
+        frames
+    }
+
+    /// Feeds one datagram: whole frames only; an incomplete tail counts as bad and is dropped. One look at each byte, and one checksum of
+    /// at most 267 bytes for each that could begin a frame: the cost is linear in the datagram's length, whatever it holds.
+    pub fn datagram(&mut self, bytes: &[u8]) -> Vec<Received> {
+        self.buffer.clear();
+        let mut frames = Vec::new();
+        let mut at = 0;
+        while at < bytes.len() {
+            let step = next(&bytes[at..]);
+            at += match step {
+                Step::Frame(len, frame) => {
+                    frames.push(*frame);
+                    len
+                }
+                Step::Skip(len) => self.bad(len),
+                // The start of a frame that does not end here: a frame may still begin within it.
+                Step::NeedMore => self.bad(1),
+            };
+        }
+        frames
+    }
+
+    fn bad(&mut self, len: usize) -> usize {
+        self.bad_bytes += len as u64;
+        len
+    }
+}
+
+/// What stands at the start of `bytes`.
+fn next(bytes: &[u8]) -> Step {
+    let Some(start) = bytes.iter().position(|b| *b == STX_V1 || *b == STX_V2) else {
+        return if bytes.is_empty() { Step::NeedMore } else { Step::Skip(bytes.len()) };
+    };
+    if start > 0 {
+        return Step::Skip(start);
+    }
+    if bytes[0] == STX_V2 { next_v2(bytes) } else { next_v1(bytes) }
+}
+
+fn next_v2(bytes: &[u8]) -> Step {
+    if bytes.len() < 10 {
+        return Step::NeedMore;
+    }
+    let flags = bytes[2];
+    // Frames with an incompatibility flag that we do not know must not be read (MAVLink guide, serialization).
+    if flags & !FLAG_SIGNED != 0 {
+        return Step::Skip(1);
+    }
+    let body_end = 10 + bytes[1] as usize;
+    let total = body_end + 2 + if flags & FLAG_SIGNED != 0 { SIGNATURE_LEN } else { 0 };
+    if bytes.len() < total {
+        return Step::NeedMore;
+    }
+    let message_id = u32::from_le_bytes([bytes[7], bytes[8], bytes[9], 0]);
+    let crc = u16::from_le_bytes([bytes[body_end], bytes[body_end + 1]]);
+    let extra = known(message_id).then(|| MavMessage::extra_crc(message_id));
+    // A message outside the dialect cannot be checked; it is passed on for routing only.
+    if extra.is_some_and(|extra| mavlink::calculate_crc(&bytes[1..body_end], extra) != crc) {
+        return Step::Skip(1);
+    }
+    let message = extra.and_then(|_| MavMessage::parse(MavlinkVersion::V2, message_id, &bytes[10..body_end]).ok());
+    let frame = Received {
+        system_id: bytes[5],
+        component_id: bytes[6],
+        sequence: bytes[4],
+        message_id,
+        message,
+        bytes: bytes[..total].to_vec(),
+    };
+    Step::Frame(total, Box::new(frame))
+}
+
+fn next_v1(bytes: &[u8]) -> Step {
+    if bytes.len() < 8 {
+        return Step::NeedMore;
+    }
+    let body_end = 6 + bytes[1] as usize;
+    let total = body_end + 2;
+    if bytes.len() < total {
+        return Step::NeedMore;
+    }
+    let message_id = u32::from(bytes[5]);
+    let crc = u16::from_le_bytes([bytes[body_end], bytes[body_end + 1]]);
+    let extra = known(message_id).then(|| MavMessage::extra_crc(message_id));
+    if extra.is_none_or(|extra| mavlink::calculate_crc(&bytes[1..body_end], extra) != crc) {
+        return Step::Skip(1);
+    }
+    let message = MavMessage::parse(MavlinkVersion::V1, message_id, &bytes[6..body_end]).ok();
+    let frame = Received {
+        system_id: bytes[3],
+        component_id: bytes[4],
+        sequence: bytes[2],
+        message_id,
+        message,
+        bytes: bytes[..total].to_vec(),
+    };
+    Step::Frame(total, Box::new(frame))
+}
+
+fn known(message_id: u32) -> bool {
+    MavMessage::default_message_from_id(message_id).is_some()
+}
+
+/// What an encoder makes a frame of.
+pub trait Framed {
+    /// The whole frame.
+    fn frame(&self, encoder: &mut Encoder) -> Vec<u8>;
+}
+
+impl Framed for MavMessage {
+    fn frame(&self, encoder: &mut Encoder) -> Vec<u8> {
+        encoder.encode(self)
+    }
+}
+
+/// Writes frames of one sender, numbering them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Encoder {
+    system_id: u8,
+    component_id: u8,
+    sequence: u8,
+}
+
+impl Encoder {
+    /// A sender.
+    #[must_use]
+    pub fn new(system_id: u8, component_id: u8) -> Self {
+        Self { system_id, component_id, sequence: 0 }
+    }
+
+    /// The sender's system id.
+    #[must_use]
+    pub fn system_id(&self) -> u8 {
+        self.system_id
+    }
+
+    /// The sender's component id.
+    #[must_use]
+    pub fn component_id(&self) -> u8 {
+        self.component_id
+    }
+
+    /// One MAVLink 2 frame from a raw payload, for numbers that the dialect's types cannot hold (an acknowledgement of an unknown
+    /// command). Trailing zeros are cut as the protocol asks.
+    pub fn encode_payload(&mut self, message_id: u32, payload: &[u8]) -> Vec<u8> {
+        self.encode_foreign(message_id, MavMessage::extra_crc(message_id), payload)
+    }
+
+    /// The same for a message of another dialect, whose checksum seed is given.
+    pub fn encode_foreign(&mut self, message_id: u32, crc_extra: u8, payload: &[u8]) -> Vec<u8> {
+        let used = payload.iter().rposition(|b| *b != 0).map_or(1, |last| last + 1).min(255).min(payload.len());
+        let id = message_id.to_le_bytes();
+        let mut out = vec![STX_V2, used as u8, 0, 0, self.sequence, self.system_id, self.component_id, id[0], id[1], id[2]];
+        out.extend_from_slice(&payload[..used]);
+        let crc = mavlink::calculate_crc(&out[1..], crc_extra);
+        out.extend(crc.to_le_bytes());
+        self.sequence = self.sequence.wrapping_add(1);
+        out
+    }
+
+    /// One MAVLink 2 frame.
+    pub fn encode(&mut self, message: &MavMessage) -> Vec<u8> {
+        let mut raw = MAVLinkV2MessageRaw::new();
+        let header = MavHeader { system_id: u32::from(self.system_id), component_id: self.component_id, sequence: self.sequence };
+        raw.serialize_message(header, message);
+        self.sequence = self.sequence.wrapping_add(1);
+        raw.raw_bytes().to_vec()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dialect::HEARTBEAT_DATA;
+
+    #[test]
+    fn exact_a_frame_comes_back_from_between_rubbish() {
+        let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA { custom_mode: 7, ..HEARTBEAT_DATA::default() });
+        let mut bytes = vec![1, 0xFD, 3];
+        bytes.extend(Encoder::new(1, 191).encode(&message));
+        bytes.extend([0xFE, 9, 9]);
+        let mut decoder = Decoder::new();
+        let frames = decoder.datagram(&bytes);
+        assert_eq!(frames.len(), 1);
+        assert_eq!((frames[0].system_id, frames[0].component_id), (1, 191));
+        assert_eq!(frames[0].message.as_ref(), Some(&message));
+        assert_eq!(decoder.bad_bytes(), 6);
+    }
+
+    #[test]
+    fn exact_a_frame_within_the_reach_of_a_false_start_is_found_and_every_other_byte_is_counted() {
+        let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
+        let frame = Encoder::new(1, 191).encode(&message);
+        // False starts that claim more bytes than the datagram has, by the thousand.
+        let mut bytes = [0xFD, 0xFF, 0x00].repeat(20_000);
+        bytes.extend(&frame);
+        bytes.extend([0xFE, 0xFF]);
+        let mut decoder = Decoder::new();
+        let frames = decoder.datagram(&bytes);
+        assert_eq!(frames.iter().filter(|f| f.message.as_ref() == Some(&message)).count(), 1);
+        let good: usize = frames.iter().map(|f| f.bytes.len()).sum();
+        assert_eq!(decoder.bad_bytes() as usize + good, bytes.len());
+    }
+
+    #[test]
+    fn exact_a_flipped_bit_costs_one_frame_and_not_the_next() {
+        let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
+        let mut encoder = Encoder::new(1, 1);
+        let mut bytes = encoder.encode(&message);
+        bytes[12] ^= 1;
+        bytes.extend(encoder.encode(&message));
+        assert_eq!(Decoder::new().datagram(&bytes).len(), 1);
+    }
+}

@@ -1,0 +1,73 @@
+//! An instructor's note to the sidecar: a TUNNEL message with a type of our own, so that it goes to the sidecar alone and shows on no
+//! trainee's screen. It is part of the telemetry, as all that is said on the wire.
+
+use super::codec::{Encoder, Received};
+
+/// Message id of TUNNEL.
+const TUNNEL: u32 = 385;
+/// Payload type; those from 32768 on are for private use.
+const TYPE: u16 = 33_077;
+/// Bytes before the text: type, target system, target component, length.
+const HEAD: usize = 5;
+/// Longest text, bytes.
+pub const LONGEST: usize = 128;
+
+/// A frame with a note for a component; what is longer than [`LONGEST`] is cut at a character.
+#[must_use]
+pub fn encode(encoder: &mut Encoder, system: u8, component: u8, text: &str) -> Vec<u8> {
+    let end = (0..=LONGEST.min(text.len())).rfind(|at| text.is_char_boundary(*at)).unwrap_or(0);
+    let text = &text[..end];
+    let [low, high] = TYPE.to_le_bytes();
+    let mut payload = vec![low, high, system, component, u8::try_from(text.len()).unwrap_or(0)];
+    payload.extend_from_slice(text.as_bytes());
+    encoder.encode_payload(TUNNEL, &payload)
+}
+
+/// Target and text of a frame that is a note.
+#[must_use]
+pub fn decode(frame: &Received) -> Option<((u8, u8), String)> {
+    if frame.message_id != TUNNEL {
+        return None;
+    }
+    let payload = frame.payload(HEAD + LONGEST);
+    let [low, high, system, component, length, text @ ..] = payload.as_slice() else { return None };
+    if u16::from_le_bytes([*low, *high]) != TYPE {
+        return None;
+    }
+    let text = text.get(..usize::from(*length))?;
+    let plain: String = String::from_utf8_lossy(text).chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    Some(((*system, *component), plain))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::codec::Decoder;
+    use crate::router::target;
+
+    fn sent(text: &str) -> Received {
+        Decoder::new().datagram(&encode(&mut Encoder::new(252, 192), 1, 191, text)).remove(0)
+    }
+
+    #[test]
+    fn wire_a_note_comes_back_and_goes_to_the_sidecar_alone() {
+        for text in ["too fast at the pier", "", "Brücke", &"x".repeat(LONGEST)] {
+            let frame = sent(text);
+            assert_eq!(decode(&frame), Some(((1, 191), text.to_owned())));
+            assert_eq!(target(&frame), (1, 191));
+        }
+        assert_eq!(decode(&sent(&"ü".repeat(100))).map(|(_, text)| text), Some("ü".repeat(64)), "cut at a character");
+        assert_eq!(decode(&sent("a\nb")).map(|(_, text)| text), Some("a b".into()));
+    }
+
+    #[test]
+    fn wire_other_tunnels_are_no_notes() {
+        let mut encoder = Encoder::new(1, 1);
+        let other = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[1, 0, 1, 191, 2, b'h', b'i'])).remove(0);
+        assert_eq!(decode(&other), None);
+        // A length beyond the payload.
+        let [low, high] = TYPE.to_le_bytes();
+        let long = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[low, high, 1, 191, 200, b'h'])).remove(0);
+        assert_eq!(decode(&long), None);
+    }
+}

@@ -1,0 +1,145 @@
+//! Which links a frame goes on to (MAVLink guide, routing): broadcasts to all others, addressed frames to where their target was heard,
+//! never back where they came from, key exchange to nobody.
+
+use super::codec::Received;
+use super::dialect::MavMessage;
+use mavlink::{MavlinkVersion, Message};
+use std::collections::BTreeMap;
+
+/// SETUP_SIGNING carries a key and is never passed on.
+const SETUP_SIGNING: u32 = 256;
+/// Senders that are remembered; a link that claims to be thousands of them must not fill the memory.
+const MOST_SENDERS: usize = 1_024;
+
+/// Who has been heard on which link. `L` names a link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Router<L> {
+    heard: BTreeMap<(u8, u8), Vec<L>>,
+}
+
+impl<L: Copy + Ord> Router<L> {
+    /// Nobody heard yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { heard: BTreeMap::new() }
+    }
+
+    /// Notes the sender of a frame.
+    pub fn note(&mut self, link: L, frame: &Received) {
+        let sender = (frame.system_id, frame.component_id);
+        if self.heard.len() >= MOST_SENDERS && !self.heard.contains_key(&sender) {
+            return;
+        }
+        let links = self.heard.entry(sender).or_default();
+        if !links.contains(&link) {
+            links.push(link);
+        }
+    }
+
+    /// True when a system's component has been heard on a link.
+    #[must_use]
+    pub fn heard_on(&self, peer: (u8, u8), link: L) -> bool {
+        self.heard.get(&peer).is_some_and(|links| links.contains(&link))
+    }
+
+    /// Forgets a link.
+    pub fn close(&mut self, link: L) {
+        self.heard.values_mut().for_each(|links| links.retain(|l| *l != link));
+        self.heard.retain(|_, links| !links.is_empty());
+    }
+
+    /// Links among `all` that the frame goes on to.
+    #[must_use]
+    pub fn onward(&self, from: L, frame: &Received, all: &[L]) -> Vec<L> {
+        if frame.message_id == SETUP_SIGNING {
+            return Vec::new();
+        }
+        let (system, component) = target(frame);
+        let components = if component == 0 { (system, 0)..=(system, u8::MAX) } else { (system, component)..=(system, component) };
+        let reaches = |link: &L| system == 0 || self.heard.range(components.clone()).any(|(_, links)| links.contains(link));
+        all.iter().copied().filter(|l| *l != from).filter(reaches).collect()
+    }
+}
+
+impl<L: Copy + Ord> Default for Router<L> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Target system and component of a frame; 0 for everybody. A frame of an unknown message counts as a broadcast.
+#[must_use]
+pub fn target(frame: &Received) -> (u8, u8) {
+    if let Some(message) = &frame.message {
+        let system = message.target_system_id().unwrap_or(0);
+        return (system, message.target_component_id().unwrap_or(0));
+    }
+    // A body that the dialect's enumerations cannot hold still names its target, at the place where the codec would write it.
+    let [system, component] = target_places(frame.message_id);
+    let payload = frame.payload(255);
+    let byte = |place: Option<usize>| place.and_then(|at| payload.get(at)).copied().unwrap_or(0);
+    (byte(system), byte(component))
+}
+
+/// Where a message's payload holds its target system and component: what changes when they are written.
+fn target_places(message_id: u32) -> [Option<usize>; 2] {
+    let place = |field: fn(&mut MavMessage) -> Option<&mut u8>| {
+        let mut message = MavMessage::default_message_from_id(message_id)?;
+        let mut written = |value: u8| {
+            let mut payload = [0; 255];
+            *field(&mut message)? = value;
+            message.ser(MavlinkVersion::V2, &mut payload);
+            Some(payload)
+        };
+        let (zero, full) = (written(0)?, written(u8::MAX)?);
+        zero.iter().zip(full).position(|(a, b)| *a != b)
+    };
+    [place(MavMessage::target_system_id_mut), place(MavMessage::target_component_id_mut)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::codec::{Decoder, Encoder};
+    use crate::dialect::{COMMAND_ACK_DATA, HEARTBEAT_DATA, MavMessage};
+
+    fn frame(system: u8, component: u8, message: &MavMessage) -> Received {
+        Decoder::new().datagram(&Encoder::new(system, component).encode(message)).remove(0)
+    }
+
+    #[test]
+    fn wire_broadcasts_go_everywhere_but_back_and_addressed_frames_to_their_target() {
+        let mut router = Router::new();
+        let beat = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
+        router.note(1, &frame(255, 190, &beat));
+        router.note(2, &frame(254, 190, &beat));
+        assert_eq!(router.onward(3, &frame(1, 191, &beat), &[1, 2, 3]), [1, 2]);
+        let ack = MavMessage::COMMAND_ACK(COMMAND_ACK_DATA { target_system: 254, target_component: 190, ..Default::default() });
+        assert_eq!(router.onward(3, &frame(1, 191, &ack), &[1, 2, 3]), [2]);
+        router.close(2);
+        assert!(router.onward(3, &frame(1, 191, &ack), &[1, 3]).is_empty());
+    }
+
+    #[test]
+    fn wire_sticks_and_unreadable_bodies_go_to_their_target_alone() {
+        use crate::dialect::{MANUAL_CONTROL_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA};
+        let sticks = MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { target: 7, ..Default::default() });
+        assert_eq!(target(&frame(255, 190, &sticks)), (7, 0));
+        let aim = SET_POSITION_TARGET_LOCAL_NED_DATA { target_system: 7, target_component: 9, ..Default::default() };
+        assert_eq!(target_places(84), [Some(50), Some(51)]);
+        let mut unreadable = frame(255, 190, &MavMessage::SET_POSITION_TARGET_LOCAL_NED(aim));
+        unreadable.message = None;
+        assert_eq!(target(&unreadable), (7, 9));
+    }
+
+    #[test]
+    fn prop_a_link_that_claims_to_be_everybody_is_not_remembered_without_end() {
+        let mut router = Router::new();
+        let mut beat = frame(1, 1, &MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
+        for k in 0..=u16::MAX {
+            [beat.system_id, beat.component_id] = k.to_be_bytes();
+            router.note(1, &beat);
+        }
+        assert_eq!(router.heard.len(), MOST_SENDERS);
+    }
+}

@@ -1,0 +1,200 @@
+//! A flight read at the scorer's rate. Frame i stands for the 1/f s that end at its time; frame 1 is lift-off.
+
+use super::sample::{Contact, Truth};
+use super::timeline::Flight;
+use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use spandrel_model::time::SimTime;
+
+/// Silence of the truth beyond this is a gap (assessment.md, frames).
+pub const GAP_AFTER: SimTime = SimTime::from_ms(200);
+/// A gap up to this long is interpolated; the frames of a longer one are missing.
+pub const INTERPOLATED_UP_TO: SimTime = SimTime::from_ms(1_000);
+/// A step between two samples that exceeds flight at this many times the faster sample's speed, plus [`JUMP_SLACK_M`], is no flight
+/// but a respawn whose message was lost.
+const JUMP_FACTOR: f64 = 4.0;
+/// A contact's own message may follow the count of onsets by this much (it is repeated at 10 Hz).
+const HIT_REPORT_WITHIN: SimTime = SimTime::from_ms(200);
+/// m.
+const JUMP_SLACK_M: f64 = 3.0;
+
+/// One frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// 1, 2, …
+    pub index: u32,
+    /// Simulation time.
+    pub time: SimTime,
+    /// Forward, right, up, clockwise, each in [-1, 1].
+    pub sticks: [f64; 4],
+    /// Lamp on.
+    pub light: bool,
+    /// A picture was taken since the frame before.
+    pub snapshot: bool,
+    /// Position, m.
+    pub position_m: Vec3<Enu>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Enu>,
+    /// Battery, %.
+    pub battery_pct: f64,
+    /// Most severe contact since the frame before, as the wire said it.
+    pub contact: Contact,
+    /// In a gap too long to interpolate.
+    pub missing: bool,
+    /// In a shorter gap.
+    pub interpolated: bool,
+    /// Nearest surface, m, if known.
+    pub clearance_m: Option<f64>,
+    /// Motors armed, if known.
+    pub armed: Option<bool>,
+    /// The autopilot says that it stands.
+    pub on_ground: bool,
+}
+
+impl Frame {
+    /// Speed in three dimensions, m/s.
+    #[must_use]
+    pub fn speed_m_s(&self) -> f64 {
+        self.velocity_m_s.norm()
+    }
+}
+
+/// State between samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Between {
+    /// Position, m.
+    pub position_m: Vec3<Enu>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Enu>,
+    /// Attitude of the sample before.
+    pub ned_from_frd: Rotation<Frd, Ned>,
+    /// In a gap too long to interpolate.
+    pub missing: bool,
+    /// In a shorter gap.
+    pub interpolated: bool,
+}
+
+impl Flight {
+    /// When truth was first more than `height_m` above `pad_up_m`.
+    #[must_use]
+    pub fn lift_off(&self, pad_up_m: f64, height_m: f64) -> Option<SimTime> {
+        self.truths.iter().find(|truth| truth.position_m.up() - pad_up_m > height_m).map(|truth| truth.time)
+    }
+
+    /// Last truth sample's time.
+    #[must_use]
+    pub fn end(&self) -> Option<SimTime> {
+        self.truths.last().map(|truth| truth.time)
+    }
+
+    /// Where the drone was at `time`; before the first sample as at the first, after the last as at the last.
+    #[must_use]
+    pub fn between(&self, time: SimTime) -> Option<Between> {
+        let after = self.truths.partition_point(|truth| truth.time <= time);
+        let before = self.truths[after.saturating_sub(1)..].first()?;
+        let next = self.truths.get(after).filter(|_| after > 0);
+        let held = |missing| Between {
+            position_m: before.position_m,
+            velocity_m_s: before.velocity_m_s,
+            ned_from_frd: before.ned_from_frd,
+            missing,
+            interpolated: false,
+        };
+        let Some(next) = next else { return Some(held(false)) };
+        let span = next.time - before.time;
+        if before.time == time {
+            return Some(held(false));
+        }
+        if span > INTERPOLATED_UP_TO {
+            return Some(held(true));
+        }
+        if self.respawned_between(before, next) {
+            return Some(held(false));
+        }
+        let t = (time - before.time).ns() as f64 / span.ns() as f64;
+        Some(Between {
+            position_m: before.position_m.lerp(next.position_m, t),
+            velocity_m_s: before.velocity_m_s.lerp(next.velocity_m_s, t),
+            interpolated: span > GAP_AFTER,
+            ..held(false)
+        })
+    }
+
+    fn respawned_between(&self, before: &Truth, next: &Truth) -> bool {
+        let reach = JUMP_FACTOR * before.velocity_m_s.norm().max(next.velocity_m_s.norm()) * (next.time - before.time).s();
+        if (next.position_m - before.position_m).norm() > reach + JUMP_SLACK_M {
+            return true;
+        }
+        self.respawns.at(before.time) != self.respawns.at(next.time) && self.respawns.at(before.time).is_some()
+    }
+
+    /// The frame at `time`, with what happened since `since`.
+    #[must_use]
+    pub fn frame(&self, index: u32, since: SimTime, time: SimTime) -> Option<Frame> {
+        let between = self.between(time)?;
+        Some(Frame {
+            index,
+            time,
+            sticks: self.sticks.at(time).unwrap_or_default(),
+            light: self.light.at(time).unwrap_or(false),
+            snapshot: !self.snapshots.between(since, time).is_empty(),
+            position_m: between.position_m,
+            velocity_m_s: between.velocity_m_s,
+            // A vehicle that has not spoken of its battery yet is taken as full.
+            battery_pct: self.battery.at(time).unwrap_or(100.0),
+            contact: if between.missing { Contact::None } else { self.contact_in(since, time) },
+            missing: between.missing,
+            interpolated: between.interpolated,
+            clearance_m: self.clearance.at(time),
+            armed: self.armed.at(time),
+            on_ground: self.on_ground.at(time).unwrap_or(false),
+        })
+    }
+
+    /// The contact that holds at `time`, or the most severe that came and went since `since`.
+    fn contact_in(&self, since: SimTime, time: SimTime) -> Contact {
+        let changes = self.contact.between(since, time);
+        let now = self.contact.at(time).unwrap_or_default();
+        changes.iter().map(|change| change.2).chain([now]).max_by_key(|contact| contact.severity()).unwrap_or_default()
+    }
+
+    /// Instants at which the count of onsets rose although no contact was reported for it: contacts whose messages were lost.
+    #[must_use]
+    pub fn unreported_hits(&self) -> Vec<SimTime> {
+        let mut lost = Vec::new();
+        let mut accounted = None;
+        let mut onsets = Onsets::default();
+        for (time, _, count) in self.hits.all() {
+            let surplus = i64::from(*count) - onsets.until(self, *time + HIT_REPORT_WITHIN);
+            match accounted {
+                // What happened before the monitor heard anything is not this flight's.
+                None => accounted = Some(surplus.max(0)),
+                Some(known) if surplus > known => {
+                    lost.push(*time);
+                    accounted = Some(surplus);
+                }
+                Some(_) => {}
+            }
+        }
+        lost
+    }
+}
+
+/// Onsets in the contact signal, counted as time goes on.
+#[derive(Default)]
+struct Onsets {
+    read: usize,
+    touching: bool,
+    count: i64,
+}
+
+impl Onsets {
+    fn until(&mut self, flight: &Flight, time: SimTime) -> i64 {
+        while let Some((_, _, now)) = flight.contact.all().get(self.read).filter(|point| point.0 <= time) {
+            let touching = *now != Contact::None;
+            self.count += i64::from(touching && !self.touching);
+            self.touching = touching;
+            self.read += 1;
+        }
+        self.count
+    }
+}

@@ -1,0 +1,173 @@
+//! The telemetry log: one record per MAVLink frame, an 8-byte big-endian stamp in microseconds since the Unix epoch and then the
+//! frame as it came. QGroundControl, Mission Planner and MAVProxy open it.
+//!
+//! A file may end anywhere (a killed monitor): every whole record is read and the rest is left alone. Damage in the middle costs
+//! the damaged records only.
+
+use super::sample::Header;
+
+/// Bytes before each frame.
+pub const STAMP_BYTES: usize = 8;
+
+/// One record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Record<'a> {
+    /// Microseconds since the Unix epoch: session start plus simulation time.
+    pub stamp_us: u64,
+    /// The MAVLink frame.
+    pub frame: &'a [u8],
+}
+
+/// The bytes of one record.
+#[must_use]
+pub fn record(stamp_us: u64, frame: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(STAMP_BYTES + frame.len());
+    bytes.extend_from_slice(&stamp_us.to_be_bytes());
+    bytes.extend_from_slice(frame);
+    bytes
+}
+
+/// Reads the whole records of a log, in file order.
+#[derive(Debug, Clone)]
+pub struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    end_of_whole: usize,
+    skipped: usize,
+}
+
+impl<'a> Reader<'a> {
+    /// A reader at the start of `bytes`.
+    #[must_use]
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 0, end_of_whole: 0, skipped: 0 }
+    }
+
+    /// Length up to the end of the last whole record read so far: where a restarted monitor cuts the file and goes on.
+    #[must_use]
+    pub fn end_of_whole(&self) -> usize {
+        self.end_of_whole
+    }
+
+    /// Bytes that belonged to no record, so far.
+    #[must_use]
+    pub fn skipped(&self) -> usize {
+        self.skipped
+    }
+
+    fn record_at(&self, at: usize) -> Option<(Record<'a>, usize)> {
+        record_at(self.bytes, at)
+    }
+
+    /// Where the next record starts: here, or after damage at the next place whose frame carries a right checksum.
+    fn resynchronise(&self) -> Option<usize> {
+        (self.at + 1..self.bytes.len()).find(|at| self.record_at(*at).is_some_and(|(record, _)| Header::verified(record.frame)))
+    }
+}
+
+/// The record that starts at `at`, and where it ends.
+pub(super) fn record_at(bytes: &[u8], at: usize) -> Option<(Record<'_>, usize)> {
+    let stamp = bytes.get(at..at + STAMP_BYTES)?;
+    let rest = &bytes[at + STAMP_BYTES..];
+    let header = Header::peek(rest)?;
+    let frame = rest.get(..header.total)?;
+    let stamp_us = stamp.iter().fold(0u64, |sum, byte| sum << 8 | u64::from(*byte));
+    Some((Record { stamp_us, frame }, at + STAMP_BYTES + header.total))
+}
+
+impl<'a> Iterator for Reader<'a> {
+    type Item = Record<'a>;
+
+    fn next(&mut self) -> Option<Record<'a>> {
+        if self.record_at(self.at).is_none() {
+            let next = self.resynchronise()?;
+            self.skipped += next - self.at;
+            self.at = next;
+        }
+        let (record, end) = self.record_at(self.at)?;
+        // A right magic byte after a wrong length leads into the middle of a record; the checksum of what is known tells.
+        if !Header::plausible(record.frame) {
+            let next = self.resynchronise()?;
+            self.skipped += next - self.at;
+            self.at = next;
+            return self.next();
+        }
+        self.at = end;
+        self.end_of_whole = end;
+        Some(record)
+    }
+}
+
+/// Length of the part of a log that holds whole records: cut here before appending.
+#[must_use]
+pub fn whole_len(bytes: &[u8]) -> usize {
+    let mut reader = Reader::new(bytes);
+    while reader.next().is_some() {}
+    reader.end_of_whole()
+}
+
+/// Unix time of a log's beginning, µs; `None` for an empty log.
+#[must_use]
+pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
+    Reader::new(bytes).next().map(|first| first.stamp_us)
+}
+
+/// Unix time of simulation time zero, µs: the stamp of a log's first truth less the truth's own time; `None` for a log without one.
+#[must_use]
+pub fn simulation_zero_us(bytes: &[u8]) -> Option<u64> {
+    Reader::new(bytes).find_map(|record| zero_us(&record))
+}
+
+/// Unix time of simulation time zero, µs, by one record: its stamp less the truth's own time; `None` unless it is a truth.
+#[must_use]
+pub fn zero_us(record: &Record<'_>) -> Option<u64> {
+    let time = super::sample::truth_time(record.frame)?;
+    Some(record.stamp_us.saturating_sub(u64::try_from(time.us()).unwrap_or(0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::codec::Encoder;
+    use crate::dialect::{HEARTBEAT_DATA, MavMessage};
+
+    fn log(records: usize) -> (Vec<u8>, Vec<usize>) {
+        let mut encoder = Encoder::new(1, 1);
+        let mut bytes = Vec::new();
+        let mut ends = vec![0];
+        for k in 0..records {
+            let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA { custom_mode: 7 + k as u32, ..HEARTBEAT_DATA::default() });
+            bytes.extend(record(1_000 + k as u64, &encoder.encode(&message)));
+            ends.push(bytes.len());
+        }
+        (bytes, ends)
+    }
+
+    #[test]
+    fn exact_a_log_cut_at_any_byte_keeps_every_whole_record() {
+        let (bytes, ends) = log(6);
+        for cut in 0..=bytes.len() {
+            let whole = ends.iter().rposition(|end| *end <= cut).unwrap();
+            assert_eq!(Reader::new(&bytes[..cut]).count(), whole, "cut at {cut}");
+            assert_eq!(whole_len(&bytes[..cut]), ends[whole], "cut at {cut}");
+        }
+    }
+
+    #[test]
+    fn exact_damage_in_the_middle_costs_only_the_damaged_record() {
+        let (bytes, ends) = log(6);
+        for at in ends[2]..ends[3] {
+            let mut damaged = bytes.clone();
+            damaged[at] ^= 0xFF;
+            let read = Reader::new(&damaged).count();
+            assert!(read >= 5, "byte {at}: {read} records");
+        }
+    }
+
+    #[test]
+    fn exact_stamps_come_back() {
+        let (bytes, _) = log(3);
+        assert_eq!(Reader::new(&bytes).map(|r| r.stamp_us).collect::<Vec<_>>(), [1_000, 1_001, 1_002]);
+        assert_eq!(session_start_us(&bytes), Some(1_000));
+    }
+}

@@ -1,0 +1,69 @@
+//! Lists the shipped scenario and vehicle files, so that the program carries them and works from any folder. A new file needs no
+//! registration: it is found here.
+
+use std::ffi::OsStr;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+/// The workspace's root, seen from this package.
+const ROOT: &str = "../..";
+
+fn main() {
+    let root = env::var("CARGO_MANIFEST_DIR").unwrap_or_default();
+    let mut code = String::new();
+    for (name, folder) in [("SCENARIOS", "scenarios"), ("VEHICLES", "vehicle-params")] {
+        println!("cargo::rerun-if-changed={ROOT}/{folder}");
+        let files = toml_files(&Path::new(&root).join(ROOT).join(folder));
+        code.push_str(&constants(&files, folder));
+        code.push_str(&table(name, &files, folder));
+    }
+    let out = Path::new(&env::var("OUT_DIR").unwrap_or_default()).join("shipped.rs");
+    if let Err(error) = fs::write(&out, code) {
+        println!("cargo::error=cannot write {}: {error}", out.display());
+    }
+}
+
+/// One constant with the text of each file.
+fn constants(files: &[PathBuf], folder: &str) -> String {
+    let mut code = String::new();
+    for path in files {
+        // Relative to the manifest, so that a folder that was moved builds as it is.
+        let (stem, file) = (text(path.file_stem()), format!("/{ROOT}/{folder}/{}", text(path.file_name())));
+        let _ = writeln!(code, "/// Text of `{folder}/{stem}.toml`.");
+        let _ = writeln!(
+            code,
+            "pub const {}: &str = include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), {file:?}));",
+            constant(&stem)
+        );
+    }
+    code
+}
+
+/// All of them with their names.
+fn table(name: &str, files: &[PathBuf], folder: &str) -> String {
+    let mut code = format!("/// Shipped files of `{folder}`: stem and text.\npub const {name}: &[(&str, &str)] = &[");
+    for path in files {
+        let stem = text(path.file_stem());
+        let _ = write!(code, "({stem:?}, {}), ", constant(&stem));
+    }
+    code.push_str("];\n");
+    code
+}
+
+/// `two-bridges` is `TWO_BRIDGES`.
+fn constant(stem: &str) -> String {
+    stem.to_uppercase().replace('-', "_")
+}
+
+fn text(part: Option<&OsStr>) -> String {
+    part.and_then(|part| part.to_str()).unwrap_or_default().to_owned()
+}
+
+fn toml_files(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut files: Vec<_> =
+        entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
+    files.sort();
+    files
+}

@@ -1,0 +1,343 @@
+//! Open-spandrel deck arch: two parabolic ribs with struts, spandrel columns, floorbeams, stringers, deck slab, railings, abutments.
+
+use super::solid::Builder;
+use super::{Field, Footing, Misfit, Misfits};
+use crate::math;
+
+/// Floorbeams end this far inside the deck's edge, m (estimate).
+const BEAM_INSET_M: f64 = 0.4;
+/// Abutments and skewbacks reach this far under the springings' intrados, m (estimate).
+const FOUNDATION_M: f64 = 3.5;
+/// Length of the skewbacks, m (estimate).
+const SKEWBACK_M: f64 = 3.0;
+/// Shorter columns are left out, m (estimate).
+const SHORTEST_COLUMN_M: f64 = 0.25;
+
+/// The numbers of an open-spandrel deck arch. Own axes: x along the deck, y left, z up, origin on the deck at midspan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Arch {
+    /// Distance between the springings, m.
+    pub span_m: f64,
+    /// Height of the crown's axis over the springings' axis, m.
+    pub rise_m: f64,
+    /// Depth of a rib at the crown, m.
+    pub crown_depth_m: f64,
+    /// Depth of a rib at the springing, m.
+    pub springing_depth_m: f64,
+    /// Width of a rib, m.
+    pub rib_width_m: f64,
+    /// Distance between the ribs' axes, m.
+    pub rib_spacing_m: f64,
+    /// Clear height between slab soffit and crown extrados, m.
+    pub crown_gap_m: f64,
+    /// Number of panels between springings (columns stand at the inner panel points).
+    pub panels: f64,
+    /// Side of the square spandrel columns, m.
+    pub column_m: f64,
+    /// Deck width, m.
+    pub deck_width_m: f64,
+    /// Slab thickness, m.
+    pub slab_m: f64,
+    /// Floorbeam depth under the slab, m.
+    pub floorbeam_depth_m: f64,
+    /// Floorbeam width, m.
+    pub floorbeam_width_m: f64,
+    /// Lines of stringers.
+    pub stringers: f64,
+    /// Stringer depth under the slab, m.
+    pub stringer_depth_m: f64,
+    /// Stringer width, m.
+    pub stringer_width_m: f64,
+    /// Railing height, m.
+    pub railing_m: f64,
+    /// Deck beyond each springing, m.
+    pub approach_m: f64,
+}
+
+const fn field(key: &'static str, min: f64, max: f64, default: f64, doc: &'static str) -> Field {
+    Field { key, min, max, default, doc }
+}
+
+impl Arch {
+    /// Keys of the scenario file, in the order of [`Arch::from_values`].
+    pub const FIELDS: &'static [Field] = &[
+        field("span_m", 40.0, 520.0, 98.0, "distance between springings; Bixby Creek 98 m, New River Gorge 518 m"),
+        field("rise_m", 8.0, 120.0, 26.0, "crown axis over springing axis; span/rise of catalogued arches is 2.5 to 8"),
+        field("crown_depth_m", 0.8, 8.0, 1.6, "rib depth at the crown; span/65 to span/50 (estimate)"),
+        field("springing_depth_m", 1.0, 12.0, 2.7, "rib depth at the springing; Bixby Creek 2.7 m (estimate)"),
+        field("rib_width_m", 0.8, 6.0, 1.5, "rib width; 1.0 to 1.8 m (estimate)"),
+        field("rib_spacing_m", 3.0, 30.0, 5.8, "between rib axes; 0.55 to 0.7 of the deck width (estimate)"),
+        field("crown_gap_m", 2.0, 12.0, 3.4, "clear height between slab soffit and crown extrados: the interlayer (estimate)"),
+        field("panels", 6.0, 40.0, 14.0, "panels between springings; span/16 to span/10 per panel (estimate)"),
+        field("column_m", 0.4, 3.0, 0.8, "side of the spandrel columns; 0.6 to 1.2 m (estimate)"),
+        field("deck_width_m", 5.0, 40.0, 9.6, "deck width; Bixby Creek 7.3 m"),
+        field("slab_m", 0.15, 0.5, 0.23, "slab thickness; 8 to 10 in (estimate)"),
+        field("floorbeam_depth_m", 0.4, 3.0, 0.95, "floorbeam depth; 0.9 to 1.5 m (estimate)"),
+        field("floorbeam_width_m", 0.2, 1.5, 0.45, "floorbeam width; 0.4 to 0.5 m (estimate)"),
+        field("stringers", 2.0, 12.0, 4.0, "lines of stringers; 3 to 6 (estimate)"),
+        field("stringer_depth_m", 0.3, 2.0, 0.7, "stringer depth; 0.6 to 1.0 m (estimate)"),
+        field("stringer_width_m", 0.15, 1.0, 0.3, "stringer width (estimate)"),
+        field("railing_m", 0.6, 2.0, 1.0, "railing height; 32 to 42 in (estimate)"),
+        field("approach_m", 2.0, 60.0, 12.0, "deck beyond each springing (estimate)"),
+    ];
+
+    /// From values in the order of [`Arch::FIELDS`].
+    #[must_use]
+    pub fn from_values(v: &[f64]) -> Self {
+        let get = |k: usize| v.get(k).copied().unwrap_or(Self::FIELDS[k].default);
+        Self {
+            span_m: get(0),
+            rise_m: get(1),
+            crown_depth_m: get(2),
+            springing_depth_m: get(3),
+            rib_width_m: get(4),
+            rib_spacing_m: get(5),
+            crown_gap_m: get(6),
+            panels: get(7),
+            column_m: get(8),
+            deck_width_m: get(9),
+            slab_m: get(10),
+            floorbeam_depth_m: get(11),
+            floorbeam_width_m: get(12),
+            stringers: get(13),
+            stringer_depth_m: get(14),
+            stringer_width_m: get(15),
+            railing_m: get(16),
+            approach_m: get(17),
+        }
+    }
+
+    /// Length of the deck, m.
+    #[must_use]
+    pub fn deck_length_m(&self) -> f64 {
+        self.span_m + 2.0 * self.approach_m
+    }
+
+    /// Height of the rib axis at x, own axes: z_crown - 4 r x² / L².
+    #[must_use]
+    pub fn axis_z_m(&self, x: f64) -> f64 {
+        let u = 2.0 * x / self.span_m;
+        -(self.slab_m + self.crown_gap_m + 0.5 * self.crown_depth_m) - self.rise_m * u * u
+    }
+
+    /// Vertical depth of the rib at x: d_c + (d_s - d_c)(2x/L)².
+    #[must_use]
+    pub fn depth_m(&self, x: f64) -> f64 {
+        let u = 2.0 * x / self.span_m;
+        self.crown_depth_m + (self.springing_depth_m - self.crown_depth_m) * u * u
+    }
+
+    /// Top of the rib at x.
+    #[must_use]
+    pub fn extrados_z_m(&self, x: f64) -> f64 {
+        self.axis_z_m(x) + 0.5 * self.depth_m(x)
+    }
+
+    /// Underside of the rib at x.
+    #[must_use]
+    pub fn intrados_z_m(&self, x: f64) -> f64 {
+        self.axis_z_m(x) - 0.5 * self.depth_m(x)
+    }
+
+    /// The intrados falls by this times x² from the crown, 1/m.
+    #[must_use]
+    pub fn intrados_bend_per_m(&self) -> f64 {
+        (4.0 * self.rise_m + 2.0 * (self.springing_depth_m - self.crown_depth_m)) / (self.span_m * self.span_m)
+    }
+
+    /// Ends of the ribs' straight segments, from springing to springing: two segments a panel.
+    #[must_use]
+    pub fn rib_nodes(&self) -> Vec<f64> {
+        let n = 2 * self.panels.round() as i32;
+        (0..=n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
+    }
+
+    /// Top of the rib as built, straight between its nodes, which lie on [`Self::extrados_z_m`].
+    #[must_use]
+    pub fn rib_top_z_m(&self, x: f64) -> f64 {
+        let step = self.span_m / (2.0 * self.panels.round());
+        let from = ((x + 0.5 * self.span_m) / step).floor() * step - 0.5 * self.span_m;
+        math::lerp(self.extrados_z_m(from), self.extrados_z_m(from + step), (x - from) / step)
+    }
+
+    /// Underside of the floorbeams.
+    #[must_use]
+    pub fn floorbeam_z_m(&self) -> f64 {
+        -self.slab_m - self.floorbeam_depth_m
+    }
+
+    /// Panel points between the springings, the springings left out.
+    #[must_use]
+    pub fn panel_points(&self) -> Vec<f64> {
+        let n = self.panels.round() as i32;
+        (1..n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
+    }
+
+    /// Numbers that do not fit together: none, or every member has a volume, stands on another, and the interlayer is open.
+    #[must_use]
+    pub fn misfits(&self) -> Vec<Misfit> {
+        let panel_m = self.span_m / self.panels.round();
+        let line_m = (self.deck_width_m - 2.0 * BEAM_INSET_M) / self.stringers.round();
+        let over_columns_m = self.rib_spacing_m + self.column_m + 2.0 * BEAM_INSET_M;
+        let mut m = Misfits::default();
+        m.whole("panels", self.panels);
+        m.whole("stringers", self.stringers);
+        m.at_least("rise_m", self.rise_m, self.span_m / 12.0, "not too flat for span_m");
+        m.at_most("rise_m", self.rise_m, self.span_m / 2.0, "not too steep for span_m");
+        m.at_least("springing_depth_m", self.springing_depth_m, self.crown_depth_m, "no thinner than the crown (crown_depth_m)");
+        m.at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m less 1 m for the struts");
+        m.at_most("column_m", self.column_m, self.rib_width_m, "no wider than the rib (rib_width_m)");
+        m.at_most("column_m", self.column_m, 0.5 * panel_m, "half a panel (span_m, panels)");
+        m.at_most("floorbeam_width_m", self.floorbeam_width_m, 0.5 * panel_m, "half a panel (span_m, panels)");
+        m.at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m less 0.5 m");
+        m.at_least("deck_width_m", self.deck_width_m, over_columns_m, "out over the columns (rib_spacing_m, column_m)");
+        m.at_most("stringer_width_m", self.stringer_width_m, line_m, "side by side under the deck (stringers, deck_width_m)");
+        m.at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m less 0.5 m");
+        m.0
+    }
+
+    /// Builds every member.
+    pub fn build(&self, b: &mut Builder) {
+        self.ribs(b);
+        self.columns(b);
+        self.floor(b);
+        self.railings(b);
+        self.abutments(b);
+    }
+
+    fn ribs(&self, b: &mut Builder) {
+        for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
+            for (k, pair) in self.rib_nodes().windows(2).enumerate() {
+                let (a, c) = (pair[0], pair[1]);
+                let profile =
+                    [[a, self.intrados_z_m(a)], [c, self.intrados_z_m(c)], [c, self.extrados_z_m(c)], [a, self.extrados_z_m(a)]];
+                let half = 0.5 * self.rib_width_m;
+                b.across(&format!("rib-{side}/{k:02}"), 144, &profile, y - half, y + half);
+            }
+        }
+        let inner = 0.5 * (self.rib_spacing_m - self.rib_width_m);
+        for (k, x) in self.panel_points().into_iter().enumerate().filter(|(k, _)| k % 2 == 1) {
+            let z = self.axis_z_m(x);
+            b.block(&format!("strut/{k:02}"), 144, [x - 0.35, -inner, z - 0.35], [x + 0.35, inner, z + 0.35]);
+        }
+    }
+
+    fn columns(&self, b: &mut Builder) {
+        let half = 0.5 * self.column_m;
+        let top = self.floorbeam_z_m();
+        for (k, x) in self.panel_points().into_iter().enumerate() {
+            // The rib slopes under the column: it starts where both of its edges are inside the rib.
+            let foot = self.rib_top_z_m(x + half).min(self.rib_top_z_m(x - half));
+            // Where the deck comes down to the crown, the floorbeam lies on the rib itself.
+            if top - foot < SHORTEST_COLUMN_M {
+                continue;
+            }
+            for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
+                b.block(&format!("column-{side}/{k:02}"), 205, [x - half, y - half, foot], [x + half, y + half, top]);
+            }
+            // Struts join tall pairs at a third of their height, well under the interlayer's flight space.
+            if top - foot > 9.0 {
+                let z = foot + (top - foot) / 3.0;
+                let inner = 0.5 * self.rib_spacing_m - half;
+                b.block(&format!("column-strut/{k:02}"), 205, [x - 0.3, -inner, z - 0.3], [x + 0.3, inner, z + 0.3]);
+            }
+        }
+    }
+
+    fn floor(&self, b: &mut Builder) {
+        let half_width = 0.5 * self.deck_width_m;
+        let beam_half = half_width - BEAM_INSET_M;
+        let soffit = -self.slab_m;
+        let mut lines = vec![-0.5 * self.span_m];
+        lines.extend(self.panel_points());
+        lines.push(0.5 * self.span_m);
+        for (k, x) in lines.iter().enumerate() {
+            let half = 0.5 * self.floorbeam_width_m;
+            b.block(
+                &format!("floorbeam/{k:02}"),
+                155,
+                [x - half, -beam_half, self.floorbeam_z_m()],
+                [x + half, beam_half, soffit],
+            );
+        }
+        let mut ends = vec![-0.5 * self.deck_length_m()];
+        ends.extend(&lines);
+        ends.push(0.5 * self.deck_length_m());
+        let count = self.stringers.round() as i32;
+        for (k, pair) in ends.windows(2).enumerate() {
+            b.block(&format!("slab/{k:02}"), 12, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
+            for line in 0..count {
+                let share = (f64::from(line) + 0.5) / f64::from(count) * 2.0 - 1.0;
+                let (y, half) = (share * beam_half, 0.5 * self.stringer_width_m);
+                let name = format!("stringer-{line}/{k:02}");
+                b.block(&name, 116, [pair[0], y - half, soffit - self.stringer_depth_m], [pair[1], y + half, soffit]);
+            }
+        }
+    }
+
+    fn railings(&self, b: &mut Builder) {
+        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, 331);
+    }
+
+    /// Underside of abutments and skewbacks.
+    #[must_use]
+    pub fn foot_z_m(&self) -> f64 {
+        self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_M
+    }
+
+    /// Abutments and skewbacks.
+    #[must_use]
+    pub fn footings(&self) -> Vec<Footing> {
+        let (inner, outer) = (0.5 * self.span_m, 0.5 * self.deck_length_m());
+        let (half, narrow) = (0.5 * self.deck_width_m, self.skewback_half_m());
+        let at = |low: f64, high: f64, y: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m: self.foot_z_m() };
+        vec![
+            at(-outer, -inner - 1.0, half),
+            at(inner + 1.0, outer, half),
+            at(-inner - SKEWBACK_M, -inner, narrow),
+            at(inner, inner + SKEWBACK_M, narrow),
+        ]
+    }
+
+    fn skewback_half_m(&self) -> f64 {
+        0.5 * (self.rib_spacing_m + self.rib_width_m) + 0.5
+    }
+
+    fn abutments(&self, b: &mut Builder) {
+        // Skewbacks carry the ribs.
+        let under_deck = -self.slab_m - self.stringer_depth_m;
+        let over_ribs = self.extrados_z_m(0.5 * self.span_m) + 0.8;
+        let names = [
+            ("abutment-start", under_deck),
+            ("abutment-end", under_deck),
+            ("skewback-start", over_ribs),
+            ("skewback-end", over_ribs),
+        ];
+        for ((name, top), Footing { x_m, y_m, up_m }) in names.into_iter().zip(self.footings()) {
+            b.block(name, 215, [x_m.0, y_m.0, up_m], [x_m.1, y_m.1, top]);
+        }
+    }
+}
+
+impl Default for Arch {
+    fn default() -> Self {
+        Self::from_values(&[])
+    }
+}
+
+/// Posts every 2 m and three rails along both edges of a deck.
+pub(super) fn railing(b: &mut Builder, length_m: f64, edge_y_m: f64, height_m: f64, element: u32) {
+    const POST_M: f64 = 0.15;
+    let posts = (length_m / 2.0).floor() as i32;
+    for (side, y) in [("left", edge_y_m - POST_M), ("right", -edge_y_m)] {
+        for k in 0..=posts {
+            let x = (length_m - POST_M) * (f64::from(k) / f64::from(posts) - 0.5) - 0.5 * POST_M;
+            b.block(&format!("post-{side}/{k:03}"), element, [x, y, 0.0], [x + POST_M, y + POST_M, height_m]);
+        }
+        for rail in 1..=3 {
+            let z = height_m * f64::from(rail) / 3.0;
+            let half = 0.5 * length_m;
+            b.block(&format!("rail-{side}/{rail}"), element, [-half, y + 0.03, z - 0.1], [half, y + 0.12, z]);
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Reference paths of the tasks, derived from a bridge's numbers, in its own axes.
+
+use super::TaskPath;
+use super::arch::Arch;
+use super::solid::{Local, Placement};
+use super::suspension::Suspension;
+use crate::math;
+
+/// Spacing of reference points, m (assessment.md asks for at most 1 m).
+pub const SPACING_M: f64 = 0.8;
+
+/// A path before it is placed in the site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    points: Vec<Local>,
+    look: Vec<Local>,
+    closed: bool,
+}
+
+impl Drawn {
+    /// Carried into the site.
+    #[must_use]
+    pub fn placed(&self, placement: &Placement) -> TaskPath {
+        TaskPath {
+            path_m: self.points.iter().map(|p| placement.point(*p)).collect(),
+            look: self.look.iter().map(|d| placement.direction(*d).unit()).collect(),
+            closed: self.closed,
+        }
+    }
+}
+
+/// Values from `a` to `b` in even steps of at most the spacing.
+fn steps(a: f64, b: f64) -> Vec<f64> {
+    let n = ((b - a).abs() / SPACING_M).ceil().max(1.0);
+    (0..=n as i32).map(|k| a + (b - a) * f64::from(k) / n).collect()
+}
+
+/// Task 1: a straight line along the right side of the deck, level with the slab, looking at it.
+pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> Drawn {
+    let half = 0.5 * arch.span_m;
+    let y = -0.5 * arch.deck_width_m - stand_off_m;
+    let points: Vec<Local> = steps(-half, half).into_iter().map(|x| [x, y, -0.6]).collect();
+    Drawn { look: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
+}
+
+/// Task 2: under the arch between the ribs, at the stand-off square to the intrados, looking up and ahead at it.
+pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> Drawn {
+    let reach = 0.5 * arch.span_m * 0.78;
+    let bend = arch.intrados_bend_per_m();
+    // The ribs are built straight between their nodes, which lie on the curve: at most this far inside it.
+    let step = 0.5 * arch.span_m / arch.panels.round();
+    let off = stand_off_m + 0.25 * bend * step * step;
+    let steepest = 2.0 * bend * reach;
+    let n = (2.0 * reach * (1.0 + steepest * steepest).sqrt() / SPACING_M).ceil() as i32;
+    let on_curve = (0..=n).map(|k| reach * (2.0 * f64::from(k) / f64::from(n) - 1.0));
+    let points: Vec<Local> = on_curve
+        .map(|x| {
+            let fall = 2.0 * bend * x;
+            let stretch = (1.0 + fall * fall).sqrt();
+            [x - off * fall / stretch, 0.0, arch.intrados_z_m(x) - off / stretch]
+        })
+        .collect();
+    let look = points.iter().enumerate().map(|(k, p)| under_arch_look(arch, *p, off, k)).collect();
+    Drawn { points, look, closed: false }
+}
+
+/// Up at the soffits a little ahead, swinging slowly from the left rib over the struts to the right rib.
+fn under_arch_look(arch: &Arch, from: Local, off: f64, k: usize) -> Local {
+    const PERIOD_POINTS: f64 = 30.0;
+    let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
+    // Straight over a point of the path the arch is farther away than the stand-off: seen square to it, it lies out from the crown.
+    let bend = 2.0 * arch.intrados_bend_per_m();
+    let square = from[0] / (1.0 - off * bend / (1.0 + (bend * from[0]) * (bend * from[0])).sqrt());
+    let ahead = (square + 0.3 * off).min(0.5 * arch.span_m);
+    [ahead - from[0], 0.5 * arch.rib_spacing_m * side, arch.intrados_z_m(ahead) - from[2]]
+}
+
+/// Task 3: between deck and arch on the centreline, half way between floorbeams and crown, level.
+pub(super) fn interlayer(arch: &Arch) -> Drawn {
+    let half = 0.3 * arch.span_m;
+    let z = 0.5 * (arch.floorbeam_z_m() + arch.extrados_z_m(0.0));
+    let points: Vec<Local> = steps(-half, half).into_iter().map(|x| [x, 0.0, z]).collect();
+    let look = (0..points.len()).map(interlayer_look).collect();
+    Drawn { points, look, closed: false }
+}
+
+/// Alternately up at the deck's underside and down at the ribs, swinging to both sides.
+fn interlayer_look(k: usize) -> Local {
+    const PERIOD_POINTS: f64 = 20.0;
+    let phase = math::TAU * k as f64 / PERIOD_POINTS;
+    [0.6, 0.5 * math::sin(0.5 * phase), 0.8 * math::sin(phase)]
+}
+
+/// Task 4: once around the start pier at the stand-off from its faces (corners rounded), 2 m under its top or as far under the girders
+/// as the stand-off asks, looking at it.
+pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<Drawn, String> {
+    let centre = [-0.5 * suspension.main_span_m, 0.0];
+    let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
+    let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_z_m() - stand_off_m);
+    if z < -suspension.pier_top_m - suspension.pier_height_m {
+        return Err("a pier that reaches down to stand_off_m under the girders".into());
+    }
+    let mut points = Vec::new();
+    let mut look = Vec::new();
+    let mut add = |x: f64, y: f64, nx: f64, ny: f64| {
+        points.push([centre[0] + x, centre[1] + y, z]);
+        look.push([-nx, -ny, 0.0]);
+    };
+    let corner_steps = (0.5 * math::PI * stand_off_m / SPACING_M).ceil() as i32;
+    let corners = [(hx, -hy, -math::FRAC_PI_2), (hx, hy, 0.0), (-hx, hy, math::FRAC_PI_2), (-hx, -hy, math::PI)];
+    for (k, (cx, cy, from)) in corners.into_iter().enumerate() {
+        for step in 0..=corner_steps {
+            let angle = from + math::FRAC_PI_2 * f64::from(step) / f64::from(corner_steps);
+            let (s, c) = math::sin_cos(angle);
+            add(cx + stand_off_m * c, cy + stand_off_m * s, c, s);
+        }
+        // Along the face to the next corner, both ends left to the corners.
+        let (nx, ny, _) = corners[(k + 1) % 4];
+        let (s, c) = math::sin_cos(from + math::FRAC_PI_2);
+        let along = steps(0.0, (nx - cx).abs().max((ny - cy).abs()));
+        let last = along.len() - 1;
+        for share in along.iter().take(last).skip(1).map(|d| d / along[last]) {
+            let (x, y) = (math::lerp(cx, nx, share), math::lerp(cy, ny, share));
+            add(x + stand_off_m * c, y + stand_off_m * s, c, s);
+        }
+    }
+    Ok(Drawn { points, look, closed: true })
+}

@@ -1,0 +1,191 @@
+//! Convex building blocks in a bridge's own axes: x along the deck, y to the left, z up, origin on the deck's upper surface at
+//! midspan. [`Placement`] carries them into the site.
+
+use super::{Member, Solid};
+use crate::frames::{Enu, Vec3};
+use crate::math;
+
+/// A point in a bridge's own axes, m.
+pub type Local = [f64; 3];
+
+/// Where a bridge's own axes stand in the site.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    origin_m: Vec3<Enu>,
+    along: Vec3<Enu>,
+    left: Vec3<Enu>,
+}
+
+impl Placement {
+    /// Axes at `origin_m` with x pointing `heading_deg` clockwise from north.
+    #[must_use]
+    pub fn new(origin_m: Vec3<Enu>, heading_deg: f64) -> Self {
+        let (s, c) = math::sin_cos(heading_deg.to_radians());
+        Self { origin_m, along: Vec3::new(s, c, 0.0), left: Vec3::new(-c, s, 0.0) }
+    }
+
+    /// A point in the site.
+    #[must_use]
+    pub fn point(&self, p: Local) -> Vec3<Enu> {
+        self.origin_m + self.direction(p)
+    }
+
+    /// A direction in the site.
+    #[must_use]
+    pub fn direction(&self, d: Local) -> Vec3<Enu> {
+        self.along * d[0] + self.left * d[1] + Vec3::new(0.0, 0.0, d[2])
+    }
+
+    /// A site point in the bridge's own axes.
+    #[must_use]
+    pub fn local(&self, p: Vec3<Enu>) -> Local {
+        let d = p - self.origin_m;
+        [d.dot(self.along), d.dot(self.left), d.up()]
+    }
+}
+
+/// Direction of a steel beam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Runs {
+    /// Along the bridge, x.
+    Along,
+    /// Across it, y.
+    Across,
+}
+
+/// Plate thicknesses of a steel beam, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plates {
+    /// Of both flanges.
+    pub flange_m: f64,
+    /// Of the web.
+    pub web_m: f64,
+}
+
+/// Collects members under one bridge's name.
+#[derive(Debug)]
+pub struct Builder {
+    bridge: String,
+    placement: Placement,
+    members: Vec<Member>,
+}
+
+impl Builder {
+    /// An empty collection.
+    #[must_use]
+    pub fn new(bridge: &str, placement: Placement) -> Self {
+        Self { bridge: bridge.to_string(), placement, members: Vec::new() }
+    }
+
+    /// What has been built.
+    #[must_use]
+    pub fn finish(self) -> Vec<Member> {
+        self.members
+    }
+
+    fn push(&mut self, part: &str, element: u32, corners: &[Local], faces: Vec<Vec<u32>>) {
+        let vertices_m = corners.iter().map(|c| self.placement.point(*c)).collect();
+        let name = format!("{}/{part}", self.bridge);
+        self.members.push(Member { name, element, solid: Solid { vertices_m, faces } });
+    }
+
+    /// A box between two opposite corners.
+    pub fn block(&mut self, part: &str, element: u32, low: Local, high: Local) {
+        let profile = [[low[0], low[2]], [high[0], low[2]], [high[0], high[2]], [low[0], high[2]]];
+        self.across(part, element, &profile, low[1], high[1]);
+    }
+
+    /// A rolled or welded steel beam between two opposite corners: two flanges and a web, each a member of its own. It runs along x, or
+    /// across along y.
+    pub fn steel_beam(&mut self, part: &str, element: u32, (low, high): (Local, Local), runs: Runs, plates: Plates) {
+        let side = match runs {
+            Runs::Along => 1,
+            Runs::Across => 0,
+        };
+        let middle = 0.5 * (low[side] + high[side]);
+        let (mut web_low, mut web_high) = (low, high);
+        (web_low[side], web_high[side]) = (middle - 0.5 * plates.web_m, middle + 0.5 * plates.web_m);
+        (web_low[2], web_high[2]) = (low[2] + plates.flange_m, high[2] - plates.flange_m);
+        self.block(&format!("{part}/top"), element, [low[0], low[1], web_high[2]], high);
+        self.block(&format!("{part}/web"), element, web_low, web_high);
+        self.block(&format!("{part}/bottom"), element, low, [high[0], high[1], web_low[2]]);
+    }
+
+    /// A convex profile in the x-z plane (counter-clockwise seen with x right and z up), extruded from `y_low` to `y_high`.
+    pub fn across(&mut self, part: &str, element: u32, profile: &[[f64; 2]], y_low: f64, y_high: f64) {
+        let near = profile.iter().map(|p| [p[0], y_low, p[1]]);
+        let far = profile.iter().map(|p| [p[0], y_high, p[1]]);
+        let corners: Vec<Local> = near.chain(far).collect();
+        self.push(part, element, &corners, prism_faces(profile.len()));
+    }
+
+    /// A regular prism of `sides` around the line from `a` to `b`, whose corners lie at `radius_m`.
+    pub fn rod(&mut self, part: &str, element: u32, a: Local, b: Local, radius_m: f64, sides: u32) {
+        let axis = unit(sub(b, a));
+        self.cut_rod(part, element, [(a, axis), (b, axis)], radius_m, sides);
+    }
+
+    /// Rods from point to point in an upright plane along the bridge, mitred so that each ends where the next begins; the pieces are
+    /// numbered.
+    pub fn cable(&mut self, part: &str, element: u32, points: &[Local], radius_m: f64, sides: u32) {
+        let last = points.len() - 1;
+        let cut = |k: usize| {
+            let (before, after) = (points[k.saturating_sub(1)], points[(k + 1).min(last)]);
+            let (back, forth) = (sub(points[k], before), sub(after, points[k]));
+            let ahead = if k == 0 { unit(forth) } else { unit(back) };
+            let next = if k == last { ahead } else { unit(forth) };
+            (points[k], unit([ahead[0] + next[0], ahead[1] + next[1], ahead[2] + next[2]]))
+        };
+        for k in 0..last {
+            self.cut_rod(&format!("{part}/{k:03}"), element, [cut(k), cut(k + 1)], radius_m, sides);
+        }
+    }
+
+    /// A prism along the line between two points, cut off at each by the plane with the normal given.
+    fn cut_rod(&mut self, part: &str, element: u32, ends: [(Local, Local); 2], radius_m: f64, sides: u32) {
+        let axis = unit(sub(ends[1].0, ends[0].0));
+        // Any direction that is not along the axis will do; the deck's left side keeps cables and hangers alike.
+        let helper = if axis[1].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+        let u = unit(cross(helper, axis));
+        let v = cross(axis, u);
+        let ring = |(centre, normal): (Local, Local)| {
+            (0..sides).map(move |k| {
+                let (s, c) = math::sin_cos(math::TAU * f64::from(k) / f64::from(sides));
+                let out = [0, 1, 2].map(|i| radius_m * (c * u[i] + s * v[i]));
+                let slide = -dot(normal, out) / dot(normal, axis);
+                [0, 1, 2].map(|i| centre[i] + out[i] + slide * axis[i])
+            })
+        };
+        // Seen from the first end the ring runs clockwise, which is counter-clockwise seen from outside its first face.
+        let corners: Vec<Local> = ring(ends[1]).chain(ring(ends[0])).collect();
+        self.push(part, element, &corners, prism_faces(sides as usize));
+    }
+}
+
+/// Faces of a prism whose first `n` corners are one end, counter-clockwise seen from outside that end, and the next `n` the other.
+fn prism_faces(n: usize) -> Vec<Vec<u32>> {
+    let n = n as u32;
+    let mut faces = vec![(0..n).collect::<Vec<u32>>(), (n..2 * n).rev().collect()];
+    for k in 0..n {
+        let next = (k + 1) % n;
+        faces.push(vec![next, k, n + k, n + next]);
+    }
+    faces
+}
+
+fn sub(a: Local, b: Local) -> Local {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: Local, b: Local) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Local, b: Local) -> Local {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn unit(a: Local) -> Local {
+    let n = dot(a, a).sqrt();
+    [a[0] / n, a[1] / n, a[2] / n]
+}

@@ -1,0 +1,361 @@
+//! Scenario files into [`Scenario`]: every key with its unit, range and default.
+
+use super::bridges::{Field, Misfit};
+use super::{
+    AfterCrash, BatteryModel, Bridge, BridgeKind, Defects, Feedback, GroundTeam, Light, Rules, Scenario, Scoring, Terrain,
+    TerrainSource, Traffic, bridges,
+};
+use crate::frames::{Enu, Vec3};
+use crate::geodesy::Geo;
+use crate::math::M_S_PER_MPH;
+use crate::time::SimTime;
+use crate::toml::{Asked, Problems, Reader, Section};
+use std::collections::BTreeMap;
+
+/// Newest format that this program reads.
+pub const FORMAT: i64 = 1;
+/// Farthest from the origin that anything may stand, m.
+const FAR_M: f64 = 5_000.0;
+/// Most cells along one side of the height field: 4 million in all take a second to build and 32 MB.
+const MOST_CELLS: f64 = 2_000.0;
+/// Most bridges of one site (estimate: far more than one flight reaches).
+const MOST_BRIDGES: usize = 16;
+
+/// Loads a file that lies beside the scenario, by name.
+pub type Siblings<'a> = &'a dyn Fn(&str) -> Result<String, String>;
+
+/// Reads a scenario file. `file` is its name for messages.
+///
+/// # Errors
+/// Everything that is wrong with the file, each with line, key, value and allowed range.
+pub fn read(file: &str, text: &str, siblings: Siblings) -> Result<Scenario, Problems> {
+    read_asked(file, text, siblings).0
+}
+
+/// Reads a scenario file and tells which keys were asked for (for the documentation test).
+pub fn read_asked(file: &str, text: &str, siblings: Siblings) -> (Result<Scenario, Problems>, BTreeMap<String, Asked>) {
+    let mut reader = Reader::new(file, text);
+    let scenario = reader.parse().map(|document| {
+        let mut root = reader.root(&document);
+        let mut scenario = whole(&mut reader, &mut root, siblings);
+        reader.finish(&root);
+        scenario.crc = super::resolve::crc(text);
+        scenario
+    });
+    let result = match scenario {
+        Some(scenario) if reader.problems.is_empty() => Ok(scenario),
+        _ => Err(Problems(reader.problems)),
+    };
+    (result, reader.asked)
+}
+
+fn whole(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Scenario {
+    r.whole(root, "format", (1, FORMAT), None);
+    let name = name(r, root, "name");
+    let title = r.text(root, "title", None);
+    // The seed travels in a signed 32-bit wire field.
+    let seed = r.optional_whole(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
+    let origin = origin(r, root);
+    let terrain = terrain(r, root, siblings);
+    let ground_team = ground_team(r, root);
+    let bridges = bridges_of(r, root);
+    if bridges.len() > MOST_BRIDGES {
+        r.complain(root, "bridges", &bridges.len().to_string(), "at most 16 [[bridges]]", "too many");
+    }
+    let tasks = super::tasks::read(r, root, &bridges);
+    Scenario {
+        name,
+        title,
+        seed,
+        origin,
+        terrain,
+        ground_team,
+        bridges,
+        tasks,
+        defects: defects(r, root),
+        traffic: traffic(r, root),
+        wind: super::weather::read(r, root),
+        light: light(r, root),
+        rules: rules(r, root),
+        feedback: feedback(r, root),
+        scoring: scoring(r, root),
+        crc: 0,
+    }
+}
+
+/// A machine name: lower-case letters, digits and hyphens.
+fn name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
+    let before = r.problems.len();
+    let name = r.text(s, key, None);
+    let legal =
+        !name.is_empty() && name.len() <= 40 && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
+    if !legal && r.problems.len() == before {
+        r.complain(s, key, &name, "1 to 40 of a-z, 0-9 and -", "not a machine name");
+    }
+    name
+}
+
+pub(super) fn point(r: &mut Reader, s: &mut Section, key: &'static str, default: Option<[f64; 3]>) -> Vec3<Enu> {
+    let [e, n, u] = r.numbers(s, key, (-FAR_M, FAR_M), default);
+    Vec3::new(e, n, u)
+}
+
+fn origin(r: &mut Reader, root: &mut Section) -> Geo {
+    let mut s = r.section(root, "origin");
+    let geo = Geo {
+        latitude_deg: r.number(&mut s, "latitude_deg", (-85.0, 85.0), None),
+        longitude_deg: r.number(&mut s, "longitude_deg", (-180.0, 180.0), None),
+        altitude_m: r.number(&mut s, "altitude_m", (-400.0, 5_000.0), None),
+    };
+    r.finish(&s);
+    geo
+}
+
+#[derive(Clone, Copy)]
+enum Source {
+    Flat,
+    Valley,
+    File,
+}
+
+fn terrain(r: &mut Reader, root: &mut Section, siblings: Siblings) -> Terrain {
+    let mut s = r.section(root, "terrain");
+    let size_m = r.number(&mut s, "size_m", (50.0, 4_000.0), Some(800.0));
+    let spacing_m = r.number(&mut s, "spacing_m", (1.0, 50.0), Some(4.0));
+    if size_m / spacing_m > MOST_CELLS {
+        let allowed = format!("at least {} for this size_m", size_m / MOST_CELLS);
+        r.complain(&s, "spacing_m", &spacing_m.to_string(), &allowed, "more than 2000 cells a side");
+    }
+    let water_level_m = r.number(&mut s, "water_level_m", (-500.0, 500.0), Some(-100.0));
+    let source =
+        r.choice(&mut s, "source", &[("flat", Source::Flat), ("valley", Source::Valley), ("file", Source::File)], Some(0));
+    let source = match source {
+        Source::Flat => TerrainSource::Flat { height_m: r.number(&mut s, "height_m", (-500.0, 500.0), Some(0.0)) },
+        Source::Valley => TerrainSource::Valley {
+            seed: r.whole(&mut s, "seed", (0, i64::from(i32::MAX)), Some(1)) as u64,
+            lake_width_m: r.number(&mut s, "lake_width_m", (20.0, 2_000.0), Some(180.0)),
+            axis_deg: r.number(&mut s, "axis_deg", (0.0, 360.0), Some(0.0)),
+            relief_m: r.number(&mut s, "relief_m", (0.0, 1_000.0), Some(120.0)),
+            lake_depth_m: r.number(&mut s, "lake_depth_m", (0.5, 100.0), Some(8.0)),
+        },
+        Source::File => height_file(r, &mut s, siblings),
+    };
+    r.finish(&s);
+    Terrain { size_m, spacing_m, water_level_m, source }
+}
+
+fn height_file(r: &mut Reader, s: &mut Section, siblings: Siblings) -> TerrainSource {
+    let before = r.problems.len();
+    let file = r.text(s, "file", None);
+    if r.problems.len() > before {
+        return TerrainSource::Flat { height_m: 0.0 };
+    }
+    let rows = siblings(&file).and_then(|text| heights(&text));
+    let heights_m = rows.unwrap_or_else(|problem| {
+        r.complain(s, "file", &file, "rows of comma-separated heights in metres", &problem);
+        vec![vec![0.0]]
+    });
+    TerrainSource::File { heights_m }
+}
+
+fn heights(text: &str) -> Result<Vec<Vec<f64>>, String> {
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    for (k, line) in text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty()) {
+        let row: Result<Vec<f64>, _> = line.split(',').map(|cell| cell.trim().parse::<f64>()).collect();
+        let row = row.map_err(|e| format!("row {}: {e}", k + 1))?;
+        if row.iter().any(|h| !h.is_finite() || h.abs() > 1_000.0) {
+            return Err(format!("row {}: heights lie within 1000 m of the origin", k + 1));
+        }
+        if rows.first().is_some_and(|first| first.len() != row.len()) {
+            return Err(format!("row {} has {} columns, the first has {}", k + 1, row.len(), rows[0].len()));
+        }
+        rows.push(row);
+    }
+    if rows.len() < 2 || rows[0].len() < 2 { Err("fewer than two rows or columns".into()) } else { Ok(rows) }
+}
+
+fn ground_team(r: &mut Reader, root: &mut Section) -> GroundTeam {
+    let mut s = r.section(root, "ground_team");
+    let team = GroundTeam {
+        pad_m: point(r, &mut s, "pad_m", None),
+        pad_heading_deg: r.number(&mut s, "pad_heading_deg", (0.0, 360.0), Some(0.0)),
+        pad_half_m: r.number(&mut s, "pad_half_m", (0.5, 5.0), Some(1.0)),
+        inspector_m: point(r, &mut s, "inspector_m", None),
+        truck_m: point(r, &mut s, "truck_m", None),
+        truck_heading_deg: r.number(&mut s, "truck_heading_deg", (0.0, 360.0), Some(0.0)),
+        home_radius_m: r.number(&mut s, "home_radius_m", (1.0, 50.0), Some(5.0)),
+    };
+    r.finish(&s);
+    team
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Arch,
+    Suspension,
+}
+
+fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
+    let mut out: Vec<Bridge> = Vec::new();
+    for mut s in r.sections(root, "bridges") {
+        let bridge_name = name(r, &mut s, "name");
+        if out.iter().any(|b| b.name == bridge_name) {
+            r.complain(&s, "name", &bridge_name, "a name of its own", "this name is taken");
+        }
+        let centre_m = point(r, &mut s, "centre_m", None);
+        let heading_deg = r.number(&mut s, "heading_deg", (0.0, 360.0), Some(90.0));
+        let kind = match r.choice(&mut s, "type", &[("arch", Kind::Arch), ("suspension", Kind::Suspension)], None) {
+            Kind::Arch => {
+                let values =
+                    fields(r, &mut s, "arch", bridges::arch::Arch::FIELDS, |v| bridges::arch::Arch::from_values(v).misfits());
+                BridgeKind::Arch(bridges::arch::Arch::from_values(&values))
+            }
+            Kind::Suspension => {
+                let misfits = |v: &[f64]| bridges::suspension::Suspension::from_values(v).misfits();
+                let values = fields(r, &mut s, "suspension", bridges::suspension::Suspension::FIELDS, misfits);
+                BridgeKind::Suspension(bridges::suspension::Suspension::from_values(&values))
+            }
+        };
+        r.finish(&s);
+        out.push(Bridge { name: bridge_name, centre_m, heading_deg, kind });
+    }
+    out
+}
+
+fn fields(
+    r: &mut Reader,
+    s: &mut Section,
+    table: &'static str,
+    fields: &'static [Field],
+    misfits: impl Fn(&[f64]) -> Vec<Misfit>,
+) -> Vec<f64> {
+    let mut s = r.section(s, table);
+    let values: Vec<f64> = fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
+    for misfit in misfits(&values) {
+        r.complain(&s, misfit.key, &misfit.value.to_string(), &misfit.allowed, "does not fit the other numbers");
+    }
+    r.finish(&s);
+    values
+}
+
+fn defects(r: &mut Reader, root: &mut Section) -> Defects {
+    let mut s = r.section(root, "defects");
+    let whole = |v: Vec<i64>| v.into_iter().map(|i| i as u32).collect();
+    let defects = Defects {
+        count: r.whole(&mut s, "count", (0, 200), Some(10)) as usize,
+        size_factor: r.number(&mut s, "size_factor", (0.2, 5.0), Some(1.0)),
+        elements: whole(r.wholes(&mut s, "elements", (1, 999))),
+        kinds: whole(r.wholes(&mut s, "kinds", (1000, 9999))),
+        placed: super::resolve::placed(r, &mut s),
+    };
+    r.finish(&s);
+    defects
+}
+
+fn traffic(r: &mut Reader, root: &mut Section) -> Traffic {
+    let mut s = r.section(root, "traffic");
+    let traffic = Traffic {
+        cars: r.whole(&mut s, "cars", (0, 400), Some(0)) as usize,
+        trucks: r.whole(&mut s, "trucks", (0, 200), Some(0)) as usize,
+        pedestrians: r.whole(&mut s, "pedestrians", (0, 400), Some(0)) as usize,
+        car_speed_m_s: r.number(&mut s, "car_speed_m_s", (1.0, 35.0), Some(13.4)),
+    };
+    r.finish(&s);
+    traffic
+}
+
+fn light(r: &mut Reader, root: &mut Section) -> Light {
+    let mut s = r.section(root, "light");
+    let start = r.text(&mut s, "start_utc", Some("2026-06-21T10:00:00Z"));
+    let start_unix_s = super::weather::unix_s(&start).unwrap_or_else(|| {
+        r.complain(&s, "start_utc", &start, "YYYY-MM-DDTHH:MM:SSZ", "not a UTC time");
+        0
+    });
+    let light = Light {
+        start_unix_s,
+        cloud_cover: r.number(&mut s, "cloud_cover", (0.0, 1.0), Some(0.2)),
+        water_albedo: r.number(&mut s, "water_albedo", (0.0, 1.0), Some(0.08)),
+        ground_albedo: r.number(&mut s, "ground_albedo", (0.0, 1.0), Some(0.25)),
+    };
+    r.finish(&s);
+    light
+}
+
+fn rules(r: &mut Reader, root: &mut Section) -> Rules {
+    let mut s = r.section(root, "rules");
+    let after = [("continue", AfterCrash::Continue), ("respawn", AfterCrash::Respawn), ("end", AfterCrash::End)];
+    let rules = Rules {
+        after_crash: r.choice(&mut s, "after_crash", &after, Some(1)),
+        battery: r.choice(&mut s, "battery", &[("paper", BatteryModel::Paper), ("physical", BatteryModel::Physical)], Some(0)),
+        low_battery_return: r.flag(&mut s, "low_battery_return", false),
+        low_battery_pct: r.number(&mut s, "low_battery_pct", (1.0, 90.0), Some(30.0)),
+        critical_battery_pct: r.number(&mut s, "critical_battery_pct", (0.0, 50.0), Some(10.0)),
+        gnss_shadow: r.flag(&mut s, "gnss_shadow", false),
+        respawn_after: SimTime::from_s(r.number(&mut s, "respawn_after_s", (0.5, 60.0), Some(3.0))),
+    };
+    if rules.critical_battery_pct > rules.low_battery_pct {
+        let critical = rules.critical_battery_pct.to_string();
+        r.complain(&s, "critical_battery_pct", &critical, "at most low_battery_pct", "too large");
+    }
+    r.finish(&s);
+    rules
+}
+
+fn feedback(r: &mut Reader, root: &mut Section) -> Feedback {
+    let mut s = r.section(root, "feedback");
+    let mut n = |key: &'static str, range: (f64, f64), default: f64| r.number(&mut s, key, range, Some(default));
+    let feedback = Feedback {
+        too_close_m: n("too_close_m", (0.2, 20.0), 2.5),
+        too_close_clear_m: n("too_close_clear_m", (0.2, 25.0), 2.8),
+        off_path_max_m: n("off_path_max_m", (1.0, 50.0), 8.0),
+        off_path_after: SimTime::from_s(n("off_path_after_s", (0.0, 10.0), 1.0)),
+        off_path_hold: SimTime::from_s(n("off_path_hold_s", (0.0, 10.0), 2.0)),
+        battery_green_pct: n("battery_green_pct", (1.0, 100.0), 70.0),
+        battery_yellow_pct: n("battery_yellow_pct", (1.0, 100.0), 30.0),
+        text_interval: SimTime::from_s(n("text_interval_s", (0.5, 60.0), 2.0)),
+    };
+    if feedback.too_close_clear_m < feedback.too_close_m {
+        r.complain(
+            &s,
+            "too_close_clear_m",
+            &feedback.too_close_clear_m.to_string(),
+            "at least too_close_m",
+            "the warning would never clear",
+        );
+    }
+    if feedback.battery_yellow_pct > feedback.battery_green_pct {
+        let yellow = feedback.battery_yellow_pct.to_string();
+        r.complain(&s, "battery_yellow_pct", &yellow, "at most battery_green_pct", "too large");
+    }
+    r.finish(&s);
+    feedback
+}
+
+fn scoring(r: &mut Reader, root: &mut Section) -> Scoring {
+    let mut s = r.section(root, "scoring");
+    let mut n = |key: &'static str, range: (f64, f64), default: f64| r.number(&mut s, key, range, Some(default));
+    let frame_rate_hz = n("frame_rate_hz", (10.0, 120.0), 30.0);
+    let (speed_limit_mph, max_speed_mph) = (n("speed_limit_mph", (1.0, 60.0), 10.0), n("max_speed_mph", (2.0, 100.0), 30.0));
+    let (time_best_min, time_max_min) = (n("time_best_min", (0.1, 120.0), 15.0), n("time_max_min", (0.2, 240.0), 25.0));
+    let scoring = Scoring {
+        frame_rate_hz,
+        speed_limit_m_s: speed_limit_mph * M_S_PER_MPH,
+        max_speed_m_s: max_speed_mph * M_S_PER_MPH,
+        time_best_s: 60.0 * time_best_min,
+        time_max_s: 60.0 * time_max_min,
+        beta: n("beta", (0.0, f64::INFINITY), 1.0),
+        clearance_m: n("clearance_m", (0.1, 20.0), 2.0),
+        task_done_share: n("task_done_pct", (1.0, 100.0), 80.0) / 100.0,
+        exact_path: r.flag(&mut s, "exact_path", false),
+    };
+    for (least, value, key, than) in [
+        (speed_limit_mph, max_speed_mph, "max_speed_mph", "speed_limit_mph"),
+        (time_best_min, time_max_min, "time_max_min", "time_best_min"),
+    ] {
+        if value <= least {
+            r.complain(&s, key, &value.to_string(), &format!("more than {than}, which is {least}"), "too small");
+        }
+    }
+    r.finish(&s);
+    scoring
+}

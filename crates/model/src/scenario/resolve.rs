@@ -1,0 +1,122 @@
+//! A scenario as it was flown: the source text with the session's seed and the placed defects written in. Its CRC is that of the source.
+
+use super::PlacedDefect;
+use super::read::point;
+use crate::frames::{Enu, Vec3};
+use crate::toml::{Reader, Section};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
+
+/// Room for vectors that a person has rounded to three decimals.
+const UNIT_TOLERANCE: f64 = 2e-3;
+
+/// The source text with seed and defects written in; reading it again gives the same job with exactly these defects. A text that is no
+/// TOML comes back unchanged.
+#[must_use]
+pub fn resolve(text: &str, seed: u64, placed: &[PlacedDefect]) -> String {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_string() };
+    document["seed"] = value(i64::try_from(seed).unwrap_or(i64::MAX));
+    let mut tables = ArrayOfTables::new();
+    for defect in placed {
+        tables.push(table(defect));
+    }
+    let defects = document.entry("defects").or_insert_with(|| Item::Table(Table::new()));
+    if let Some(defects) = defects.as_table_like_mut() {
+        defects.insert("none_placed", value(placed.is_empty()));
+        defects.remove("placed");
+        if !placed.is_empty() {
+            defects.insert("placed", Item::ArrayOfTables(tables));
+        }
+    }
+    document.to_string()
+}
+
+fn table(defect: &PlacedDefect) -> Table {
+    let list = |v: Vec3<Enu>| value(v.array().into_iter().collect::<Array>());
+    let mut t = Table::new();
+    t["id"] = value(i64::from(defect.id));
+    t["element"] = value(i64::from(defect.element));
+    t["member"] = value(&defect.member);
+    t["kind"] = value(i64::from(defect.kind));
+    t["condition_state"] = value(i64::from(defect.condition_state));
+    t["position_m"] = list(defect.position_m);
+    t["normal"] = list(defect.normal);
+    t["along"] = list(defect.along);
+    t["length_m"] = value(defect.length_m);
+    t["width_m"] = value(defect.width_m);
+    t["line"] = value(defect.line);
+    t
+}
+
+/// The defects of a resolved file; `None` in a source file.
+pub(super) fn placed(r: &mut Reader, s: &mut Section) -> Option<Vec<PlacedDefect>> {
+    let none_placed = r.flag(s, "none_placed", false);
+    let mut out = Vec::new();
+    for mut t in r.sections(s, "placed") {
+        out.push(one(r, &mut t));
+        r.finish(&t);
+    }
+    (none_placed || !out.is_empty()).then_some(out)
+}
+
+fn one(r: &mut Reader, t: &mut Section) -> PlacedDefect {
+    let unit = |r: &mut Reader, t: &mut Section, key| {
+        let [e, n, u] = r.numbers(t, key, (-1.0, 1.0), None);
+        let v = Vec3::new(e, n, u);
+        if t.has(key) && (v.norm() - 1.0).abs() > UNIT_TOLERANCE {
+            r.complain(t, key, &format!("length {:.4}", v.norm()), "a vector of length 1", "not a unit vector");
+        }
+        v
+    };
+    PlacedDefect {
+        id: r.whole(t, "id", (1, 10_000), None) as u32,
+        element: r.whole(t, "element", (1, 999), None) as u32,
+        member: r.text(t, "member", None),
+        kind: r.whole(t, "kind", (1000, 9999), None) as u32,
+        condition_state: r.whole(t, "condition_state", (1, 4), None) as u8,
+        position_m: point(r, t, "position_m", None),
+        normal: unit(r, t, "normal"),
+        along: unit(r, t, "along"),
+        length_m: r.number(t, "length_m", (1e-4, 50.0), None),
+        width_m: r.number(t, "width_m", (1e-6, 50.0), None),
+        line: r.flag(t, "line", false),
+    }
+}
+
+/// CRC-32 of the text without seed and placed defects, in a canonical form, so that a resolved file has the CRC of its source.
+#[must_use]
+pub fn crc(text: &str) -> u32 {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return crc32fast::hash(text.as_bytes()) };
+    document.remove("seed");
+    if let Some(defects) = document.get_mut("defects").and_then(Item::as_table_like_mut) {
+        defects.remove("placed");
+        defects.remove("none_placed");
+    }
+    crc32fast::hash(canonical(document.as_item()).as_bytes())
+}
+
+/// Keys sorted, comments and layout gone, so that only what is said counts.
+fn canonical(item: &Item) -> String {
+    let mut out = String::new();
+    write(item, "", &mut out);
+    out
+}
+
+fn write(item: &Item, path: &str, out: &mut String) {
+    if let Some(table) = item.as_table_like() {
+        let mut keys: Vec<&str> = table.iter().map(|(key, _)| key).collect();
+        keys.sort_unstable();
+        for key in keys {
+            if let Some(inner) = table.get(key) {
+                write(inner, &format!("{path}.{key}"), out);
+            }
+        }
+    } else if let Some(tables) = item.as_array_of_tables() {
+        for (k, table) in tables.iter().enumerate() {
+            write(&Item::Table(table.clone()), &format!("{path}[{k}]"), out);
+        }
+    } else if let Some(value) = item.as_value() {
+        let mut value = value.clone();
+        value.decor_mut().clear();
+        out.push_str(&format!("{path}={}\n", value.to_string().replace([' ', '\n'], "")));
+    }
+}

@@ -1,0 +1,139 @@
+//! Tasks: reference paths derived from a bridge or written point by point.
+
+use super::bridges::TaskPath;
+use super::bridges::path::SPACING_M;
+use super::{Bridge, Task, TaskKind};
+use crate::frames::{Enu, Vec3};
+use crate::toml::{Reader, Section};
+
+/// Tasks 1, 2 and 4 keep at least this much distance from what they inspect, m (so that the too-close alert at 2.5 m stays silent).
+const LEAST_STAND_OFF_M: f64 = 4.0;
+/// A threshold must stay under the outer end of the off-path band, m.
+const MOST_THRESHOLD_M: f64 = 7.999;
+
+/// Most tasks of one job (estimate: the paper has four).
+const MOST_TASKS: usize = 64;
+/// Longest path written in a file, m (estimate: twice what a battery flies); longer ones would only be slips of a digit.
+const LONGEST_PATH_M: f64 = 20_000.0;
+
+const KINDS: [(&str, TaskKind); 5] = [
+    ("slab_side", TaskKind::SlabSide),
+    ("arch_bottom", TaskKind::ArchBottom),
+    ("interlayer", TaskKind::Interlayer),
+    ("pier_circle", TaskKind::PierCircle),
+    ("free", TaskKind::Free),
+];
+
+/// Thresholds of the paper's tasks, m (assessment.md; the paper gives none).
+fn usual_threshold_m(kind: TaskKind) -> f64 {
+    match kind {
+        TaskKind::SlabSide | TaskKind::ArchBottom => 3.0,
+        TaskKind::Interlayer => 1.75,
+        TaskKind::PierCircle | TaskKind::Free => 2.0,
+    }
+}
+
+pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Vec<Task> {
+    let mut out = Vec::new();
+    for mut s in r.sections(root, "tasks") {
+        let id = out.len() as u32 + 1;
+        out.push(task(r, &mut s, id, bridges));
+        r.finish(&s);
+    }
+    if out.is_empty() {
+        r.problem(1, "tasks", "", "at least one [[tasks]]", "no task");
+    }
+    if out.len() > MOST_TASKS {
+        r.complain(root, "tasks", &out.len().to_string(), "at most 64 [[tasks]]", "too many");
+    }
+    out
+}
+
+fn task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
+    let name = r.text(s, "name", None);
+    let kind = r.choice(s, "kind", &KINDS, None);
+    let bridge = bridge_of(r, s, kind, bridges);
+    let stand_off_m = r.number(s, "stand_off_m", (LEAST_STAND_OFF_M, 50.0), Some(LEAST_STAND_OFF_M));
+    let threshold_m = r.number(s, "threshold_m", (0.2, MOST_THRESHOLD_M), Some(usual_threshold_m(kind)));
+    r.default_depends(s, "threshold_m", "by kind: 3, 3, 1.75, 2, 2");
+    let closed = r.flag(s, "closed", false);
+    let points = r.points(s, "points_m", (-5_000.0, 5_000.0));
+    let look_at = r.points(s, "look_at_m", (-5_000.0, 5_000.0));
+    let path = match bridge {
+        Some(index) => bridges[index].task_path(kind, stand_off_m).unwrap_or_else(|problem| {
+            r.complain(s, "kind", "", &problem, "this bridge has no such path");
+            TaskPath { path_m: Vec::new(), look: Vec::new(), closed }
+        }),
+        None => free(r, s, kind, &points, &look_at, closed),
+    };
+    let dark = r.flag(s, "dark", matches!(kind, TaskKind::ArchBottom | TaskKind::Interlayer));
+    r.default_depends(s, "dark", "true for arch_bottom and interlayer");
+    Task {
+        id,
+        name,
+        bridge,
+        kind,
+        threshold_m,
+        closed: path.closed,
+        path_m: path.path_m,
+        look: path.look,
+        too_close_m: r.optional(s, "too_close_m", (0.2, 20.0)),
+        dark,
+    }
+}
+
+fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]) -> Option<usize> {
+    if kind == TaskKind::Free {
+        return None;
+    }
+    let wanted = r.text(s, "bridge", None);
+    let found = bridges.iter().position(|b| b.name == wanted);
+    if found.is_none() {
+        let names = bridges.iter().map(|b| b.name.as_str()).collect::<Vec<_>>().join(", ");
+        r.complain(s, "bridge", &wanted, &format!("a bridge of this file: {names}"), "no such bridge");
+    }
+    found
+}
+
+/// A path written in the file, resampled; looks along the path unless told where.
+fn free(r: &mut Reader, s: &mut Section, kind: TaskKind, points: &[[f64; 3]], look_at: &[[f64; 3]], closed: bool) -> TaskPath {
+    let points: Vec<Vec3<Enu>> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
+    if points.is_empty() && kind == TaskKind::Free {
+        r.complain(s, "points_m", "", "one or more [east, north, up]", "a free path needs points");
+    }
+    let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+    if length_m > LONGEST_PATH_M {
+        r.complain(s, "points_m", &format!("{length_m:.0} m long"), "at most 20000 m of path", "too long");
+        return TaskPath { path_m: Vec::new(), look: Vec::new(), closed };
+    }
+    let path_m = resample(&points, closed);
+    let target = look_at.first().map(|p| Vec3::new(p[0], p[1], p[2]));
+    let look = (0..path_m.len()).map(|k| look(&path_m, k, target)).collect();
+    TaskPath { path_m, look, closed }
+}
+
+fn look(path: &[Vec3<Enu>], k: usize, target: Option<Vec3<Enu>>) -> Vec3<Enu> {
+    let ahead = match target {
+        Some(target) => target - path[k],
+        None if path.len() > 1 => path[(k + 1).min(path.len() - 1)] - path[k.min(path.len() - 2)],
+        None => Vec3::zero(),
+    };
+    if ahead.norm() > 1e-9 { ahead.unit() } else { Vec3::new(0.0, 1.0, 0.0) }
+}
+
+/// The same line with points at most the spacing apart; a closed one does not repeat its first point.
+#[must_use]
+pub fn resample(points: &[Vec3<Enu>], closed: bool) -> Vec<Vec3<Enu>> {
+    let n = points.len();
+    let mut out = Vec::new();
+    let pairs = if closed && n > 1 { n } else { n.saturating_sub(1) };
+    for k in 0..pairs {
+        let (a, b) = (points[k], points[(k + 1) % n]);
+        let steps = ((b - a).norm() / SPACING_M).ceil().max(1.0) as usize;
+        out.extend((0..steps).map(|step| a.lerp(b, step as f64 / steps as f64)));
+    }
+    if !closed || n == 1 {
+        out.extend(points.last());
+    }
+    out
+}

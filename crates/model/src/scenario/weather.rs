@@ -1,0 +1,61 @@
+//! Wind and time of day.
+
+use super::{Wind, WindEvent, WindModel};
+use crate::math::M_S_PER_MPH;
+use crate::time::SimTime;
+use crate::toml::{Reader, Section};
+
+/// The paper's levels: speed in mph (the light one is 22/10 mph: 0.12 N follows the same square law as 3 N and 12 N), force in N.
+const LEVELS: [(&str, (f64, f64)); 4] =
+    [("calm", (0.0, 0.0)), ("light", (2.2, 0.12)), ("gentle", (11.0, 3.0)), ("medium", (22.0, 12.0))];
+
+pub(super) fn read(r: &mut Reader, root: &mut Section) -> Wind {
+    let mut s = r.section(root, "wind");
+    let model = r.choice(&mut s, "model", &[("physical", WindModel::Physical), ("paper", WindModel::Paper)], Some(0));
+    let (mph, force_n) = r.choice(&mut s, "level", &LEVELS, Some(0));
+    let speed_m_s = r.number(&mut s, "speed_m_s", (0.0, 30.0), Some(mph * M_S_PER_MPH));
+    let paper_force_n = r.number(&mut s, "paper_force_n", (0.0, 100.0), Some(force_n));
+    r.default_depends(&s, "speed_m_s", "by level: 0, 0.98, 4.92, 9.83");
+    r.default_depends(&s, "paper_force_n", "by level: 0, 0.12, 3, 12");
+    let mut wind = Wind {
+        model,
+        speed_m_s,
+        paper_force_n,
+        from_deg: r.number(&mut s, "from_deg", (0.0, 360.0), Some(0.0)),
+        up_m_s: r.number(&mut s, "up_m_s", (-10.0, 10.0), Some(0.0)),
+        turbulence: r.number(&mut s, "turbulence", (0.0, 5.0), Some(1.0)),
+        events: Vec::new(),
+    };
+    for mut event in r.sections(&mut s, "events") {
+        wind.events.push(one_event(r, &mut event));
+        r.finish(&event);
+    }
+    wind.events.sort_by_key(start);
+    r.finish(&s);
+    wind
+}
+
+fn start(event: &WindEvent) -> SimTime {
+    match event {
+        WindEvent::Gust { at, .. } | WindEvent::Change { at, .. } => *at,
+    }
+}
+
+fn one_event(r: &mut Reader, s: &mut Section) -> WindEvent {
+    let gust = r.choice(s, "kind", &[("gust", true), ("change", false)], None);
+    let at = SimTime::from_s(r.number(s, "at_s", (0.0, 86_400.0), None));
+    let from_deg = r.number(s, "from_deg", (0.0, 360.0), None);
+    if gust {
+        let duration = SimTime::from_s(r.number(s, "duration_s", (0.1, 600.0), None));
+        WindEvent::Gust { at, duration, peak_m_s: r.number(s, "peak_m_s", (0.0, 30.0), None), from_deg }
+    } else {
+        let over = SimTime::from_s(r.number(s, "over_s", (0.1, 3_600.0), None));
+        WindEvent::Change { at, over, speed_m_s: r.number(s, "speed_m_s", (0.0, 30.0), None), from_deg }
+    }
+}
+
+/// Seconds since the Unix epoch of `YYYY-MM-DDTHH:MM:SSZ`.
+#[must_use]
+pub fn unix_s(text: &str) -> Option<i64> {
+    text.parse::<jiff::Timestamp>().ok().map(jiff::Timestamp::as_second)
+}

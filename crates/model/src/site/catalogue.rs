@@ -1,0 +1,120 @@
+//! What may be wrong with which element: AASHTO MBEI defect codes by element material (domain.md 2a, 2b) and sizes by condition
+//! state (2c for the limits between states, 2d for what is seen; a size without a limit there is an estimate).
+
+use crate::random::RandomStream;
+
+/// Corrosion of steel.
+pub const CORROSION: u32 = 1000;
+/// Fatigue cracking of steel.
+pub const FATIGUE: u32 = 1010;
+/// Loose or missing fasteners.
+pub const CONNECTION: u32 = 1020;
+/// Delamination, spall, patched area.
+pub const SPALL: u32 = 1080;
+/// Exposed reinforcement.
+pub const REBAR: u32 = 1090;
+/// Cracking of prestressed concrete.
+pub const PSC_CRACK: u32 = 1110;
+/// Efflorescence and rust staining.
+pub const EFFLORESCENCE: u32 = 1120;
+/// Cracking of reinforced concrete.
+pub const CRACK: u32 = 1130;
+/// Abrasion and wear.
+pub const ABRASION: u32 = 1190;
+
+const RC: &[u32] = &[12, 16, 38, 105, 110, 116, 144, 155, 205, 210, 215, 220, 227, 234, 331];
+const PSC: &[u32] = &[13, 15, 39, 104, 109, 115, 143, 154, 204, 226, 233];
+const STEEL: &[u32] = &[
+    28, 29, 30, 102, 107, 113, 120, 141, 147, 148, 149, 152, 161, 162, 202, 207, 225, 231, 310, 311, 312, 313, 314, 315, 316, 330,
+];
+
+const RC_KINDS: &[u32] = &[SPALL, REBAR, EFFLORESCENCE, CRACK, ABRASION];
+const PSC_KINDS: &[u32] = &[SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, ABRASION];
+const STEEL_KINDS: &[u32] = &[CORROSION, FATIGUE, CONNECTION];
+
+/// Every defect code that may be drawn, in ascending order.
+pub const KINDS: &[u32] = &[CORROSION, FATIGUE, CONNECTION, SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, CRACK, ABRASION];
+
+/// The defect codes that an element may carry; empty for an element that carries none here.
+#[must_use]
+pub fn legal_kinds(element: u32) -> &'static [u32] {
+    if RC.contains(&element) {
+        RC_KINDS
+    } else if PSC.contains(&element) {
+        PSC_KINDS
+    } else if STEEL.contains(&element) {
+        STEEL_KINDS
+    } else {
+        &[]
+    }
+}
+
+/// True for the kinds that are lines, whose width must be resolved.
+#[must_use]
+pub fn is_line(kind: u32) -> bool {
+    matches!(kind, FATIGUE | PSC_CRACK | CRACK)
+}
+
+/// Plain name of a defect code.
+#[must_use]
+pub fn kind_name(kind: u32) -> &'static str {
+    match kind {
+        CORROSION => "corrosion",
+        FATIGUE => "fatigue cracking",
+        CONNECTION => "connection",
+        SPALL => "delamination or spall",
+        REBAR => "exposed rebar",
+        PSC_CRACK => "cracking (prestressed)",
+        EFFLORESCENCE => "efflorescence or rust staining",
+        CRACK => "cracking",
+        ABRASION => "abrasion",
+        _ => "defect",
+    }
+}
+
+/// Ranges of one kind in one condition state: length in m; width in m for lines, else as a share of the length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sizes {
+    /// Shortest and longest extent, m.
+    pub length_m: (f64, f64),
+    /// Narrowest and widest: m for lines, a share of the length for areas.
+    pub width: (f64, f64),
+}
+
+/// Sizes by kind and condition state (2 or 3).
+#[must_use]
+pub fn sizes(kind: u32, condition_state: u8) -> Sizes {
+    let poor = condition_state >= 3;
+    let (length_m, width) = match (kind, poor) {
+        // 6 in = 0.152 m divides the states.
+        (SPALL, false) => ((0.10, 0.152), (0.6, 0.9)),
+        (SPALL, true) => ((0.16, 0.80), (0.5, 0.9)),
+        (REBAR, false) => ((0.15, 0.40), (0.15, 0.3)),
+        (REBAR, true) => ((0.30, 0.90), (0.15, 0.4)),
+        // 0.012 in and 0.05 in: 0.30 and 1.27 mm.
+        (CRACK, false) => ((0.40, 1.50), (0.000_30, 0.001_27)),
+        (CRACK, true) => ((0.40, 2.00), (0.001_28, 0.003)),
+        // 0.004 in and 0.009 in.
+        (PSC_CRACK, false) => ((0.30, 1.00), (0.000_10, 0.000_23)),
+        (PSC_CRACK, true) => ((0.30, 1.50), (0.000_24, 0.001)),
+        (EFFLORESCENCE, false) => ((0.20, 0.80), (0.3, 0.6)),
+        (EFFLORESCENCE, true) => ((0.40, 1.50), (0.3, 0.6)),
+        (ABRASION, false) => ((0.20, 0.80), (0.4, 0.7)),
+        (ABRASION, true) => ((0.40, 1.50), (0.4, 0.7)),
+        (FATIGUE, false) => ((0.03, 0.15), (0.000_05, 0.000_2)),
+        (FATIGUE, true) => ((0.05, 0.30), (0.000_1, 0.000_3)),
+        (CONNECTION, false) => ((0.06, 0.20), (0.4, 0.8)),
+        (CONNECTION, true) => ((0.08, 0.30), (0.4, 0.8)),
+        (_, false) => ((0.08, 0.30), (0.3, 0.7)),
+        (_, true) => ((0.15, 0.80), (0.3, 0.7)),
+    };
+    Sizes { length_m, width }
+}
+
+/// Draws length and width in m, both times `factor`.
+pub fn draw(kind: u32, condition_state: u8, factor: f64, stream: &mut RandomStream) -> (f64, f64) {
+    let s = sizes(kind, condition_state);
+    let length = stream.range(s.length_m.0, s.length_m.1);
+    let width = stream.range(s.width.0, s.width.1);
+    (length * factor, if is_line(kind) { width } else { width * length } * factor)
+}

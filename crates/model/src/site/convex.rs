@@ -1,0 +1,438 @@
+//! A convex polyhedron and the questions one may ask of it. Its signed distance is a convex function, which makes the nearest point of
+//! a capsule's axis a one-dimensional search with one answer.
+
+use crate::frames::{Enu, Vec3};
+use crate::scenario::bridges::Solid;
+
+/// Rounds of the search along a capsule's axis; it ends sooner when nothing lower by [`LEVEL_M`] can be left.
+const SEARCH_ROUNDS: usize = 40;
+/// Differences of distance below this count as none, m: what lies flat is found to lie flat.
+const LEVEL_M: f64 = 1e-7;
+/// A point nearer to the surface than this has the face's own normal, m.
+const TOUCHING_M: f64 = 1e-9;
+/// How square the faces of a box are, as the cosine between their normals.
+const SQUARE: f64 = 1e-12;
+
+/// A convex polyhedron ready for queries.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Convex {
+    shape: Shape,
+    low_m: Vec3<Enu>,
+    high_m: Vec3<Enu>,
+}
+
+/// A point of the surface and how far it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Signed distance, m; negative inside.
+    pub distance_m: f64,
+    /// The surface point, m.
+    pub point_m: Vec3<Enu>,
+    /// Outward unit normal towards the query point.
+    pub normal: Vec3<Enu>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Shape {
+    /// A box: the same six faces as a hull would have, three at a time.
+    Box {
+        centre: Vec3<Enu>,
+        axes: [Vec3<Enu>; 3],
+        half: [f64; 3],
+    },
+    Hull(Vec<Face>),
+}
+
+/// One face: its plane and its edges, counter-clockwise seen from outside.
+#[derive(Debug, Clone, PartialEq)]
+struct Face {
+    normal: Vec3<Enu>,
+    offset: f64,
+    edges: Vec<Edge>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Edge {
+    start: Vec3<Enu>,
+    along: Vec3<Enu>,
+    /// In the face's plane, square to the edge, away from the face; not of unit length.
+    outward: Vec3<Enu>,
+    inverse_length_squared: f64,
+}
+
+impl Convex {
+    /// From a member's solid.
+    #[must_use]
+    pub fn new(solid: &Solid) -> Self {
+        let corners = |face: &Vec<u32>| face.iter().map(|k| solid.vertices_m[*k as usize]).collect::<Vec<_>>();
+        let faces: Vec<Face> = solid.faces.iter().map(|face| Face::new(&corners(face))).collect();
+        let fold = |pick: fn(f64, f64) -> f64, start: f64| {
+            let a = solid.vertices_m.iter().fold([start; 3], |a, v| {
+                let v = v.array();
+                [pick(a[0], v[0]), pick(a[1], v[1]), pick(a[2], v[2])]
+            });
+            Vec3::new(a[0], a[1], a[2])
+        };
+        let (low_m, high_m) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
+        let shape = as_box(&faces).unwrap_or(Shape::Hull(faces));
+        Self { shape, low_m, high_m }
+    }
+
+    /// Corners of the axis-aligned box around it, m.
+    #[must_use]
+    pub fn bounds(&self) -> (Vec3<Enu>, Vec3<Enu>) {
+        (self.low_m, self.high_m)
+    }
+
+    /// The nearest surface point.
+    #[must_use]
+    pub fn nearest(&self, p: Vec3<Enu>) -> SurfacePoint {
+        match &self.shape {
+            Shape::Box { centre, axes, half } => nearest_of_box(p, *centre, axes, half),
+            Shape::Hull(faces) => nearest_of_hull(p, faces),
+        }
+    }
+
+    /// Distance along a ray to the surface and the normal there; a ray that starts inside hits at once.
+    #[must_use]
+    pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
+        let mut clip = Clip { enter: f64::NEG_INFINITY, leave: max_m, normal: -direction };
+        match &self.shape {
+            Shape::Box { centre, axes, half } => {
+                for k in 0..3 {
+                    let (at, rate) = (axes[k].dot(origin - *centre), axes[k].dot(direction));
+                    clip.plane(at - half[k], rate, || axes[k]);
+                    clip.plane(-at - half[k], -rate, || -axes[k]);
+                }
+            }
+            Shape::Hull(faces) => {
+                for face in faces {
+                    clip.plane(face.normal.dot(origin) - face.offset, face.normal.dot(direction), || face.normal);
+                    if clip.enter > clip.leave {
+                        return None;
+                    }
+                }
+            }
+        }
+        if clip.enter > clip.leave || clip.leave < 0.0 {
+            return None;
+        }
+        Some(if clip.enter > 0.0 { (clip.enter, clip.normal) } else { (0.0, -direction) })
+    }
+
+    /// The deepest point of a segment's inside, where it comes nearer than both of its ends: it lies across an edge. The ends' own
+    /// nearest points are given. Where it lies flat on a face and sticks out over the edge, that edge's point.
+    #[must_use]
+    pub fn between(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends: [&SurfacePoint; 2], enough_m: f64) -> Option<SurfacePoint> {
+        let along = b - a;
+        let length = along.norm();
+        let (at_a, at_b) = (ends[0].distance_m, ends[1].distance_m);
+        // Distance changes no faster than one metre a metre.
+        if 0.5 * (at_a + at_b - length) > enough_m || length < TOUCHING_M {
+            return None;
+        }
+        let lowest = self.lowest(a, along, ends);
+        if lowest.1.distance_m < at_a.min(at_b) - LEVEL_M {
+            return Some(lowest.1);
+        }
+        // Flat at one end only: where the flat stretch ends.
+        let (from, to) = if at_a <= at_b { (a, b) } else { (b, a) };
+        let least = at_a.min(at_b);
+        if (at_a - at_b).abs() <= LEVEL_M {
+            return None;
+        }
+        let (mut flat, mut rising) = (0.0, 1.0);
+        for _ in 0..SEARCH_ROUNDS / 2 {
+            let middle = 0.5 * (flat + rising);
+            if self.nearest(from.lerp(to, middle)).distance_m <= least + LEVEL_M { flat = middle } else { rising = middle }
+        }
+        (flat > 0.02).then(|| self.nearest(from.lerp(to, flat)))
+    }
+
+    /// The lowest point along a segment by its tangents: two of them bracket the lowest point of a convex function, and where they cross
+    /// nothing lower can be.
+    fn lowest(&self, a: Vec3<Enu>, along: Vec3<Enu>, ends: [&SurfacePoint; 2]) -> (f64, SurfacePoint) {
+        let slope = |near: &SurfacePoint| near.normal.dot(along);
+        let (mut left, mut right) = ((0.0, *ends[0]), (1.0, *ends[1]));
+        let mut best = if ends[0].distance_m <= ends[1].distance_m { left } else { right };
+        for round in 0..SEARCH_ROUNDS {
+            let (rise_left, rise_right) = (slope(&left.1), slope(&right.1));
+            if rise_left >= 0.0 {
+                return if left.1.distance_m <= best.1.distance_m { left } else { best };
+            }
+            if rise_right <= 0.0 {
+                return if right.1.distance_m <= best.1.distance_m { right } else { best };
+            }
+            let width = right.0 - left.0;
+            let step = (right.1.distance_m - left.1.distance_m - rise_right * width) / (rise_left - rise_right);
+            let floor = left.1.distance_m + rise_left * step;
+            if best.1.distance_m - floor < 0.1 * LEVEL_M {
+                break;
+            }
+            // Tangents alone creep towards a round corner from one side; halving now and then keeps the bracket shrinking.
+            let t = left.0 + if round % 3 == 2 { 0.5 * width } else { step.clamp(0.0, width) };
+            let near = self.nearest(a + along * t);
+            if near.distance_m < best.1.distance_m {
+                best = (t, near);
+            }
+            if slope(&near) < 0.0 { left = (t, near) } else { right = (t, near) }
+        }
+        best
+    }
+}
+
+/// The part of a ray that lies behind all planes so far.
+struct Clip {
+    enter: f64,
+    leave: f64,
+    normal: Vec3<Enu>,
+}
+
+impl Clip {
+    /// One more plane: height of the origin over it and how fast the ray climbs from it.
+    fn plane(&mut self, height: f64, rate: f64, normal: impl Fn() -> Vec3<Enu>) {
+        if rate == 0.0 {
+            if height > 0.0 {
+                self.leave = f64::NEG_INFINITY;
+            }
+            return;
+        }
+        let t = -height / rate;
+        if rate > 0.0 {
+            self.leave = self.leave.min(t);
+        } else if t > self.enter {
+            (self.enter, self.normal) = (t, normal());
+        }
+    }
+}
+
+fn nearest_of_box(p: Vec3<Enu>, centre: Vec3<Enu>, axes: &[Vec3<Enu>; 3], half: &[f64; 3]) -> SurfacePoint {
+    let d = p - centre;
+    let at = [axes[0].dot(d), axes[1].dot(d), axes[2].dot(d)];
+    let over = [at[0].abs() - half[0], at[1].abs() - half[1], at[2].abs() - half[2]];
+    let highest = if over[0] >= over[1] && over[0] >= over[2] { 0 } else { 1 + usize::from(over[2] > over[1]) };
+    let before = over.iter().filter(|o| **o > 0.0).count();
+    if before <= 1 {
+        // Inside, or before one face alone: that face decides.
+        let normal = axes[highest] * 1f64.copysign(at[highest]);
+        return SurfacePoint { distance_m: over[highest], point_m: p - normal * over[highest], normal };
+    }
+    let mut away = Vec3::zero();
+    for k in 0..3 {
+        if over[k] > 0.0 {
+            away += axes[k] * over[k].copysign(at[k]);
+        }
+    }
+    let distance_m = away.norm();
+    let normal = if distance_m > TOUCHING_M { away / distance_m } else { axes[highest] * 1f64.copysign(at[highest]) };
+    SurfacePoint { distance_m, point_m: p - away, normal }
+}
+
+fn nearest_of_hull(p: Vec3<Enu>, faces: &[Face]) -> SurfacePoint {
+    let mut highest = (f64::NEG_INFINITY, 0);
+    let mut best = (f64::INFINITY, Vec3::zero());
+    for (k, face) in faces.iter().enumerate() {
+        let height = face.normal.dot(p) - face.offset;
+        if height > highest.0 {
+            highest = (height, k);
+        }
+        // Only faces that the point lies before can hold the nearest point, and none nearer than its plane.
+        if height > 0.0 && height * height < best.0 {
+            let q = face.nearest(p, height);
+            let d = (p - q).norm_squared();
+            if d < best.0 {
+                best = (d, q);
+            }
+        }
+    }
+    let face = &faces[highest.1];
+    if highest.0 <= 0.0 {
+        return SurfacePoint { distance_m: highest.0, point_m: p - face.normal * highest.0, normal: face.normal };
+    }
+    let distance_m = best.0.sqrt();
+    let normal = if distance_m > TOUCHING_M { (p - best.1) / distance_m } else { face.normal };
+    SurfacePoint { distance_m, point_m: best.1, normal }
+}
+
+/// Six faces in three square pairs are a box.
+fn as_box(faces: &[Face]) -> Option<Shape> {
+    if faces.len() != 6 || faces.iter().any(|f| f.edges.len() != 4) {
+        return None;
+    }
+    let mut axes = [Vec3::zero(); 3];
+    let mut half = [0.0; 3];
+    let mut centre = Vec3::zero();
+    let mut used = [false; 6];
+    for (axis, half) in axes.iter_mut().zip(&mut half) {
+        let first = used.iter().position(|u| !u)?;
+        let face = &faces[first];
+        let other = (0..6).find(|k| !used[*k] && *k != first && faces[*k].normal.dot(face.normal) < SQUARE - 1.0)?;
+        (used[first], used[other]) = (true, true);
+        *axis = face.normal;
+        *half = 0.5 * (face.offset + faces[other].offset);
+        centre += face.normal * (0.5 * (face.offset - faces[other].offset));
+    }
+    let square =
+        axes[0].dot(axes[1]).abs() < SQUARE && axes[1].dot(axes[2]).abs() < SQUARE && axes[2].dot(axes[0]).abs() < SQUARE;
+    square.then_some(Shape::Box { centre, axes, half })
+}
+
+impl Face {
+    fn new(corners: &[Vec3<Enu>]) -> Self {
+        // Newell's sum: exact for planar polygons whatever corners are close together.
+        let n = corners.len();
+        let mut sum = Vec3::zero();
+        for k in 0..n {
+            sum += (corners[k] - corners[0]).cross(corners[(k + 1) % n] - corners[0]);
+        }
+        let normal = sum.unit();
+        let offset = corners.iter().map(|c| normal.dot(*c)).sum::<f64>() / n as f64;
+        let edge = |k: usize| {
+            let along = corners[(k + 1) % n] - corners[k];
+            Edge { start: corners[k], along, outward: along.cross(normal), inverse_length_squared: 1.0 / along.norm_squared() }
+        };
+        Self { normal, offset, edges: (0..n).map(edge).collect() }
+    }
+
+    /// Nearest point of the polygon to a point at `height` over its plane.
+    fn nearest(&self, p: Vec3<Enu>, height: f64) -> Vec3<Enu> {
+        let mut best = (f64::INFINITY, Vec3::zero());
+        let mut within = true;
+        for edge in &self.edges {
+            let d = p - edge.start;
+            if edge.outward.dot(d) > 0.0 {
+                within = false;
+                let t = (d.dot(edge.along) * edge.inverse_length_squared).clamp(0.0, 1.0);
+                let q = edge.start + edge.along * t;
+                let d = (p - q).norm_squared();
+                if d < best.0 {
+                    best = (d, q);
+                }
+            }
+        }
+        if within { p - self.normal * height } else { best.1 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::RandomStream;
+    use crate::scenario::bridges::solid::{Builder, Placement};
+
+    /// m; rounding at the scale of the test shapes.
+    const ROUNDING_M: f64 = 1e-12;
+
+    fn cube() -> Convex {
+        let mut b = Builder::new("t", Placement::new(Vec3::zero(), 90.0));
+        b.block("cube", 12, [-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]);
+        Convex::new(&b.finish()[0].solid)
+    }
+
+    /// The same solids as boxes and as hulls, and an eight-sided rod.
+    fn shapes() -> Vec<Convex> {
+        let mut b = Builder::new("t", Placement::new(Vec3::new(0.3, -0.2, 0.1), 37.0));
+        b.block("block", 12, [-1.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
+        b.across("wedge", 144, &[[-1.0, -0.5], [1.0, -0.3], [0.9, 0.4], [-1.0, 0.1]], -0.4, 0.3);
+        b.rod("rod", 147, [-1.0, 0.2, -0.4], [0.8, -0.1, 0.6], 0.3, 8);
+        b.finish().iter().map(|m| Convex::new(&m.solid)).collect()
+    }
+
+    #[test]
+    fn exact_distances_to_a_cube() {
+        let cube = cube();
+        let root3 = 3f64.sqrt();
+        for (p, d) in [([3.0, 0.0, 0.0], 2.0), ([2.0, 2.0, 2.0], root3), ([0.0, 0.0, 0.5], -0.5), ([2.0, 2.0, 0.0], 2f64.sqrt())]
+        {
+            let near = cube.nearest(Vec3::new(p[0], p[1], p[2]));
+            assert!((near.distance_m - d).abs() < ROUNDING_M, "{p:?} {near:?}");
+        }
+    }
+
+    #[test]
+    fn prop_a_box_answers_as_its_faces_do() {
+        // m; the corners of a turned box are rounded at 1e-16 of its size.
+        const SAME_M: f64 = 1e-9;
+        let mut b = Builder::new("t", Placement::new(Vec3::new(11.0, -40.0, 7.0), 71.0));
+        b.block("block", 12, [-3.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
+        let solid = &b.finish()[0].solid;
+        let boxed = Convex::new(solid);
+        assert!(matches!(boxed.shape, Shape::Box { .. }));
+        let corners = |face: &Vec<u32>| face.iter().map(|k| solid.vertices_m[*k as usize]).collect::<Vec<_>>();
+        let faces: Vec<Face> = solid.faces.iter().map(|f| Face::new(&corners(f))).collect();
+        let hull = Convex { shape: Shape::Hull(faces), ..boxed.clone() };
+        let mut random = RandomStream::new(2, "points");
+        for _ in 0..3000 {
+            let p = Vec3::new(11.0, -40.0, 7.0)
+                + Vec3::new(random.range(-4.0, 4.0), random.range(-4.0, 4.0), random.range(-1.0, 1.0));
+            let (a, b) = (boxed.nearest(p), hull.nearest(p));
+            assert!((a.distance_m - b.distance_m).abs() < SAME_M && (a.point_m + a.normal * a.distance_m - p).norm() < SAME_M);
+            let direction = Vec3::new(random.normal(), random.normal(), random.normal()).unit();
+            let (a, b) = (boxed.ray(p, direction, 9.0), hull.ray(p, direction, 9.0));
+            assert!(a.is_some() == b.is_some() && a.zip(b).is_none_or(|(a, b)| (a.0 - b.0).abs() < SAME_M), "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn prop_a_ray_ends_on_the_surface() {
+        for shape in shapes().iter().chain([&cube()]) {
+            let mut random = RandomStream::new(5, "rays");
+            for _ in 0..800 {
+                let origin = Vec3::new(random.range(-4.0, 4.0), random.range(-4.0, 4.0), random.range(1.5, 4.0));
+                let direction = Vec3::new(random.normal(), random.normal(), random.normal()).unit();
+                if let Some((t, _)) = shape.ray(origin, direction, 50.0) {
+                    assert!(shape.nearest(origin + direction * t).distance_m.abs() < 1e-9);
+                } else {
+                    let clear = (0..500).all(|k| shape.nearest(origin + direction * (f64::from(k) * 0.1)).distance_m > 0.0);
+                    assert!(clear);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn prop_no_point_of_a_segment_lies_deeper_than_the_contact_between_its_ends() {
+        // m; what counts as level, and the spacing of the points tried times the steepest slope.
+        const DEEPER_M: f64 = 2e-7;
+        let mut random = RandomStream::new(8, "segments");
+        let mut across = 0;
+        for shape in &shapes() {
+            for _ in 0..1500 {
+                let mut point = || Vec3::<Enu>::new(random.range(-1.6, 1.6), random.range(-1.0, 1.0), random.range(-1.0, 1.0));
+                let (a, b) = (point(), point());
+                let (at_a, at_b) = (shape.nearest(a), shape.nearest(b));
+                let between = shape.between(a, b, [&at_a, &at_b], f64::INFINITY);
+                across += usize::from(between.is_some());
+                let least =
+                    [Some(at_a), Some(at_b), between].into_iter().flatten().map(|n| n.distance_m).fold(f64::INFINITY, f64::min);
+                let tried =
+                    (0..=400).map(|k| shape.nearest(a.lerp(b, f64::from(k) / 400.0)).distance_m).fold(f64::INFINITY, f64::min);
+                assert!(least <= tried + DEEPER_M, "{least} but {tried}");
+            }
+        }
+        assert!(across > 1000, "{across}");
+    }
+
+    #[test]
+    fn exact_a_segment_across_an_edge_touches_at_the_edge() {
+        let cube = cube();
+        let (a, b) = (Vec3::new(0.0, 2.0, 2.0), Vec3::new(0.0, 2.0, -6.0));
+        let near = cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
+        assert!((near.distance_m - 1.0).abs() < ROUNDING_M);
+        // Across the top edge, 45 degrees: the edge itself.
+        let (a, b) = (Vec3::new(0.0, 0.0, 2.5), Vec3::new(0.0, 2.5, 0.0));
+        let near = cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
+        assert!((near.point_m - Vec3::new(0.0, 1.0, 1.0)).norm() < 1e-6 && (near.distance_m - 0.125f64.sqrt()).abs() < LEVEL_M);
+    }
+
+    #[test]
+    fn exact_a_segment_flat_on_a_face_touches_at_both_ends_or_at_the_edge_it_sticks_out_over() {
+        let cube = cube();
+        let ends = |a: Vec3<Enu>, b: Vec3<Enu>| cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 1.0);
+        assert_eq!(ends(Vec3::new(-0.5, 0.2, 1.1), Vec3::new(0.5, 0.1, 1.1)), None);
+        let over = ends(Vec3::new(0.0, 0.0, 1.1), Vec3::new(0.0, 3.0, 1.1)).unwrap();
+        assert!((over.point_m - Vec3::new(0.0, 1.0, 1.0)).norm() < 1e-3, "{over:?}");
+        // Standing on its end: nothing between.
+        assert_eq!(ends(Vec3::new(0.0, 0.0, 1.1), Vec3::new(0.0, 0.0, 2.1)), None);
+    }
+}

@@ -1,0 +1,425 @@
+//! Places defects by seed: a sight line from a task's path finds a face that really is exposed and within reach, the catalogue
+//! says what may be wrong there, and the judgement of [`super::look`] says whether it can be photographed from within the
+//! task's threshold. Other places for every seed.
+
+use super::catalogue;
+use super::faces::{Face, face_at};
+use super::light::{Cast, tangents};
+use super::look;
+use super::{CameraPose, Surface};
+use crate::frames::{Enu, Vec3};
+use crate::math;
+use crate::random::RandomStream;
+use crate::scenario::bridges::Member;
+use crate::scenario::{Defects, PlacedDefect, Task, TaskKind};
+use crate::vehicle::{Camera, Lamp};
+
+/// The camera for which every placed defect is photographable: coarser than those shipped (3000 px over 100 degrees; estimate
+/// of a small inspection drone's low end), with the gimbal's full range. Placement must not depend on the aircraft, since
+/// simulator and monitor both place from scenario and seed alone.
+pub const REFERENCE_CAMERA: Camera = Camera {
+    position_m: Vec3::new(0.0, 0.0, 0.0),
+    width_px: 3000,
+    height_px: 2250,
+    hfov_rad: 100.0 * math::PI / 180.0,
+    zoom_max: 1.0,
+    f_number: 2.8,
+    iso_max: 1600.0,
+    exposure_max_s: 0.01,
+    gimbal_pitch_min_rad: -math::FRAC_PI_2,
+    gimbal_pitch_max_rad: math::FRAC_PI_2,
+    gimbal_rate_rad_s: 1.0,
+};
+/// The lamp that goes with it (estimate: a small clip-on light).
+pub const REFERENCE_LAMP: Lamp = Lamp { flux_lm: 1000.0, beam_rad: math::PI / 3.0 };
+
+/// Nearest that the reference photograph may be taken to any surface, m (half of 0.59 m tip to tip and a hand's breadth more).
+pub const CLEARANCE_M: f64 = 0.8;
+/// Shares of the threshold by which the reference photographer leaves the path towards the defect (0.9: within, with room).
+const APPROACH: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
+/// Half angle of the cone about the path's look direction in which faces are sought, rad (estimate: pan and tilt of a sweep).
+const SEARCH_CONE_RAD: f64 = 0.9;
+/// Upward.
+const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
+/// Farthest face that is sought, m (estimate; thin lines fail the judgement long before).
+const SEARCH_REACH_M: f64 = 20.0;
+/// Bare surface that must surround a defect, m: keeps defects off joints and edges.
+const MARGIN_M: f64 = 0.03;
+/// Room above the surface that must be free, m.
+const ROOM_M: f64 = 0.5;
+/// Least distance between two defects' centres, m; one photograph should rarely show two.
+const SEPARATION_M: f64 = 2.0;
+/// Attempts per defect; the first third keeps the separation, the rest give it up bit by bit.
+const ATTEMPTS: usize = 3000;
+/// Path points tried as the reference photographer's place, nearest first.
+const PLACES: usize = 5;
+
+/// In what an aircraft's camera or lamp falls short of the reference for which placed defects are photographable, in words with
+/// both numbers; empty when it covers the reference.
+#[must_use]
+pub fn short_of_reference(camera: &Camera, lamp: &Lamp) -> Vec<String> {
+    let candela = |l: &Lamp| l.flux_lm / (math::TAU * (1.0 - math::cos(0.5 * l.beam_rad)));
+    let wanting = [
+        ("focal length, px", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
+        ("lamp intensity, cd", candela(lamp), candela(&REFERENCE_LAMP)),
+        // As sensitivity, so that more is better in all lines.
+        ("1/light needed, 1/lx", 1.0 / look::needed_lux(camera), 1.0 / look::needed_lux(&REFERENCE_CAMERA)),
+        ("gimbal up, rad", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
+        ("gimbal down, rad", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
+    ];
+    // Angles written in degrees come back a rounding off.
+    let short = |has: f64, needs: f64| has.is_nan() || has < needs * (1.0 - 1e-9);
+    wanting
+        .iter()
+        .filter(|w| short(w.1, w.2))
+        .map(|(what, has, needs)| format!("{what}: {has:.4}, at least {needs:.4}"))
+        .collect()
+}
+
+/// What placing needs of the site.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
+    /// All bridge members; a hit's object number is an index into them.
+    pub members: &'a [Member],
+    /// The job's tasks.
+    pub tasks: &'a [Task],
+    /// Rays against what stands still.
+    pub cast: Cast<'a>,
+    /// Ambient light at the start of the session by position and normal, lx.
+    pub ambient: look::Ambient<'a>,
+    /// Distance to the nearest surface up to [`CLEARANCE_M`], else infinity, m.
+    pub clearance_m: &'a dyn Fn(Vec3<Enu>) -> f64,
+}
+
+/// The defects of a session: those of a resolved file, else drawn from the seed. Fewer than asked come back only where the
+/// settings leave no photographable place (no bridge within reach of a task, say, or kinds that no element in reach may carry).
+#[must_use]
+pub fn place(settings: &Defects, ground: &Ground, seed: u64) -> Vec<PlacedDefect> {
+    if let Some(placed) = &settings.placed {
+        return placed.clone();
+    }
+    let tasks: Vec<&Task> = ground.tasks.iter().filter(|t| !t.path_m.is_empty()).collect();
+    let mut stream = RandomStream::new(seed, "site.defects");
+    let mut defects: Vec<PlacedDefect> = Vec::new();
+    if tasks.is_empty() {
+        return defects;
+    }
+    let first = stream.below(tasks.len());
+    for k in 0..settings.count {
+        let found = (0..tasks.len()).find_map(|turn| {
+            let task = tasks[(first + k + turn) % tasks.len()];
+            (0..ATTEMPTS).find_map(|attempt| try_once(settings, ground, task, (attempt, &defects), &mut stream))
+        });
+        if let Some(mut defect) = found {
+            defect.id = defects.len() as u32 + 1;
+            defects.push(defect);
+        }
+    }
+    defects
+}
+
+/// One draw: sight line, kind, size, then every check; `None` when any fails.
+fn try_once(
+    settings: &Defects,
+    ground: &Ground,
+    task: &Task,
+    (attempt, others): (usize, &[PlacedDefect]),
+    stream: &mut RandomStream,
+) -> Option<PlacedDefect> {
+    let n = stream.below(task.path_m.len());
+    let direction = match task.kind {
+        // A free path says where it leads, not where the structure is.
+        TaskKind::Free => in_cone(UP, math::PI, stream),
+        TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle => {
+            in_cone(task.look.get(n).copied().unwrap_or(UP), SEARCH_CONE_RAD, stream)
+        }
+    };
+    let kind_draw = stream.uniform();
+    let condition_state = if stream.uniform() < 0.5 { 2 } else { 3 };
+    let roll = stream.range(0.0, math::PI);
+    let hit = (ground.cast)(task.path_m[n], direction, SEARCH_REACH_M)?;
+    let member = (hit.surface == Surface::Bridge).then(|| ground.members.get(hit.object.0 as usize)).flatten()?;
+    let kind = choose_kind(settings, member.element, kind_draw)?;
+    let (length_m, width_m) = catalogue::draw(kind, condition_state, settings.size_factor, stream);
+    let face = face_at(&member.solid, task.path_m[n] + direction * hit.distance_m)?;
+    let defect = PlacedDefect {
+        id: 0,
+        element: member.element,
+        member: member.name.clone(),
+        kind,
+        condition_state,
+        position_m: face.point_m,
+        normal: face.normal,
+        along: along(kind, &face, roll),
+        length_m,
+        width_m,
+        line: catalogue::is_line(kind),
+    };
+    let separation = SEPARATION_M * (1.5 - 1.5 * attempt as f64 / ATTEMPTS as f64).min(1.0);
+    let apart = others.iter().all(|o| (o.position_m - defect.position_m).norm() >= separation);
+    (apart && fits(&defect, &face) && exposed(&defect, hit.object.0, ground) && best_view(&defect, task, ground).is_some())
+        .then_some(defect)
+}
+
+fn choose_kind(settings: &Defects, element: u32, draw: f64) -> Option<u32> {
+    if !settings.elements.is_empty() && !settings.elements.contains(&element) {
+        return None;
+    }
+    let wanted = |k: &&u32| settings.kinds.is_empty() || settings.kinds.contains(*k);
+    let legal: Vec<u32> = catalogue::legal_kinds(element).iter().filter(wanted).copied().collect();
+    legal.get((draw * legal.len() as f64) as usize).copied()
+}
+
+/// Stains run downward on walls; corrosion and rebar follow the member; all else lies at a random angle.
+fn along(kind: u32, face: &Face, roll_rad: f64) -> Vec3<Enu> {
+    let down = Vec3::new(0.0, 0.0, -1.0);
+    let downhill = down - face.normal * face.normal.dot(down);
+    let long = face.long_axis();
+    match kind {
+        catalogue::EFFLORESCENCE if downhill.norm() > 0.3 => downhill.unit(),
+        catalogue::CORROSION | catalogue::REBAR | catalogue::CONNECTION => long,
+        _ => {
+            let (s, c) = math::sin_cos(roll_rad);
+            (long * c + face.normal.cross(long) * s).unit()
+        }
+    }
+}
+
+/// The four ends of the defect's extents.
+fn ends(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
+    let across = defect.normal.cross(defect.along);
+    let (l, w) = (0.5 * defect.length_m + margin_m, 0.5 * defect.width_m + margin_m);
+    let c = defect.position_m;
+    [c + defect.along * l, c - defect.along * l, c + across * w, c - across * w]
+}
+
+/// The whole defect lies inside its face.
+fn fits(defect: &PlacedDefect, face: &Face) -> bool {
+    ends(defect, MARGIN_M).iter().all(|p| face.inset_m(*p) > 0.0)
+}
+
+/// No other member covers it or touches its surroundings: looking back from a little above, every end shows this member first.
+fn exposed(defect: &PlacedDefect, object: u32, ground: &Ground) -> bool {
+    let mut points = ends(defect, MARGIN_M).to_vec();
+    points.push(defect.position_m);
+    points.iter().all(|p| {
+        let above = *p + defect.normal * ROOM_M;
+        let room_up = (ground.cast)(*p + defect.normal * 0.005, defect.normal, ROOM_M).is_none();
+        let back = (ground.cast)(above, -defect.normal, ROOM_M + 0.01);
+        room_up && back.is_some_and(|h| h.object.0 == object && (h.distance_m - ROOM_M).abs() < 0.002)
+    })
+}
+
+/// A pose within the task's threshold of its path, with air around, from which the reference camera takes a picture that hits
+/// the defect; `None` when there is none among those tried.
+#[must_use]
+pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &Ground) -> Option<CameraPose> {
+    let mut order: Vec<usize> = (0..task.path_m.len()).collect();
+    order.sort_by(|a, b| {
+        let d = |k: usize| (task.path_m[k] - defect.position_m).norm_squared();
+        d(*a).total_cmp(&d(*b)).then(a.cmp(b))
+    });
+    order.iter().step_by(2).take(PLACES).find_map(|k| {
+        APPROACH.iter().find_map(|share| {
+            let to = defect.position_m - task.path_m[*k];
+            let step = (share * task.threshold_m).min(to.norm() - CLEARANCE_M).max(0.0);
+            let pose = aimed(task.path_m[*k] + to.unit() * step, defect.position_m);
+            // Cheap conditions first: the sight line and the pixels, then the air around, then the light.
+            let bright = look::judge(defect, &pose, (&REFERENCE_CAMERA, &REFERENCE_LAMP), ground.cast, &|_, _| 1e9);
+            let air = || (ground.clearance_m)(pose.position_m) >= CLEARANCE_M;
+            let lit = || {
+                let lamp = look::lamp_lux(&REFERENCE_LAMP, &pose, defect.position_m, defect.normal);
+                let needed = look::needed_lux(&REFERENCE_CAMERA);
+                lamp >= needed || lamp + (ground.ambient)(defect.position_m, defect.normal) >= needed
+            };
+            (bright.is_some_and(|v| v.hit) && air() && lit()).then_some(pose)
+        })
+    })
+}
+
+/// A level camera with the lamp on that looks at a point.
+fn aimed(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
+    let forward = (at_m - position_m).unit();
+    let level = forward.cross(Vec3::new(0.0, 0.0, 1.0));
+    let right = if level.norm() > 1e-9 { level.unit() } else { Vec3::new(1.0, 0.0, 0.0) };
+    CameraPose { position_m, forward, right, lamp_on: true }
+}
+
+/// A direction uniformly spread over a cone about an axis.
+fn in_cone(axis: Vec3<Enu>, half_angle_rad: f64, stream: &mut RandomStream) -> Vec3<Enu> {
+    let z = stream.range(math::cos(half_angle_rad), 1.0);
+    let (s, c) = math::sin_cos(stream.range(0.0, math::TAU));
+    let r = (1.0 - z * z).max(0.0).sqrt();
+    let axis = axis.unit();
+    let (a, b) = tangents(axis);
+    a * (r * c) + b * (r * s) + axis * z
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::boxes::OrientedBox;
+    use super::super::{ObjectId, RayHit};
+    use super::*;
+    use crate::scenario::bridges::Solid;
+
+    const SEEDS: u64 = 50;
+
+    /// A box member from corner to corner, faces counter-clockwise from outside.
+    fn member(name: &str, element: u32, low: [f64; 3], high: [f64; 3]) -> Member {
+        let vertices_m = (0..8)
+            .map(|k| {
+                let pick = |axis: usize| if k >> axis & 1 == 1 { high[axis] } else { low[axis] };
+                Vec3::new(pick(0), pick(1), pick(2))
+            })
+            .collect();
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        Member { name: name.into(), element, solid: Solid { vertices_m, faces: faces.map(|f| f.to_vec()).to_vec() } }
+    }
+
+    /// A concrete wall with a steel girder in front of part of it, and a path 4 m south of the wall.
+    fn members() -> Vec<Member> {
+        vec![
+            member("test/wall", 210, [0.0, 0.0, 0.0], [40.0, 1.0, 10.0]),
+            member("test/girder", 107, [0.0, -0.8, 7.0], [40.0, 0.0, 9.0]),
+            member("test/rail", 333, [0.0, -0.8, 0.0], [40.0, 0.0, 0.5]),
+        ]
+    }
+
+    fn task() -> Task {
+        Task {
+            id: 1,
+            name: "wall".into(),
+            bridge: Some(0),
+            kind: TaskKind::SlabSide,
+            threshold_m: 2.5,
+            closed: false,
+            path_m: (0..=40).map(|k| Vec3::new(f64::from(k), -4.0, 5.0)).collect(),
+            look: vec![Vec3::new(0.0, 1.0, 0.0); 41],
+            too_close_m: None,
+            dark: false,
+        }
+    }
+
+    fn solids(members: &[Member]) -> Vec<OrientedBox> {
+        members
+            .iter()
+            .map(|m| {
+                let (a, b) = (m.solid.vertices_m[0], m.solid.vertices_m[7]);
+                let half = (b - a) * 0.5;
+                let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
+                OrientedBox { centre_m: (a + b) * 0.5, axes, half_m: half.array() }
+            })
+            .collect()
+    }
+
+    fn settings() -> Defects {
+        Defects { count: 10, size_factor: 1.0, elements: vec![], kinds: vec![], placed: None }
+    }
+
+    /// Runs `with` on the test ground.
+    fn on_ground<T>(lux: f64, with: impl FnOnce(&Ground, &[OrientedBox]) -> T) -> T {
+        let (members, tasks) = (members(), [task()]);
+        let solids = solids(&members);
+        let cast = |o: Vec3<Enu>, d: Vec3<Enu>, max: f64| {
+            let hits = solids.iter().enumerate().filter_map(|(k, s)| s.ray(o, d, max).map(|h| (k, h)));
+            let first = hits.fold(None, |best: Option<(usize, (f64, Vec3<Enu>))>, h| match best {
+                Some(b) if b.1.0 <= h.1.0 => Some(b),
+                _ => Some(h),
+            });
+            first.map(|(k, (distance_m, normal))| RayHit {
+                distance_m,
+                normal,
+                surface: Surface::Bridge,
+                object: ObjectId(k as u32),
+            })
+        };
+        let clearance = |p: Vec3<Enu>| solids.iter().map(|s| s.nearest(p).0).fold(f64::INFINITY, f64::min);
+        let ambient = move |_: Vec3<Enu>, _: Vec3<Enu>| lux;
+        let ground = Ground { members: &members, tasks: &tasks, cast: &cast, ambient: &ambient, clearance_m: &clearance };
+        with(&ground, &solids)
+    }
+
+    #[test]
+    fn prop_defects_are_legal_on_the_surface_and_photographable_for_fifty_seeds() {
+        /// How far a defect's ends may lie off its member, m.
+        const ON_SURFACE_M: f64 = 1e-3;
+        on_ground(1000.0, |ground, solids| {
+            for seed in 0..SEEDS {
+                let placed = place(&settings(), ground, seed);
+                assert_eq!(placed.len(), 10, "seed {seed}");
+                for d in &placed {
+                    assert!(catalogue::legal_kinds(d.element).contains(&d.kind), "{d:?}");
+                    let k = ground.members.iter().position(|m| m.name == d.member).expect("a member of the site");
+                    assert_eq!(ground.members[k].element, d.element);
+                    for p in ends(d, 0.0).iter().chain([&d.position_m]) {
+                        assert!(solids[k].nearest(*p).0.abs() < ON_SURFACE_M, "{d:?}");
+                        let covered = solids.iter().enumerate().any(|(j, s)| j != k && s.nearest(*p).0 < ON_SURFACE_M);
+                        assert!(!covered, "covered by another member: {d:?}");
+                    }
+                    let pose = best_view(d, &ground.tasks[0], ground).expect("photographable");
+                    let near = |p: &Vec3<Enu>| (*p - pose.position_m).norm();
+                    let off = ground.tasks[0].path_m.iter().map(near).fold(f64::INFINITY, f64::min);
+                    assert!(off <= ground.tasks[0].threshold_m, "{off} m off the path");
+                }
+            }
+        });
+    }
+
+    #[test]
+    fn prop_other_seeds_give_other_places_and_the_same_seed_the_same() {
+        on_ground(1000.0, |ground, _| {
+            let all: Vec<_> = (0..SEEDS).map(|seed| place(&settings(), ground, seed)).collect();
+            for (k, a) in all.iter().enumerate() {
+                assert!(all[k + 1..].iter().all(|b| a.iter().all(|d| b.iter().all(|e| d.position_m != e.position_m))));
+            }
+            assert_eq!(all[7], place(&settings(), ground, 7));
+        });
+    }
+
+    #[test]
+    fn prop_elements_and_kinds_are_respected_and_a_resolved_file_is_kept() {
+        on_ground(1000.0, |ground, _| {
+            let cracks = Defects { elements: vec![210], kinds: vec![catalogue::CRACK], ..settings() };
+            let placed = place(&cracks, ground, 3);
+            assert_eq!(placed.len(), 10);
+            assert!(placed.iter().all(|d| d.element == 210 && d.kind == catalogue::CRACK && d.line));
+            let resolved = Defects { placed: Some(placed[..2].to_vec()), ..settings() };
+            assert_eq!(place(&resolved, ground, 99), placed[..2].to_vec());
+            let illegal = Defects { elements: vec![107], kinds: vec![catalogue::CRACK], ..settings() };
+            assert!(place(&illegal, ground, 3).is_empty());
+        });
+    }
+
+    #[test]
+    fn prop_in_the_dark_only_places_within_the_lamps_reach_are_used() {
+        on_ground(0.0, |ground, _| {
+            let placed = place(&settings(), ground, 5);
+            assert_eq!(placed.len(), 10);
+            for d in &placed {
+                let pose = best_view(d, &ground.tasks[0], ground).expect("photographable");
+                let lamp = look::lamp_lux(&REFERENCE_LAMP, &pose, d.position_m, d.normal);
+                assert!(lamp >= look::needed_lux(&REFERENCE_CAMERA), "{lamp} lx");
+            }
+        });
+    }
+
+    #[test]
+    fn exact_the_reference_covers_itself_and_each_shortfall_is_named() {
+        assert!(short_of_reference(&REFERENCE_CAMERA, &REFERENCE_LAMP).is_empty());
+        let coarse = Camera { width_px: 1920, gimbal_pitch_max_rad: 0.5, ..REFERENCE_CAMERA };
+        let dark = Lamp { flux_lm: 0.0, ..REFERENCE_LAMP };
+        let words = short_of_reference(&coarse, &dark).join("; ");
+        assert!(words.contains("focal") && words.contains("lamp") && words.contains("gimbal up"), "{words}");
+        assert!(!words.contains("light needed") && !words.contains("gimbal down"), "{words}");
+    }
+
+    #[test]
+    fn prop_catalogue_sizes_keep_their_condition_states_apart() {
+        for kind in catalogue::KINDS {
+            let (fair, poor) = (catalogue::sizes(*kind, 2), catalogue::sizes(*kind, 3));
+            assert!(fair.length_m.0 > 0.0 && fair.length_m.0 < fair.length_m.1);
+            assert!(poor.length_m.1 > fair.length_m.1, "{kind}");
+        }
+        assert!(catalogue::sizes(catalogue::CRACK, 2).width.1 < catalogue::sizes(catalogue::CRACK, 3).width.0);
+    }
+}

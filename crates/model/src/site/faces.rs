@@ -1,0 +1,58 @@
+//! Faces of solids, and what lies within them.
+
+use crate::frames::{Enu, Vec3};
+use crate::scenario::bridges::Solid;
+
+/// A planar face of a member and a point on it.
+pub(super) struct Face {
+    /// The point, m.
+    pub(super) point_m: Vec3<Enu>,
+    /// Outward unit normal.
+    pub(super) normal: Vec3<Enu>,
+    corners_m: Vec<Vec3<Enu>>,
+}
+
+/// The face of a solid that a point lies on, with the point moved exactly onto its plane.
+pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<Face> {
+    /// Farther from every face than this the point is not on the solid, m.
+    const ON_FACE_M: f64 = 0.002;
+    let mut best: Option<(f64, Face)> = None;
+    for indices in &solid.faces {
+        let corners_m: Vec<Vec3<Enu>> = indices.iter().filter_map(|k| solid.vertices_m.get(*k as usize).copied()).collect();
+        let normal = newell(&corners_m);
+        let Some(corner) = corners_m.first() else { continue };
+        let off = (point_m - *corner).dot(normal);
+        let face = Face { point_m: point_m - normal * off, normal, corners_m };
+        let apart = off.abs().max(-face.inset_m(face.point_m));
+        if apart < best.as_ref().map_or(ON_FACE_M, |b| b.0) {
+            best = Some((apart, face));
+        }
+    }
+    best.map(|b| b.1)
+}
+
+/// Unit normal of a planar polygon by Newell's sum, robust against collinear corners.
+fn newell(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
+    let count = corners_m.len();
+    (0..count).fold(Vec3::zero(), |sum, k| sum + corners_m[k].cross(corners_m[(k + 1) % count])).unit()
+}
+
+impl Face {
+    /// Distance from a point in the plane to the nearest edge, m; negative outside.
+    pub(super) fn inset_m(&self, point_m: Vec3<Enu>) -> f64 {
+        let count = self.corners_m.len();
+        (0..count)
+            .map(|k| {
+                let (a, b) = (self.corners_m[k], self.corners_m[(k + 1) % count]);
+                self.normal.cross(b - a).unit().dot(point_m - a)
+            })
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Direction in the face of its longest edge.
+    pub(super) fn long_axis(&self) -> Vec3<Enu> {
+        let count = self.corners_m.len();
+        let edges = (0..count).map(|k| self.corners_m[(k + 1) % count] - self.corners_m[k]);
+        edges.fold(Vec3::zero(), |best, e| if e.norm() > best.norm() { e } else { best }).unit()
+    }
+}

@@ -1,0 +1,325 @@
+//! What stands still: bridge members, ground, water, pad. Members are found through a bounding-volume tree (parry's, in f64); the
+//! exact questions are answered by [`Convex`] and [`HeightGrid`](super::heights::HeightGrid).
+
+use super::convex::{Convex, SurfacePoint};
+use super::terrain::Terrain;
+use super::{Contact, Nearest, ObjectId, Probe, RayHit, Surface};
+use crate::frames::{Enu, Vec3};
+use crate::scenario::bridges::Member;
+use crate::scenario::bridges::solid::{Builder, Placement};
+use crate::scenario::{GroundTeam, Scenario};
+use rapier3d::parry::bounding_volume::Aabb;
+use rapier3d::parry::math::Vector;
+use rapier3d::parry::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost, BvhNode};
+
+/// The ground.
+pub const GROUND: ObjectId = ObjectId(900_000);
+/// The water.
+pub const WATER: ObjectId = ObjectId(900_001);
+/// The pad.
+pub const PAD: ObjectId = ObjectId(900_002);
+
+const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
+/// The pad reaches this far under its upper surface, m (the ground under it lies 0.05 m lower).
+const PAD_THICK_M: f64 = 0.3;
+
+/// Static geometry of a site.
+#[derive(Debug)]
+pub struct Geometry {
+    members: Vec<Member>,
+    shapes: Vec<Convex>,
+    tree: Bvh,
+    /// Ground and water level.
+    pub terrain: Terrain,
+    pad: Member,
+    pad_shape: Convex,
+    pad_m: Vec3<Enu>,
+    pad_half_m: f64,
+}
+
+fn vector(v: Vec3<Enu>) -> Vector {
+    Vector::new(v.east(), v.north(), v.up())
+}
+
+/// A leaf of the tree that was found, in order of its distance.
+struct Found<T> {
+    distance_m: f64,
+    what: T,
+}
+
+impl<T> BvhLeafCost for Found<T> {
+    fn cost(&self) -> f64 {
+        self.distance_m
+    }
+}
+
+impl Geometry {
+    /// Builds bridges, ground and pad.
+    #[must_use]
+    pub fn new(scenario: &Scenario) -> Self {
+        let members: Vec<Member> = scenario.bridges.iter().flat_map(crate::scenario::Bridge::members).collect();
+        let shapes: Vec<Convex> = members.iter().map(|m| Convex::new(&m.solid)).collect();
+        let boxes: Vec<Aabb> = shapes
+            .iter()
+            .map(|s| {
+                let (low, high) = s.bounds();
+                Aabb::new(vector(low), vector(high))
+            })
+            .collect();
+        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        let GroundTeam { pad_m, pad_half_m, .. } = scenario.ground_team;
+        let pad = pad_slab(pad_m, pad_half_m);
+        let pad_shape = Convex::new(&pad.solid);
+        Self { members, shapes, tree, terrain: Terrain::new(scenario), pad, pad_shape, pad_m, pad_half_m }
+    }
+
+    /// Bridge members.
+    #[must_use]
+    pub fn members(&self) -> &[Member] {
+        &self.members
+    }
+
+    /// The pad: a level square slab, let into the ground.
+    #[must_use]
+    pub fn pad(&self) -> &Member {
+        &self.pad
+    }
+
+    /// The shape of a member.
+    #[must_use]
+    pub fn shape(&self, member: usize) -> Option<&Convex> {
+        self.shapes.get(member)
+    }
+
+    fn over_pad(&self, p: Vec3<Enu>) -> bool {
+        (p.east() - self.pad_m.east()).abs() <= self.pad_half_m && (p.north() - self.pad_m.north()).abs() <= self.pad_half_m
+    }
+
+    /// Height of ground or pad under a point, m up.
+    #[must_use]
+    pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
+        let height = self.terrain.ground.ground(east_m, north_m).0;
+        if self.over_pad(Vec3::new(east_m, north_m, 0.0)) { height.max(self.pad_m.up()) } else { height }
+    }
+
+    /// The nearest member within `max_m`.
+    #[must_use]
+    pub fn nearest_member(&self, p: Vec3<Enu>, max_m: f64) -> Option<Nearest> {
+        let at = vector(p);
+        // The tree looks for costs below the limit; a member at the limit itself counts.
+        let limit = max_m.next_up();
+        let to_box = |node: &BvhNode, _: f64| {
+            let over = (node.mins() - at).max(at - node.maxs());
+            // Inside a box nothing in it can be deeper than the box's nearest side.
+            if over.max_element() < 0.0 { over.max_element() } else { over.max(Vector::ZERO).length() }
+        };
+        let to_member = |leaf: u32, best_m: f64| {
+            let near = self.shapes[leaf as usize].nearest(p);
+            (near.distance_m < best_m).then_some(Found { distance_m: near.distance_m, what: near })
+        };
+        let (leaf, found) = self.tree.find_best(limit, to_box, to_member)?;
+        let SurfacePoint { distance_m, point_m, normal } = found.what;
+        Some(Nearest { distance_m, point_m, normal, surface: Surface::Bridge, object: ObjectId(leaf) })
+    }
+
+    /// The nearest of members, ground and water within `max_m`; over the pad the ground does not count.
+    #[must_use]
+    pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<Nearest> {
+        let mut best: Option<Nearest> = None;
+        let mut offer = |found: Option<SurfacePoint>, surface: Surface, object: ObjectId| {
+            if let Some(SurfacePoint { distance_m, point_m, normal }) = found
+                && distance_m <= max_m
+                && best.is_none_or(|b| distance_m < b.distance_m)
+            {
+                best = Some(Nearest { distance_m, point_m, normal, surface, object });
+            }
+            best.map_or(max_m, |b| b.distance_m)
+        };
+        let reach = offer(Some(self.over_water(p)), Surface::Water, WATER);
+        let reach = if self.over_pad(p) { reach } else { offer(self.terrain.ground.nearest(p, reach), Surface::Terrain, GROUND) };
+        self.nearest_member(p, reach).or(best)
+    }
+
+    /// Distance to the nearest solid thing, pad and water included, if it is less than `max_m`: nothing still can touch what keeps inside a
+    /// ball of this radius around `p`.
+    #[must_use]
+    pub fn free_radius(&self, p: Vec3<Enu>, max_m: f64) -> Option<f64> {
+        let slab = self.pad_shape.nearest(p).distance_m.min(max_m);
+        let reach = self.terrain.ground.nearest(p, slab).map_or(slab, |near| near.distance_m).min(self.over_water(p).distance_m);
+        let free = self.nearest_member(p, reach).map_or(reach, |near| near.distance_m);
+        (free < max_m).then_some(free)
+    }
+
+    /// The nearest thing along a straight piece of a path, and where, if it comes nearer than `less_than_m`; to within a millimetre.
+    #[must_use]
+    pub fn tightest(&self, from: Vec3<Enu>, to: Vec3<Enu>, less_than_m: f64) -> Option<(Vec3<Enu>, Nearest)> {
+        const CLOSE_M: f64 = 1e-3;
+        let middle = (from + to) * 0.5;
+        let half_m = 0.5 * (to - from).norm();
+        // Distance changes no faster than one metre a metre.
+        let near = self.nearest(middle, less_than_m + half_m)?;
+        if near.distance_m - half_m >= less_than_m {
+            return None;
+        }
+        let here = (near.distance_m < less_than_m).then_some((middle, near));
+        if half_m <= CLOSE_M {
+            return here;
+        }
+        let limit = |best: &Option<(Vec3<Enu>, Nearest)>| best.map_or(less_than_m, |b| b.1.distance_m);
+        let first = self.tightest(from, middle, limit(&here)).or(here);
+        self.tightest(middle, to, limit(&first)).or(first)
+    }
+
+    fn over_water(&self, p: Vec3<Enu>) -> SurfacePoint {
+        let distance_m = p.up() - self.terrain.water_m;
+        SurfacePoint { distance_m, point_m: p - UP * distance_m, normal: UP }
+    }
+
+    /// The first member, ground, pad or water along a ray.
+    #[must_use]
+    pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<RayHit> {
+        let mut best: Option<RayHit> = None;
+        let mut offer = |found: Option<(f64, Vec3<Enu>)>, surface: Surface, object: ObjectId| {
+            if let Some((distance_m, normal)) = found
+                && distance_m <= max_m
+                && best.is_none_or(|b| distance_m < b.distance_m)
+            {
+                best = Some(RayHit { distance_m, normal, surface, object });
+            }
+            best.map_or(max_m, |b| b.distance_m)
+        };
+        let depth = |t: &f64| *t >= 0.0 && direction.up() < 0.0;
+        let water = Some((self.terrain.water_m - origin.up()) / direction.up()).filter(depth);
+        let reach = offer(water.map(|t| (t, UP)), Surface::Water, WATER);
+        let reach = offer(self.pad_shape.ray(origin, direction, reach), Surface::Pad, PAD);
+        let reach = offer(self.terrain.ground.ray(origin, direction, reach), Surface::Terrain, GROUND);
+        self.ray_member(origin, direction, reach).or(best)
+    }
+
+    fn ray_member(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<RayHit> {
+        let from = vector(origin);
+        let inverse = Vector::new(1.0 / direction.east(), 1.0 / direction.north(), 1.0 / direction.up());
+        let to_box = |node: &BvhNode, best_m: f64| {
+            let (low, high) = ((node.mins() - from) * inverse, (node.maxs() - from) * inverse);
+            // A component that does not move gives 0/0 where the origin lies on a side; min and max pass over it.
+            let enter = low.x.min(high.x).max(low.y.min(high.y)).max(low.z.min(high.z)).max(0.0);
+            let leave = low.x.max(high.x).min(low.y.max(high.y)).min(low.z.max(high.z));
+            if enter <= leave && enter <= best_m { enter } else { f64::MAX }
+        };
+        let to_member = |leaf: u32, best_m: f64| {
+            let (distance_m, normal) = self.shapes[leaf as usize].ray(origin, direction, best_m)?;
+            Some(Found { distance_m, what: normal })
+        };
+        let (leaf, found) = self.tree.find_best(max_m.next_up(), to_box, to_member)?;
+        Some(RayHit { distance_m: found.distance_m, normal: found.what, surface: Surface::Bridge, object: ObjectId(leaf) })
+    }
+
+    /// Appends contacts of a probe with members, ground, pad and water.
+    pub fn contacts(&self, probe: &Probe, margin_m: f64, out: &mut Vec<Contact>) {
+        let (low, high) = probe_bounds(probe, margin_m);
+        let around = Aabb::new(vector(low), vector(high));
+        let first = out.len();
+        for leaf in self.tree.intersect_aabb(&around) {
+            touch(probe, margin_m, &self.shapes[leaf as usize], (Surface::Bridge, ObjectId(leaf)), out);
+        }
+        // The tree's order depends on its shape; members are reported in their own order.
+        out[first..].sort_by_key(|c| c.object.0);
+        if near_pad(&self.pad_shape, low, high) {
+            touch(probe, margin_m, &self.pad_shape, (Surface::Pad, PAD), out);
+        }
+        self.floor_contacts(probe, margin_m, (low, high), out);
+    }
+
+    fn floor_contacts(&self, probe: &Probe, margin_m: f64, (low, high): (Vec3<Enu>, Vec3<Enu>), out: &mut Vec<Contact>) {
+        if !self.terrain.ground.lies_under(low, high, low.up()) {
+            self.ground_contacts(probe, margin_m, out);
+        }
+        if low.up() > self.terrain.water_m {
+            return;
+        }
+        for (p, radius) in probe_ends(probe) {
+            let water = self.over_water(p);
+            // Water lies only where the ground is lower.
+            if water.distance_m <= radius + margin_m && self.terrain.ground.ground(p.east(), p.north()).0 < self.terrain.water_m {
+                out.push(contact(water, radius, Surface::Water, WATER));
+            }
+        }
+    }
+
+    /// Contacts at a probe's ends, and between them where it lies across a ridge.
+    fn ground_contacts(&self, probe: &Probe, margin_m: f64, out: &mut Vec<Contact>) {
+        let mut ends_m = f64::INFINITY;
+        for (p, radius) in probe_ends(probe) {
+            if let Some(near) = self.terrain.ground.nearest(p, radius + margin_m) {
+                ends_m = ends_m.min(near.distance_m);
+                out.push(contact(near, radius, Surface::Terrain, GROUND));
+            }
+        }
+        if let Probe::Capsule { a_m, b_m, radius_m } = *probe
+            && let Some(near) = self.terrain.ground.between(a_m, b_m, ends_m, radius_m + margin_m)
+        {
+            out.push(contact(near, radius_m, Surface::Terrain, GROUND));
+        }
+    }
+}
+
+fn pad_slab(centre_m: Vec3<Enu>, half_m: f64) -> Member {
+    let mut builder = Builder::new("site", Placement::new(centre_m, 90.0));
+    builder.block("pad", 0, [-half_m, -half_m, -PAD_THICK_M], [half_m, half_m, 0.0]);
+    builder.finish().swap_remove(0)
+}
+
+fn near_pad(pad: &Convex, low: Vec3<Enu>, high: Vec3<Enu>) -> bool {
+    let (pad_low, pad_high) = pad.bounds();
+    let apart = |k: usize| low.array()[k] > pad_high.array()[k] || high.array()[k] < pad_low.array()[k];
+    !(0..3).any(apart)
+}
+
+fn contact(near: SurfacePoint, radius_m: f64, surface: Surface, object: ObjectId) -> Contact {
+    Contact {
+        point_m: near.point_m,
+        normal: near.normal,
+        gap_m: near.distance_m - radius_m,
+        velocity_m_s: Vec3::zero(),
+        surface,
+        object,
+    }
+}
+
+fn probe_ends(probe: &Probe) -> impl Iterator<Item = (Vec3<Enu>, f64)> {
+    let (ends, count, radius) = match *probe {
+        Probe::Ball { centre_m, radius_m } => ([centre_m, centre_m], 1, radius_m),
+        Probe::Capsule { a_m, b_m, radius_m } => ([a_m, b_m], 2, radius_m),
+    };
+    ends.into_iter().take(count).map(move |p| (p, radius))
+}
+
+/// Corners of the axis-aligned box around a probe and its margin.
+fn probe_bounds(probe: &Probe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
+    let (a, b, radius) = match *probe {
+        Probe::Ball { centre_m, radius_m } => (centre_m.array(), centre_m.array(), radius_m),
+        Probe::Capsule { a_m, b_m, radius_m } => (a_m.array(), b_m.array(), radius_m),
+    };
+    let reach = radius + margin_m;
+    let pick = |f: fn(f64, f64) -> f64, by: f64| Vec3::new(f(a[0], b[0]) + by, f(a[1], b[1]) + by, f(a[2], b[2]) + by);
+    (pick(f64::min, -reach), pick(f64::max, reach))
+}
+
+/// Contacts of a probe with one convex thing: at a ball's centre; at a capsule's ends, and between them where it lies across an edge.
+fn touch(probe: &Probe, margin_m: f64, shape: &Convex, (surface, object): (Surface, ObjectId), out: &mut Vec<Contact>) {
+    let mut offer = |near: SurfacePoint, radius_m: f64| {
+        if near.distance_m - radius_m <= margin_m {
+            out.push(contact(near, radius_m, surface, object));
+        }
+    };
+    match *probe {
+        Probe::Ball { centre_m, radius_m } => offer(shape.nearest(centre_m), radius_m),
+        Probe::Capsule { a_m, b_m, radius_m } => {
+            let ends = [shape.nearest(a_m), shape.nearest(b_m)];
+            ends.into_iter().for_each(|near| offer(near, radius_m));
+            if let Some(near) = shape.between(a_m, b_m, [&ends[0], &ends[1]], radius_m + margin_m) {
+                offer(near, radius_m);
+            }
+        }
+    }
+}

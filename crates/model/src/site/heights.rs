@@ -1,0 +1,360 @@
+//! The ground as a surface of triangles over a square grid, and the exact questions one may ask of it: height under a point, nearest point,
+//! first hit of a ray. Beyond the grid its rim goes on level.
+
+use super::convex::SurfacePoint;
+use super::nearest::{nearest_of_triangle, over_crease};
+use crate::frames::{Enu, Vec3};
+
+/// Cells are pruned by the lowest and highest ground of squares of this many cells a side.
+const BLOCK: i64 = 8;
+/// A point nearer to the surface than this has the triangle's own normal, m.
+const TOUCHING_M: f64 = 1e-9;
+/// Differences of distance below this count as none, m.
+const LEVEL_M: f64 = 1e-7;
+/// Rays are followed no farther than this, m (scenario files allow fields of 4 km).
+const FARTHEST_M: f64 = 20_000.0;
+
+/// Heights at the corners of a square grid of square cells, each split into two triangles from its south-west to its north-east corner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeightGrid {
+    heights_m: Vec<f64>,
+    side: usize,
+    spacing_m: f64,
+    origin_m: f64,
+    blocks: Vec<(f64, f64)>,
+    blocks_a_side: usize,
+    highest_m: f64,
+}
+
+/// A cell's south-west corner in grid steps and the heights of its corners.
+struct Cell {
+    column: i64,
+    row: i64,
+    sw: f64,
+    se: f64,
+    nw: f64,
+    ne: f64,
+}
+
+impl Cell {
+    fn lowest(&self) -> f64 {
+        self.sw.min(self.se).min(self.nw.min(self.ne))
+    }
+
+    fn highest(&self) -> f64 {
+        self.sw.max(self.se).max(self.nw.max(self.ne))
+    }
+
+    /// Rise per cell to the east and to the north in the triangle of the given side of the diagonal.
+    fn rise(&self, south_east: bool) -> (f64, f64) {
+        if south_east { (self.se - self.sw, self.ne - self.se) } else { (self.ne - self.nw, self.nw - self.sw) }
+    }
+}
+
+/// Where a ray is once it has passed over a block.
+struct Passed {
+    column: i64,
+    row: i64,
+    t: f64,
+}
+
+/// Distance along a ray at which it leaves a column or row of cells, through the side that it moves towards.
+fn leaves(cell: i64, from: f64, rate: f64) -> f64 {
+    if rate == 0.0 { f64::INFINITY } else { ((cell + i64::from(rate > 0.0)) as f64 - from) / rate }
+}
+
+/// The row or column in which a ray is after it has crossed all the sides that it crosses before something else.
+fn lane(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i64 {
+    let forward = if rate > 0.0 { 1 } else { -1 };
+    while before(leaves(cell, from, rate)) {
+        cell += forward;
+    }
+    cell
+}
+
+impl HeightGrid {
+    /// From heights row by row from the south, each row from the west; the grid is centred on the scenario's origin.
+    ///
+    /// # Panics
+    /// When there are fewer than four heights or they do not fill a square.
+    #[must_use]
+    pub fn new(heights_m: Vec<f64>, spacing_m: f64) -> Self {
+        let side = heights_m.len().isqrt();
+        assert!(side >= 2 && side * side == heights_m.len(), "{} heights make no square grid", heights_m.len());
+        let highest_m = heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let origin_m = -0.5 * spacing_m * (side - 1) as f64;
+        let blocks_a_side = (side - 1).div_ceil(BLOCK as usize);
+        let mut grid = Self { heights_m, side, spacing_m, origin_m, blocks: Vec::new(), blocks_a_side, highest_m };
+        grid.blocks =
+            (0..blocks_a_side * blocks_a_side).map(|k| grid.block_bounds(k / blocks_a_side, k % blocks_a_side)).collect();
+        grid
+    }
+
+    fn block_bounds(&self, block_row: usize, block_column: usize) -> (f64, f64) {
+        let span = |block: usize| block * BLOCK as usize..=((block + 1) * BLOCK as usize).min(self.side - 1);
+        let heights =
+            span(block_row).flat_map(|row| span(block_column).map(move |column| self.heights_m[row * self.side + column]));
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
+    }
+
+    /// Lowest and highest ground of a block; blocks beyond the rim continue it.
+    fn block(&self, row: i64, column: i64) -> (f64, f64) {
+        let last = self.blocks_a_side as i64 - 1;
+        self.blocks[row.clamp(0, last) as usize * self.blocks_a_side + column.clamp(0, last) as usize]
+    }
+
+    fn cell(&self, column: i64, row: i64) -> Cell {
+        let last = self.side as i64 - 1;
+        let (west, east) = (column.clamp(0, last) as usize, (column + 1).clamp(0, last) as usize);
+        let south = row.clamp(0, last) as usize * self.side;
+        let north = (row + 1).clamp(0, last) as usize * self.side;
+        let h = &self.heights_m;
+        Cell { column, row, sw: h[south + west], se: h[south + east], nw: h[north + west], ne: h[north + east] }
+    }
+
+    /// A point in grid steps from the south-west corner.
+    fn steps(&self, p: Vec3<Enu>) -> (f64, f64) {
+        ((p.east() - self.origin_m) / self.spacing_m, (p.north() - self.origin_m) / self.spacing_m)
+    }
+
+    fn normal(&self, (east, north): (f64, f64)) -> Vec3<Enu> {
+        Vec3::new(-east, -north, self.spacing_m).unit()
+    }
+
+    /// Height and upward unit normal of the ground under a point.
+    #[must_use]
+    pub fn ground(&self, east_m: f64, north_m: f64) -> (f64, Vec3<Enu>) {
+        let (x, y) = self.steps(Vec3::new(east_m, north_m, 0.0));
+        let cell = self.cell(x.floor() as i64, y.floor() as i64);
+        let (u, v) = (x - x.floor(), y - y.floor());
+        let rise = cell.rise(u >= v);
+        (cell.sw + u * rise.0 + v * rise.1, self.normal(rise))
+    }
+
+    /// The nearest point of the surface within `max_m`, with the distance negative for a point under the ground, which is found however
+    /// deep it lies.
+    #[must_use]
+    pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<SurfacePoint> {
+        let (height, normal) = self.ground(p.east(), p.north());
+        let above = p.up() - height;
+        if !above.is_finite() || above * normal.up() > FARTHEST_M {
+            return None;
+        }
+        let below = above < 0.0;
+        // The ground straight below or above is one point of the surface: none farther away need be looked at.
+        let reach = if below { -above } else { above.min(max_m) };
+        let mut best = (reach * reach, Vec3::new(p.east(), p.north(), height));
+        let mut found = below || above <= max_m;
+        self.search(p, &mut best, &mut found);
+        if !found {
+            return None;
+        }
+        let distance = (p - best.1).norm();
+        let signed = if below { -distance } else { distance };
+        let normal = if distance > TOUCHING_M { (p - best.1) / signed } else { normal };
+        Some(SurfacePoint { distance_m: signed, point_m: best.1, normal })
+    }
+
+    /// Nowhere over this rectangle does the ground reach up to `up_m`; says so only where it is certain.
+    #[must_use]
+    pub fn lies_under(&self, low: Vec3<Enu>, high: Vec3<Enu>, up_m: f64) -> bool {
+        let ((west, south), (east, north)) = (self.steps(low), self.steps(high));
+        (south.floor() as i64..=north.floor() as i64)
+            .all(|row| (west.floor() as i64..=east.floor() as i64).all(|column| self.cell(column, row).highest() < up_m))
+    }
+
+    /// Where a segment comes nearer to a crease of the ground than `enough_m` and nearer than both of its ends, whose distances are given:
+    /// it lies across a ridge.
+    #[must_use]
+    pub fn between(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends_m: f64, enough_m: f64) -> Option<SurfacePoint> {
+        let ((xa, ya), (xb, yb)) = (self.steps(a), self.steps(b));
+        let reach = enough_m / self.spacing_m;
+        let range = |a: f64, b: f64| ((a.min(b) - reach).floor() as i64)..=((a.max(b) + reach).floor() as i64 + 1);
+        let mut nearest: Option<(f64, SurfacePoint)> = None;
+        for row in range(ya, yb) {
+            for column in range(xa, xb) {
+                let cell = self.cell(column, row);
+                let corner = |k: i64, l: i64, up: f64| {
+                    let at = |n: i64| self.origin_m + n as f64 * self.spacing_m;
+                    Vec3::new(at(column + k), at(row + l), up)
+                };
+                let sw = corner(0, 0, cell.sw);
+                for to in [corner(1, 0, cell.se), corner(0, 1, cell.nw), corner(1, 1, cell.ne)] {
+                    // A crease that the segment has gone through comes before all others, the deepest first.
+                    let (rank, near) = over_crease((a, b), (sw, to));
+                    if near.distance_m.abs() > TOUCHING_M && nearest.is_none_or(|n| rank < n.0) {
+                        nearest = Some((rank, near));
+                    }
+                }
+            }
+        }
+        nearest.map(|n| n.1).filter(|n| n.distance_m < enough_m.min(ends_m - LEVEL_M))
+    }
+
+    fn search(&self, p: Vec3<Enu>, best: &mut (f64, Vec3<Enu>), found: &mut bool) {
+        let (x, y) = self.steps(p);
+        let reach = best.0.sqrt() / self.spacing_m;
+        let range = |at: f64| ((at - reach).floor() as i64, (at + reach).floor() as i64);
+        let ((west, east), (south, north)) = (range(x), range(y));
+        for block_row in south.div_euclid(BLOCK)..=north.div_euclid(BLOCK) {
+            for block_column in west.div_euclid(BLOCK)..=east.div_euclid(BLOCK) {
+                let whole = (block_column * BLOCK, block_row * BLOCK, BLOCK);
+                if self.gap_squared(p, whole, self.block(block_row, block_column)) >= best.0 {
+                    continue;
+                }
+                for row in (block_row * BLOCK).max(south)..=(block_row * BLOCK + BLOCK - 1).min(north) {
+                    for column in (block_column * BLOCK).max(west)..=(block_column * BLOCK + BLOCK - 1).min(east) {
+                        self.search_cell(p, &self.cell(column, row), best, found);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Squared distance to the box over a square of cells (column, row, cells a side) between two heights.
+    fn gap_squared(&self, p: Vec3<Enu>, (column, row, cells): (i64, i64, i64), (low, high): (f64, f64)) -> f64 {
+        let west = self.origin_m + column as f64 * self.spacing_m;
+        let south = self.origin_m + row as f64 * self.spacing_m;
+        let side = cells as f64 * self.spacing_m;
+        let outside = |at: f64, from: f64, to: f64| (from - at).max(at - to).max(0.0);
+        let (e, n, u) =
+            (outside(p.east(), west, west + side), outside(p.north(), south, south + side), outside(p.up(), low, high));
+        e * e + n * n + u * u
+    }
+
+    fn search_cell(&self, p: Vec3<Enu>, cell: &Cell, best: &mut (f64, Vec3<Enu>), found: &mut bool) {
+        if self.gap_squared(p, (cell.column, cell.row, 1), (cell.lowest(), cell.highest())) >= best.0 {
+            return;
+        }
+        let west = self.origin_m + cell.column as f64 * self.spacing_m;
+        let south = self.origin_m + cell.row as f64 * self.spacing_m;
+        let (east, north) = (west + self.spacing_m, south + self.spacing_m);
+        let sw = Vec3::new(west, south, cell.sw);
+        let ne = Vec3::new(east, north, cell.ne);
+        for other in [Vec3::new(east, south, cell.se), Vec3::new(west, north, cell.nw)] {
+            let q = nearest_of_triangle(p, sw, ne, other);
+            let d = (p - q).norm_squared();
+            if d < best.0 {
+                *best = (d, q);
+                *found = true;
+            }
+        }
+    }
+
+    /// Distance along a ray to the ground and the normal there; a ray that starts under the ground hits at once.
+    #[must_use]
+    pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
+        let (height, normal) = self.ground(origin.east(), origin.north());
+        if origin.up() <= height {
+            return Some((0.0, normal));
+        }
+        // Over the highest ground there is nothing to hit.
+        let to_top = (self.highest_m - origin.up()) / direction.up();
+        let (start, end) = match (origin.up() > self.highest_m, direction.up() < 0.0) {
+            (true, false) => return None,
+            (true, true) => (to_top, max_m),
+            (false, true) => (0.0, max_m),
+            (false, false) => (0.0, if direction.up() > 0.0 { max_m.min(to_top) } else { max_m }),
+        };
+        let (start, end) = (start.max(0.0), end.min(FARTHEST_M));
+        // What all but runs level comes down to the highest ground farther away than cells can be counted.
+        if start < end { self.walk(origin, direction, start, end) } else { None }
+    }
+
+    /// Follows the cells under a ray.
+    fn walk(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, start: f64, end: f64) -> Option<(f64, Vec3<Enu>)> {
+        let (x0, y0) = self.steps(origin);
+        let (dx, dy) = (direction.east() / self.spacing_m, direction.north() / self.spacing_m);
+        let mut column = (x0 + dx * start).floor() as i64;
+        let mut row = (y0 + dy * start).floor() as i64;
+        let (mut next_x, mut next_y) = (leaves(column, x0, dx), leaves(row, y0, dy));
+        let mut t = start;
+        while t < end {
+            if let Some(over) = self.over_block((origin, direction), (x0, y0), (dx, dy), (column, row), (t, end)) {
+                if over.t >= end {
+                    return None;
+                }
+                (column, row, t) = (over.column, over.row, over.t);
+                (next_x, next_y) = (leaves(column, x0, dx), leaves(row, y0, dy));
+                continue;
+            }
+            // Rounding may put a cell's side a hair behind.
+            let leave = next_x.min(next_y).min(end).max(t);
+            let cell = self.cell(column, row);
+            let low = (origin.up() + direction.up() * t).min(origin.up() + direction.up() * leave);
+            if low <= cell.highest()
+                && let Some(hit) = self.hit_in_cell(&cell, [x0, y0, origin.up()], [dx, dy, direction.up()], (t, leave))
+            {
+                return Some(hit);
+            }
+            if next_x <= next_y {
+                column += if dx > 0.0 { 1 } else { -1 };
+                next_x = leaves(column, x0, dx);
+            } else {
+                row += if dy > 0.0 { 1 } else { -1 };
+                next_y = leaves(row, y0, dy);
+            }
+            t = leave;
+        }
+        None
+    }
+
+    /// Passes over the rest of a block whose ground lies all below the ray, to the very cell that going from cell to cell would come to.
+    fn over_block(
+        &self,
+        (origin, direction): (Vec3<Enu>, Vec3<Enu>),
+        from: (f64, f64),
+        rate: (f64, f64),
+        cell: (i64, i64),
+        (t, end): (f64, f64),
+    ) -> Option<Passed> {
+        let block = (cell.0.div_euclid(BLOCK), cell.1.div_euclid(BLOCK));
+        // The cell of the block that the ray leaves it by, along one axis.
+        let last = |block: i64, rate: f64| block * BLOCK + if rate > 0.0 { BLOCK - 1 } else { 0 };
+        let (last_column, last_row) = (last(block.0, rate.0), last(block.1, rate.1));
+        let (out_x, out_y) = (leaves(last_column, from.0, rate.0), leaves(last_row, from.1, rate.1));
+        let leave = out_x.min(out_y).min(end).max(t);
+        let low = (origin.up() + direction.up() * t).min(origin.up() + direction.up() * leave);
+        if low <= self.block(block.1, block.0).1 {
+            return None;
+        }
+        let forward = |rate: f64| if rate > 0.0 { 1 } else { -1 };
+        let (column, row) = if out_x <= out_y {
+            // Of two sides met at once the eastern or western one is crossed first.
+            (last_column + forward(rate.0), lane(cell.1, from.1, rate.1, |side| side < out_x))
+        } else {
+            (lane(cell.0, from.0, rate.0, |side| side <= out_y), last_row + forward(rate.1))
+        };
+        Some(Passed { column, row, t: leave })
+    }
+
+    /// The first point at which the ray is no longer over the cell's two triangles, between two distances.
+    fn hit_in_cell(&self, cell: &Cell, from: [f64; 3], rate: [f64; 3], (enter, leave): (f64, f64)) -> Option<(f64, Vec3<Enu>)> {
+        let at = |t: f64| (from[0] + rate[0] * t - cell.column as f64, from[1] + rate[1] * t - cell.row as f64);
+        let turn = rate[0] - rate[1];
+        let (u, v) = at(0.0);
+        let cross = if turn == 0.0 { enter } else { ((v - u) / turn).clamp(enter, leave) };
+        for (a, b) in [(enter, cross), (cross, leave)] {
+            let middle = at(0.5 * (a + b));
+            let rise = cell.rise(middle.0 >= middle.1);
+            let over = |t: f64| from[2] + rate[2] * t - (cell.sw + at(t).0 * rise.0 + at(t).1 * rise.1);
+            let (first, last) = (over(a), over(b));
+            if last <= 0.0 {
+                let share = if first > 0.0 { first / (first - last) } else { 0.0 };
+                return Some((a + (b - a) * share, self.normal(rise)));
+            }
+        }
+        None
+    }
+
+    /// The surface for export: corner positions, row by row, and the corners of each triangle, counter-clockwise from above.
+    #[must_use]
+    pub fn triangles(&self) -> (Vec<Vec3<Enu>>, Vec<[u32; 3]>) {
+        let along = |n: usize| self.origin_m + n as f64 * self.spacing_m;
+        let corner = |(k, height): (usize, &f64)| Vec3::new(along(k % self.side), along(k / self.side), *height);
+        let corners = self.heights_m.iter().enumerate().map(corner).collect();
+        let n = self.side as u32;
+        let cells = (0..n - 1).flat_map(|row| (0..n - 1).map(move |column| row * n + column));
+        (corners, cells.flat_map(|a| [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]]).collect())
+    }
+}

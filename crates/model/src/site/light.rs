@@ -1,0 +1,402 @@
+//! Light in lux: direct sun, sky, what water and ground throw up, and what the structure passes on inside.
+//!
+//! A fixed set of rays samples the surroundings (no random numbers, no memory: the same point gives the same light). Sky
+//! luminance is uniform. A ray that ends on water, ground or structure brings that surface's first reflection; light that
+//! bounces between members is closed as in an enclosure: the structure seen is taken to be as bright as it is here.
+
+use super::sun;
+use super::{RayHit, Surface};
+use crate::frames::{Enu, Vec3};
+use crate::geodesy::Geo;
+use crate::math;
+use crate::scenario::Light;
+use crate::time::SimTime;
+
+/// A ray query against what stands still: origin, unit direction, reach in m.
+pub type Cast<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit>;
+
+/// Rays of one estimate. 64 keep the error of a half-open sky at a few per cent and the cost below 200 us.
+const RAYS: usize = 64;
+/// Rays that decide the sky view (upper hemisphere).
+const SKY_RAYS: usize = 64;
+/// How far a structure still shades the sky, m (estimate: beyond, it covers less than one ray's share).
+const SKY_REACH_M: f64 = 250.0;
+/// How far a shadow falls, m (estimate).
+const SHADOW_REACH_M: f64 = 600.0;
+/// Start of a ray above the surface it leaves, m.
+const LIFT_M: f64 = 0.01;
+/// Extraterrestrial solar illuminance, lx (IES RP-21, 127.5 klx).
+const SOLAR_LUX: f64 = 127_500.0;
+/// Clear-sky optical extinction coefficient (IES RP-21).
+const CLEAR_EXTINCTION: f64 = 0.21;
+/// Reflectance of weathered concrete and steel under the deck (estimate; fresh concrete 0.3 to 0.4).
+const STRUCTURE_ALBEDO: f64 = 0.25;
+/// Illuminance decays below the horizon by this rate per degree: from 800 lx at sunset to the 3.4 lx published for the end of
+/// civil twilight at -6 deg.
+const TWILIGHT_DECAY_PER_DEG: f64 = 0.91;
+/// A night sky without a moon, lx (published order of magnitude).
+const NIGHT_LUX: f64 = 0.002;
+
+/// What the sky gives at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Daylight {
+    /// Unit vector towards the sun.
+    pub sun: Vec3<Enu>,
+    /// Direct sun on a surface that faces it, lx.
+    pub direct_normal_lux: f64,
+    /// Horizontal illuminance of the whole sky without the sun, lx.
+    pub sky_lux: f64,
+}
+
+impl Daylight {
+    /// IES RP-21 daylight availability, clear and overcast mixed by cloud cover, for a direction of the sun.
+    #[must_use]
+    pub fn at(sun: Vec3<Enu>, cloud_cover: f64) -> Self {
+        let s = sun.up();
+        let cloud = cloud_cover.clamp(0.0, 1.0);
+        if s <= 0.0 {
+            let below_deg = -sun::elevation_rad(sun).to_degrees();
+            let overcast = 300.0 / 800.0;
+            let dusk = 800.0 * math::exp(-TWILIGHT_DECAY_PER_DEG * below_deg) * math::lerp(1.0, overcast, cloud);
+            return Self { sun, direct_normal_lux: 0.0, sky_lux: dusk.max(NIGHT_LUX) };
+        }
+        // Kasten and Young (1989) air mass stays finite at the horizon, unlike 1/sin.
+        let elevation_deg = sun::elevation_rad(sun).to_degrees();
+        let air_mass = 1.0 / (s + 0.505_72 * math::pow(elevation_deg + 6.079_95, -1.6364));
+        let clear = 800.0 + 15_500.0 * s.sqrt();
+        let overcast = 300.0 + 21_000.0 * s;
+        Self {
+            sun,
+            direct_normal_lux: (1.0 - cloud) * SOLAR_LUX * math::exp(-CLEAR_EXTINCTION * air_mass),
+            sky_lux: math::lerp(clear, overcast, cloud),
+        }
+    }
+}
+
+/// The light of one job: plain data, made once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LightModel {
+    light: Light,
+    place: Geo,
+    sphere: Vec<Vec3<Enu>>,
+    upper: Vec<Vec3<Enu>>,
+    disc: Vec<(f64, f64)>,
+}
+
+/// What one ray meets.
+#[derive(Debug, Clone, Copy)]
+enum Met {
+    /// The sky.
+    Sky,
+    /// Land or water beyond the ray's reach.
+    Far,
+    /// Ground or water: its albedo, the share of the sun's light on it, its normal's height.
+    Outdoors { albedo: f64, sun: f64, up: f64 },
+    /// A member, or what drives and walks: the share of the sun's light on it.
+    Structure { sun: f64 },
+}
+
+/// Sums over one bundle of rays: mean luminance share by what the rays met, times π.
+#[derive(Debug, Clone, Copy, Default)]
+struct Gathered {
+    outside_lux: f64,
+    structure_lux: f64,
+    structure_share: f64,
+}
+
+impl LightModel {
+    /// For a scenario's light at the place of its origin.
+    #[must_use]
+    pub fn new(light: &Light, place: Geo) -> Self {
+        Self { light: light.clone(), place, sphere: fibonacci(RAYS, -1.0), upper: fibonacci(SKY_RAYS, 0.0), disc: spiral(RAYS) }
+    }
+
+    /// Sun and sky at an instant.
+    #[must_use]
+    pub fn daylight(&self, at: SimTime) -> Daylight {
+        Daylight::at(sun::direction(self.light.start_unix_s as f64 + at.s(), self.place), self.light.cloud_cover)
+    }
+
+    /// Share of the upper hemisphere (by solid angle) that is open sky, 0..1.
+    #[must_use]
+    pub fn sky_view(&self, position_m: Vec3<Enu>, cast: Cast) -> f64 {
+        let open = self.upper.iter().filter(|d| cast(position_m, **d, SKY_REACH_M).is_none()).count();
+        open as f64 / self.upper.len() as f64
+    }
+
+    /// Illuminance, lx, on a surface with this outward normal, or for `None` the mean over all orientations (a quarter of what a
+    /// ball receives). No lamp.
+    #[must_use]
+    pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: SimTime, cast: Cast) -> f64 {
+        let day = self.daylight(at);
+        let origin = position_m + normal.unwrap_or_else(Vec3::zero) * LIFT_M;
+        let facing = normal.map_or(0.25, |n| n.dot(day.sun).max(0.0));
+        let lit = facing > 0.0 && day.direct_normal_lux > 0.0 && is_sunlit(origin, day.sun, cast);
+        let direct = if lit { facing * day.direct_normal_lux } else { 0.0 };
+        let gathered = match normal {
+            Some(n) => self.gather(origin, over(n, &self.disc), &day, cast),
+            None => self.gather(origin, self.sphere.iter().copied(), &day, cast),
+        };
+        direct + gathered.indirect_lux()
+    }
+
+    /// What a surface receives besides the sun itself, by the same model as [`Self::ambient_lux`]: as a share of the sky's horizontal
+    /// illuminance and as a share of the sun's on a surface that faces it. So a picture of the same place at another brightness of the
+    /// day needs no new rays. `rays` (see [`spread`]) may be fewer than the measures use.
+    #[must_use]
+    pub fn indirect_shares(
+        &self,
+        position_m: Vec3<Enu>,
+        normal: Vec3<Enu>,
+        sun: Vec3<Enu>,
+        rays: &[(f64, f64)],
+        cast: Cast,
+    ) -> (f64, f64) {
+        let origin = position_m + normal * LIFT_M;
+        let shines = sun.up() > 0.0;
+        let met: Vec<Met> = over(normal, rays).map(|direction| self.meet(origin, direction, (sun, shines), cast)).collect();
+        let under = |direct_normal_lux: f64, sky_lux: f64| {
+            let day = Daylight { sun, direct_normal_lux, sky_lux };
+            self.sum(met.iter().copied(), &day).indirect_lux()
+        };
+        (under(0.0, 1.0), if shines { under(1.0, 0.0) } else { 0.0 })
+    }
+
+    fn gather(&self, origin: Vec3<Enu>, rays: impl ExactSizeIterator<Item = Vec3<Enu>>, day: &Daylight, cast: Cast) -> Gathered {
+        let sun = (day.sun, day.direct_normal_lux > 0.0);
+        self.sum(rays.map(|direction| self.meet(origin, direction, sun, cast)), day)
+    }
+
+    /// What a ray meets; where the sun does not shine, no shadow is looked for.
+    fn meet(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: Cast) -> Met {
+        let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
+            return if direction.up() > 0.0 { Met::Sky } else { Met::Far };
+        };
+        let point = origin + direction * hit.distance_m + hit.normal * LIFT_M;
+        let facing = hit.normal.dot(sun).max(0.0);
+        let sun = if shines && facing > 0.0 && is_sunlit(point, sun, cast) { facing } else { 0.0 };
+        match self.outdoor_albedo(hit.surface) {
+            Some(albedo) => Met::Outdoors { albedo, sun, up: hit.normal.up() },
+            None => Met::Structure { sun },
+        }
+    }
+
+    fn sum(&self, met: impl ExactSizeIterator<Item = Met>, day: &Daylight) -> Gathered {
+        let share = 1.0 / met.len() as f64;
+        let mut sum = Gathered::default();
+        for met in met {
+            match met {
+                Met::Sky => sum.outside_lux += share * day.sky_lux,
+                Met::Far => sum.outside_lux += share * self.far_lux(day),
+                Met::Outdoors { albedo, sun, up } => {
+                    // Ground and water see most of the sky wherever they are seen from (estimate: the share above the horizon).
+                    sum.outside_lux += share * albedo * (sun * day.direct_normal_lux + day.sky_lux * 0.5 * (1.0 + up));
+                }
+                Met::Structure { sun } => {
+                    sum.structure_lux += share * STRUCTURE_ALBEDO * (sun * day.direct_normal_lux);
+                    sum.structure_share += share;
+                }
+            }
+        }
+        sum
+    }
+
+    /// What comes from beyond the reach of a downward ray: land and water far away, in the sun.
+    fn far_lux(&self, day: &Daylight) -> f64 {
+        let albedo = 0.5 * (self.light.water_albedo + self.light.ground_albedo);
+        albedo * (day.sky_lux + day.direct_normal_lux * day.sun.up().max(0.0))
+    }
+
+    fn outdoor_albedo(&self, surface: Surface) -> Option<f64> {
+        match surface {
+            Surface::Water => Some(self.light.water_albedo),
+            Surface::Terrain | Surface::Pad | Surface::Other => Some(self.light.ground_albedo),
+            Surface::Bridge | Surface::Vehicle | Surface::Person => None,
+        }
+    }
+}
+
+impl Gathered {
+    /// Enclosure: what is seen of the structure receives, beside its own direct sun, the same indirect light as this point.
+    fn indirect_lux(&self) -> f64 {
+        (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_share)
+    }
+}
+
+/// Nothing shades a point from the sun.
+fn is_sunlit(point: Vec3<Enu>, sun: Vec3<Enu>, cast: Cast) -> bool {
+    cast(point, sun, SHADOW_REACH_M).is_none()
+}
+
+/// A cosine-weighted bundle over the hemisphere about `n`.
+fn over(n: Vec3<Enu>, disc: &[(f64, f64)]) -> impl ExactSizeIterator<Item = Vec3<Enu>> + '_ {
+    let (a, b) = tangents(n);
+    disc.iter().map(move |(x, y)| a * *x + b * *y + n * (1.0 - x * x - y * y).max(0.0).sqrt())
+}
+
+/// Rays of a bundle of any size for [`LightModel::indirect_shares`].
+#[must_use]
+pub fn spread(count: usize) -> Vec<(f64, f64)> {
+    spiral(count.max(1))
+}
+
+/// Two unit vectors that complete a right-handed frame with `n`.
+pub(super) fn tangents(n: Vec3<Enu>) -> (Vec3<Enu>, Vec3<Enu>) {
+    let reference = if n.up().abs() < 0.9 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(1.0, 0.0, 0.0) };
+    let a = reference.cross(n).unit();
+    (a, n.cross(a))
+}
+
+/// Directions spread evenly (golden-angle spiral) over the part of the unit sphere from height `lowest` to 1.
+fn fibonacci(count: usize, lowest: f64) -> Vec<Vec3<Enu>> {
+    (0..count)
+        .map(|k| {
+            let z = 1.0 - (1.0 - lowest) * (k as f64 + 0.5) / count as f64;
+            let (s, c) = math::sin_cos(GOLDEN_ANGLE_RAD * k as f64);
+            let r = (1.0 - z * z).max(0.0).sqrt();
+            Vec3::new(r * c, r * s, z)
+        })
+        .collect()
+}
+
+/// Points spread evenly over the unit disc; lifted to the hemisphere they are cosine-weighted (Malley's method).
+fn spiral(count: usize) -> Vec<(f64, f64)> {
+    (0..count)
+        .map(|k| {
+            let r = ((k as f64 + 0.5) / count as f64).sqrt();
+            let (s, c) = math::sin_cos(GOLDEN_ANGLE_RAD * k as f64);
+            (r * c, r * s)
+        })
+        .collect()
+}
+
+/// π (3 - √5).
+const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
+
+#[cfg(test)]
+mod tests {
+    use super::super::ObjectId;
+    use super::*;
+
+    const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
+    const DOWN: Vec3<Enu> = Vec3::new(0.0, 0.0, -1.0);
+    const PLACE: Geo = Geo { latitude_deg: 46.5, longitude_deg: 0.0, altitude_m: 0.0 };
+
+    fn model(cloud_cover: f64) -> LightModel {
+        // 2024-06-20 12:00 UTC: within a minute of local noon, sun 67 deg high.
+        let light = Light { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 };
+        LightModel::new(&light, PLACE)
+    }
+
+    /// Water at up = 0 everywhere, and a deck slab `width_m` wide along east, soffit at 20 m, 1 m thick.
+    fn deck(width_m: f64) -> impl Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit> {
+        move |o, d, max| {
+            let plane = |height: f64, normal: f64| {
+                let t = (height - o.up()) / d.up();
+                let n = (o + d * t).north();
+                (t > 0.0 && t <= max).then_some((t, normal, n))
+            };
+            let slab = [plane(20.0, -1.0), plane(21.0, 1.0)]
+                .into_iter()
+                .flatten()
+                .find(|(_, normal, n)| n.abs() <= 0.5 * width_m && d.up() * normal < 0.0);
+            let water = plane(0.0, 1.0);
+            let of = |hit: (f64, f64, f64), surface| RayHit {
+                distance_m: hit.0,
+                normal: Vec3::new(0.0, 0.0, hit.1),
+                surface,
+                object: ObjectId(0),
+            };
+            match (slab, water) {
+                (Some(s), Some(w)) if w.0 < s.0 => Some(of(w, Surface::Water)),
+                (Some(s), _) => Some(of(s, Surface::Bridge)),
+                (None, Some(w)) => Some(of(w, Surface::Water)),
+                (None, None) => None,
+            }
+        }
+    }
+
+    fn nothing(_: Vec3<Enu>, _: Vec3<Enu>, _: f64) -> Option<RayHit> {
+        None
+    }
+
+    #[test]
+    fn exact_open_sky_gives_the_horizontal_illuminance_of_the_model() {
+        let m = model(0.0);
+        let day = m.daylight(SimTime::ZERO);
+        let expected = day.sky_lux + day.direct_normal_lux * day.sun.up();
+        assert!((m.ambient_lux(Vec3::zero(), Some(UP), SimTime::ZERO, &nothing) - expected).abs() < 1e-6 * expected);
+        assert_eq!(m.sky_view(Vec3::zero(), &nothing), 1.0);
+    }
+
+    #[test]
+    fn val_levels_lie_in_the_published_ranges() {
+        // domain.md 3c: sun 50 to 100 klx, overcast 5 to 20 klx, under a 12 m deck with water reflection 200 to 2000 lx.
+        let at = SimTime::ZERO;
+        let open = |m: &LightModel| m.ambient_lux(Vec3::zero(), Some(UP), at, &nothing);
+        assert!((50e3..=125e3).contains(&open(&model(0.0))), "{}", open(&model(0.0)));
+        assert!((5e3..=20.5e3).contains(&open(&model(1.0))), "{}", open(&model(1.0)));
+        let soffit = |cloud| model(cloud).ambient_lux(Vec3::new(0.0, 0.0, 20.0), Some(DOWN), at, &deck(12.0));
+        assert!((200.0..=2000.0).contains(&soffit(1.0)), "{}", soffit(1.0));
+        // In full sun the lake throws up 8 % of 100 klx, more than that range, which has no sun on the water.
+        assert!((2000.0..=10_000.0).contains(&soffit(0.0)), "{}", soffit(0.0));
+    }
+
+    #[test]
+    fn exact_the_sky_view_under_a_long_deck_is_the_analytic_solid_angle() {
+        // Under the middle of an endless strip, h below and w wide, the open share of the hemisphere is 1 - 2/π atan(w/2h).
+        // Tolerance: two rays of the set.
+        let tolerance = 2.0 / SKY_RAYS as f64;
+        for (width, height) in [(10.0, 5.0), (20.0, 4.0), (4.0, 12.0)] {
+            let below = Vec3::new(0.0, 0.0, 20.0 - height);
+            let open = model(0.0).sky_view(below, &deck(width));
+            let expected = 1.0 - 2.0 / math::PI * math::atan(0.5 * width / height);
+            assert!((open - expected).abs() <= tolerance, "{open} against {expected}");
+        }
+    }
+
+    #[test]
+    fn prop_water_brightens_a_soffit_in_proportion_to_its_albedo() {
+        let at = SimTime::ZERO;
+        let lux = |albedo: f64| {
+            let mut m = model(0.0);
+            m.light.water_albedo = albedo;
+            m.light.ground_albedo = albedo;
+            m.ambient_lux(Vec3::new(0.0, 0.0, 20.0), Some(DOWN), at, &deck(12.0))
+        };
+        assert_eq!(lux(0.0), 0.0);
+        assert!((lux(0.10) / lux(0.05) - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn exact_shares_of_the_day_are_the_ambient_light_without_the_sun_itself() {
+        for cloud in [0.0, 0.7] {
+            let m = model(cloud);
+            let (day, soffit) = (m.daylight(SimTime::ZERO), Vec3::new(0.0, 1.0, 20.0));
+            let (sky, sun) = m.indirect_shares(soffit, DOWN, day.sun, &spread(RAYS), &deck(12.0));
+            let got = sky * day.sky_lux + sun * day.direct_normal_lux;
+            let ambient = m.ambient_lux(soffit, Some(DOWN), SimTime::ZERO, &deck(12.0));
+            assert!((got / ambient - 1.0).abs() < 1e-9, "{got} against {ambient}");
+        }
+    }
+
+    #[test]
+    fn val_twilight_meets_the_published_illuminance() {
+        // End of civil twilight (-6 deg): 3.4 lx; the model's single exponential within 10 %.
+        let (s, c) = math::sin_cos((-6.0_f64).to_radians());
+        let dusk = Daylight::at(Vec3::new(c, 0.0, s), 0.0);
+        assert!((dusk.sky_lux / 3.4 - 1.0).abs() < 0.1, "{}", dusk.sky_lux);
+        assert_eq!(dusk.direct_normal_lux, 0.0);
+    }
+
+    #[test]
+    fn exact_the_mean_over_all_directions_is_a_quarter_of_the_sun_and_half_of_the_sky() {
+        let mut m = model(0.0);
+        m.light.water_albedo = 0.0;
+        m.light.ground_albedo = 0.0;
+        let day = m.daylight(SimTime::ZERO);
+        let expected = 0.25 * day.direct_normal_lux + 0.5 * day.sky_lux;
+        let got = m.ambient_lux(Vec3::new(0.0, 0.0, 50.0), None, SimTime::ZERO, &nothing);
+        assert!((got - expected).abs() < 1e-6 * expected, "{got} against {expected}");
+    }
+}

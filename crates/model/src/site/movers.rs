@@ -1,0 +1,96 @@
+//! What moves on the decks: its size as boxes, and where it is.
+
+use super::Surface;
+use super::boxes::OrientedBox;
+use crate::frames::{Enu, Vec3};
+
+/// What an object on the deck is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// 4.5 x 1.8 x 1.5 m, body and cabin.
+    Car,
+    /// 10 x 2.5 x 3.5 m, cab and box.
+    Truck,
+    /// 1.75 m tall.
+    Pedestrian,
+}
+
+/// One solid of an object: where its centre is relative to the object's place on the road (along, up) and its half extents, m.
+struct Part {
+    along_m: f64,
+    up_m: f64,
+    half_m: [f64; 3],
+}
+
+const CAR: &[Part] =
+    &[Part { along_m: 0.0, up_m: 0.5, half_m: [2.25, 0.9, 0.5] }, Part { along_m: -0.3, up_m: 1.25, half_m: [1.2, 0.8, 0.25] }];
+const TRUCK: &[Part] =
+    &[Part { along_m: 3.9, up_m: 1.4, half_m: [1.1, 1.2, 1.4] }, Part { along_m: -1.2, up_m: 1.75, half_m: [3.8, 1.25, 1.75] }];
+const PERSON: &[Part] = &[Part { along_m: 0.0, up_m: 0.875, half_m: [0.15, 0.25, 0.875] }];
+
+impl Kind {
+    /// All kinds.
+    pub(super) const ALL: [Self; 3] = [Self::Car, Self::Truck, Self::Pedestrian];
+    /// The longest reach of a kind and half its length, m.
+    pub(super) const LARGEST_REACH_M: f64 = 6.3 + 5.0;
+
+    fn parts(self) -> &'static [Part] {
+        match self {
+            Self::Car => CAR,
+            Self::Truck => TRUCK,
+            Self::Pedestrian => PERSON,
+        }
+    }
+
+    /// Half its length, m.
+    #[must_use]
+    pub fn half_length_m(self) -> f64 {
+        match self {
+            Self::Car => 2.25,
+            Self::Truck => 5.0,
+            Self::Pedestrian => 0.25,
+        }
+    }
+
+    /// Radius of the ball around the object's place on the road that holds it, m.
+    pub(super) fn reach_m(self) -> f64 {
+        match self {
+            Self::Car => 2.9,
+            Self::Truck => 6.3,
+            Self::Pedestrian => 1.8,
+        }
+    }
+
+    pub(super) fn surface(self) -> Surface {
+        match self {
+            Self::Car | Self::Truck => Surface::Vehicle,
+            Self::Pedestrian => Surface::Person,
+        }
+    }
+}
+
+/// Where an object is at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placed {
+    /// Its place on the road, m.
+    pub position_m: Vec3<Enu>,
+    /// Unit vector of travel.
+    pub forward: Vec3<Enu>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Enu>,
+}
+
+/// The solids of an object.
+pub(super) fn boxes(kind: Kind, placed: Placed) -> impl Iterator<Item = OrientedBox> {
+    kind.parts().iter().map(move |part| upright(&placed, part))
+}
+
+fn upright(placed: &Placed, part: &Part) -> OrientedBox {
+    let left = Vec3::new(0.0, 0.0, 1.0).cross(placed.forward).unit();
+    let up = placed.forward.cross(left);
+    OrientedBox {
+        centre_m: placed.position_m + placed.forward * part.along_m + up * part.up_m,
+        axes: [placed.forward, left, up],
+        half_m: part.half_m,
+    }
+}

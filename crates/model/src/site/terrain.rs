@@ -1,0 +1,174 @@
+//! How the ground of a scenario is shaped: flat, a valley with a lake, or a file; with the bridges' approaches, the openings under them and
+//! the level ground around the pad worked into it.
+
+use super::heights::HeightGrid;
+use crate::frames::Vec3;
+use crate::math;
+use crate::random::RandomStream;
+use crate::scenario::{Bridge, GroundTeam, Scenario, Terrain as Settings, TerrainSource};
+
+/// Level ground around the pad, m from its centre.
+const LEVEL_M: f64 = 16.0;
+/// Slope of earthworks: one up on this many along.
+const SLOPE: f64 = 1.2;
+/// Fall of the roads that lead away from the bridges (estimate: the steepest that highways allow in mountains).
+const ROAD_GRADE: f64 = 0.07;
+/// Room under an arch's springings that is dug free, m.
+const DIG_M: f64 = 1.0;
+/// What stands on the ground reaches at least this far into it, m.
+const HOLD_M: f64 = 0.5;
+
+/// The ground and the water level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Terrain {
+    /// The ground's surface.
+    pub ground: HeightGrid,
+    /// Water surface, m up.
+    pub water_m: f64,
+}
+
+impl Terrain {
+    /// From a scenario.
+    #[must_use]
+    pub fn new(scenario: &Scenario) -> Self {
+        let settings = &scenario.terrain;
+        let side = (settings.size_m / settings.spacing_m).round().max(1.0) as usize + 1;
+        let origin_m = -0.5 * settings.spacing_m * (side - 1) as f64;
+        let raw = Raw::new(settings);
+        let mut heights_m = Vec::with_capacity(side * side);
+        for row in 0..side {
+            for column in 0..side {
+                let east = origin_m + column as f64 * settings.spacing_m;
+                let north = origin_m + row as f64 * settings.spacing_m;
+                let natural = raw.height_m(row, column, east, north);
+                heights_m.push(worked(natural, east, north, scenario));
+            }
+        }
+        Self { ground: HeightGrid::new(heights_m, settings.spacing_m), water_m: settings.water_level_m }
+    }
+}
+
+/// Heights before earthworks.
+enum Raw<'a> {
+    Flat(f64),
+    Valley { noise: ValueNoise, settings: &'a Settings, axis: (f64, f64), lake_half_m: f64, relief_m: f64, depth_m: f64 },
+    File(&'a [Vec<f64>]),
+}
+
+impl<'a> Raw<'a> {
+    fn new(settings: &'a Settings) -> Self {
+        match &settings.source {
+            TerrainSource::Flat { height_m } => Self::Flat(*height_m),
+            TerrainSource::Valley { seed, lake_width_m, axis_deg, relief_m, lake_depth_m } => Self::Valley {
+                noise: ValueNoise::new(*seed),
+                settings,
+                axis: math::sin_cos(axis_deg.to_radians()),
+                lake_half_m: 0.5 * lake_width_m,
+                relief_m: *relief_m,
+                depth_m: *lake_depth_m,
+            },
+            TerrainSource::File { heights_m } => Self::File(heights_m),
+        }
+    }
+
+    fn height_m(&self, row: usize, column: usize, east: f64, north: f64) -> f64 {
+        match self {
+            Self::Flat(height) => *height,
+            Self::File(rows) => {
+                let row = &rows[row.min(rows.len() - 1)];
+                row[column.min(row.len() - 1)]
+            }
+            Self::Valley { noise, settings, axis, lake_half_m, relief_m, depth_m } => {
+                // Distance from the valley's axis, its shore wavering by a tenth of the lake's width.
+                let across = east * axis.1 - north * axis.0;
+                let waver = 0.1 * lake_half_m * (noise.at(east / 90.0, north / 90.0) - 0.5);
+                let d = across.abs() - lake_half_m + waver;
+                let rough = noise.at(east / 35.0 + 17.0, north / 35.0 - 5.0);
+                let water = settings.water_level_m;
+                if d < 0.0 {
+                    water - depth_m * (1.0 - math::exp(d / 12.0))
+                } else {
+                    let climb = 1.0 - math::exp(-d * d / (160.0 * 160.0));
+                    water + 5.0 * (1.0 - math::exp(-d / 8.0)) + relief_m * climb * (0.55 + 0.45 * rough) + 1.5 * rough * climb
+                }
+            }
+        }
+    }
+}
+
+/// The height after earthworks: openings under bridges, approaches to their ends, level ground around the pad.
+fn worked(natural: f64, east: f64, north: f64, scenario: &Scenario) -> f64 {
+    let spacing_m = scenario.terrain.spacing_m;
+    let height = scenario.bridges.iter().fold(natural, |h, bridge| bridge_earthworks(h, east, north, bridge, spacing_m));
+    level_pad(height, east, north, &scenario.ground_team)
+}
+
+fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacing_m: f64) -> f64 {
+    let [x, y, _] = bridge.placement().local(Vec3::new(east, north, 0.0));
+    let deck = bridge.centre_m.up();
+    let half_length = 0.5 * bridge.deck_length_m();
+    let opening = bridge.opening_half_m();
+    let off_side = (y.abs() - 0.5 * bridge.deck_width_m() - 2.0).max(0.0);
+    let cut = if x.abs() < opening + 4.0 {
+        // The ground under the span falls away from the springings so that nothing of the bridge is buried.
+        let inside = (opening + 4.0 - x.abs()).max(0.0);
+        height.min(deck - clear_depth_m(bridge) - DIG_M - 0.3 * inside + off_side / SLOPE)
+    } else {
+        // Approaches rise to just under the road's surface, which goes on level for a while and then falls to the natural ground.
+        let beyond = (x.abs() - half_length - 12.0).max(0.0);
+        let reach = if x.abs() > half_length { 0.0 } else { half_length - x.abs() };
+        height.max(deck - 0.15 - off_side / SLOPE - ROAD_GRADE * beyond - reach * 2.5)
+    };
+    // Under what stands on it the ground comes up, a cell of the grid farther out than the foot.
+    bridge.footings().iter().fold(cut, |height, foot| {
+        let out = |at: f64, (low, high): (f64, f64)| (low - at).max(at - high).max(0.0);
+        let away = (math::hypot(out(x, foot.x_m), out(y, foot.y_m)) - spacing_m).max(0.0);
+        height.max(deck + foot.up_m + HOLD_M - away / SLOPE)
+    })
+}
+
+/// How far below the deck the bridge's foot reaches at the opening's ends, m.
+fn clear_depth_m(bridge: &Bridge) -> f64 {
+    match &bridge.kind {
+        crate::scenario::BridgeKind::Arch(arch) => -arch.intrados_z_m(0.5 * arch.span_m),
+        crate::scenario::BridgeKind::Suspension(s) => s.slab_m + s.girder_depth_m,
+    }
+}
+
+fn level_pad(height: f64, east: f64, north: f64, team: &GroundTeam) -> f64 {
+    let away = math::hypot(east - team.pad_m.east(), north - team.pad_m.north());
+    let blend = ((away - LEVEL_M) / 10.0).clamp(0.0, 1.0);
+    // The pad itself lies a hand's breadth over the levelled ground.
+    math::lerp(team.pad_m.up() - 0.05, height, blend)
+}
+
+/// Smooth noise in 0..1 on a unit lattice, two octaves.
+struct ValueNoise {
+    lattice: Vec<f64>,
+}
+
+const LATTICE: usize = 64;
+
+impl ValueNoise {
+    fn new(seed: u64) -> Self {
+        let mut random = RandomStream::new(seed, "terrain");
+        Self { lattice: (0..LATTICE * LATTICE).map(|_| random.uniform()).collect() }
+    }
+
+    fn at(&self, x: f64, y: f64) -> f64 {
+        0.7 * self.octave(x, y) + 0.3 * self.octave(2.7 * x + 11.3, 2.7 * y - 7.1)
+    }
+
+    fn octave(&self, x: f64, y: f64) -> f64 {
+        let cell = |v: f64| (v.floor() as i64).rem_euclid(LATTICE as i64) as usize;
+        let fade = |v: f64| {
+            let t = v - v.floor();
+            t * t * (3.0 - 2.0 * t)
+        };
+        let (cx, cy) = (cell(x), cell(y));
+        let at = |i: usize, j: usize| self.lattice[(j % LATTICE) * LATTICE + i % LATTICE];
+        let south = math::lerp(at(cx, cy), at(cx + 1, cy), fade(x));
+        let north = math::lerp(at(cx, cy + 1), at(cx + 1, cy + 1), fade(x));
+        math::lerp(south, north, fade(y))
+    }
+}

@@ -1,0 +1,91 @@
+//! Lanes as polylines with arc length, for what moves along them.
+
+use super::movers::Placed;
+use crate::frames::{Enu, Vec3};
+
+/// A lane with its arc length.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Track {
+    pub(super) points_m: Vec<Vec3<Enu>>,
+    pub(super) arc_m: Vec<f64>,
+    pub(super) length_m: f64,
+    pub(super) loop_m: f64,
+    pub(super) speed_m_s: f64,
+    pub(super) first: usize,
+    pub(super) count: usize,
+    pub(super) reach_m: f64,
+    pub(super) band_m: (f64, f64),
+}
+
+impl Track {
+    /// Place at an arc length; beyond the ends it goes straight on.
+    pub(super) fn at(&self, s_m: f64) -> Placed {
+        let last = self.points_m.len() - 2;
+        let k = self.arc_m[1..=last].partition_point(|arc| *arc <= s_m).min(last);
+        let forward = (self.points_m[k + 1] - self.points_m[k]).unit();
+        let position_m = self.points_m[k] + forward * (s_m - self.arc_m[k]);
+        Placed { position_m, forward, velocity_m_s: forward * self.speed_m_s }
+    }
+
+    /// Arc length of the place that is nearest to a point, m; up to `beyond_m` off the ends.
+    pub(super) fn beside_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
+        let last = self.points_m.len() - 2;
+        let place = |k: usize| {
+            let (line, to) = (self.points_m[k + 1] - self.points_m[k], point_m - self.points_m[k]);
+            let length = line.norm().max(1e-9);
+            let low = if k == 0 { -beyond_m } else { 0.0 };
+            let high = if k == last { length + beyond_m } else { length };
+            let along = (to.dot(line) / length).clamp(low, high);
+            ((to - line * (along / length)).norm(), self.arc_m[k] + along)
+        };
+        (0..=last).map(place).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, arc)| arc)
+    }
+
+    pub(super) fn distance_m(&self, point_m: Vec3<Enu>) -> f64 {
+        let squared = self.points_m.windows(2).map(|w| {
+            let (line, to) = (w[1] - w[0], point_m - w[0]);
+            let t = (to.dot(line) / line.norm_squared().max(1e-12)).clamp(0.0, 1.0);
+            (to - line * t).norm_squared()
+        });
+        squared.fold(f64::INFINITY, f64::min).sqrt()
+    }
+
+    /// False when the ray surely misses everything on this lane (its height band, widened by the reach, decides).
+    pub(super) fn ray_passes(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> bool {
+        let (low, high) = self.band_m;
+        let end = origin_m.up() + direction.up() * max_m;
+        let (bottom, top) = (origin_m.up().min(end), origin_m.up().max(end));
+        top >= low - self.reach_m && bottom <= high + self.reach_m
+    }
+}
+
+/// The polyline without its collinear points: a straight deck is one segment, however finely it was drawn.
+pub(super) fn simplified(points_m: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
+    /// Deviation that counts as straight, m.
+    const STRAIGHT_M: f64 = 1e-4;
+    let mut kept: Vec<Vec3<Enu>> = Vec::new();
+    for p in points_m {
+        if kept.last().is_some_and(|l| (*p - *l).norm() < 1e-9) {
+            continue;
+        }
+        if let [.., a, b] = kept[..] {
+            let line = (*p - a).unit();
+            let off = (b - a) - line * (b - a).dot(line);
+            if off.norm() < STRAIGHT_M {
+                kept.pop();
+            }
+        }
+        kept.push(*p);
+    }
+    kept
+}
+
+pub(super) fn arc_lengths(points_m: &[Vec3<Enu>]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let mut arc = vec![0.0];
+    for w in points_m.windows(2) {
+        sum += (w[1] - w[0]).norm();
+        arc.push(sum);
+    }
+    arc
+}

@@ -1,0 +1,471 @@
+//! Cars, trucks and pedestrians on the decks, and the crew: a plan drawn from the seed, positions a pure function of simulation
+//! time. Everything on one lane has one speed (so nothing drives through another) and runs in a loop that is longer than the
+//! lane: objects come and go beyond the bridge's ends.
+
+use super::boxes::{OrientedBox, bounding_ball};
+use super::gates::Gates;
+use super::movers::{Kind, Placed, boxes};
+use super::tracks::{Track, arc_lengths, simplified};
+use super::{Contact, Nearest, ObjectId, Probe, RayHit, Surface};
+use crate::frames::{Enu, Vec3};
+use crate::math;
+use crate::random::RandomStream;
+use crate::scenario::bridges::Lane;
+use crate::scenario::{GroundTeam, Traffic as TrafficSettings};
+use crate::time::SimTime;
+
+/// Object numbers of traffic and crew start here; below are bridge members and the rest of the static site.
+pub const FIRST_OBJECT: u32 = 1_000_000;
+/// The crew's inspector.
+pub const INSPECTOR: ObjectId = ObjectId(FIRST_OBJECT - 2);
+/// The crew's truck.
+pub const CREW_TRUCK: ObjectId = ObjectId(FIRST_OBJECT - 1);
+
+/// Least spacing of vehicles in a lane, centre to centre, m (estimate: a truck and a gap).
+const VEHICLE_SPACING_M: f64 = 24.0;
+/// Least spacing of pedestrians on one walkway, m (estimate).
+const PEDESTRIAN_SPACING_M: f64 = 4.0;
+/// Stretch of the loop beyond the lane's ends, m (estimate).
+const GAP_M: f64 = 40.0;
+/// Share of the slot by which an object is shifted from even spacing.
+const JITTER: f64 = 0.25;
+/// Walking speed, m/s: 1.34 mean and 0.26 standard deviation (Fruin, Pedestrian Planning and Design).
+const WALKING_M_S: (f64, f64) = (1.34, 0.26);
+/// Spread of the speed of one lane about the mean car speed (estimate).
+const LANE_SPEED_SPREAD: f64 = 0.1;
+
+/// One object of the plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mover {
+    /// What it is.
+    pub kind: Kind,
+    /// Number within its kind, from 1.
+    pub number: u32,
+    track: usize,
+    phase_m: f64,
+}
+
+/// The plan of a session; it keeps no state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrafficPlan {
+    tracks: Vec<Track>,
+    movers: Vec<Mover>,
+    crew: Vec<(ObjectId, Surface, OrientedBox)>,
+    gates: Gates,
+}
+
+impl TrafficPlan {
+    /// Draws the plan. Objects are spread over the lanes in turn; what has no lane (no walkway, say) is left out.
+    #[must_use]
+    pub fn new(lanes: &[Lane], settings: &TrafficSettings, team: &GroundTeam, seed: u64) -> Self {
+        let mut stream = RandomStream::new(seed, "site.traffic");
+        let mut plan = Self { tracks: Vec::new(), movers: Vec::new(), crew: crew(team), gates: Gates::default() };
+        let roads: Vec<&Lane> = lanes.iter().filter(|l| !l.walkway && l.points_m.len() >= 2).collect();
+        let walkways: Vec<&Lane> = lanes.iter().filter(|l| l.walkway && l.points_m.len() >= 2).collect();
+        let mut vehicles = vec![Kind::Car; settings.cars];
+        vehicles.extend(vec![Kind::Truck; settings.trucks]);
+        // Fisher-Yates: trucks land anywhere in the row of cars.
+        for k in (1..vehicles.len()).rev() {
+            vehicles.swap(k, stream.below(k + 1));
+        }
+        let mut numbers = [0; 3];
+        for (lane, kinds) in deal(&roads, &vehicles) {
+            let speed = settings.car_speed_m_s * (1.0 + stream.range(-LANE_SPEED_SPREAD, LANE_SPEED_SPREAD));
+            plan.fill(lane, &kinds, (speed, VEHICLE_SPACING_M), &mut numbers, &mut stream);
+        }
+        for (lane, kinds) in deal(&walkways, &vec![Kind::Pedestrian; settings.pedestrians]) {
+            let speed = (WALKING_M_S.0 + WALKING_M_S.1 * stream.normal()).clamp(0.8, 1.9);
+            plan.fill(lane, &kinds, (speed, PEDESTRIAN_SPACING_M), &mut numbers, &mut stream);
+        }
+        plan
+    }
+
+    fn fill(
+        &mut self,
+        lane: &Lane,
+        kinds: &[Kind],
+        (speed_m_s, spacing_m): (f64, f64),
+        numbers: &mut [u32; 3],
+        stream: &mut RandomStream,
+    ) {
+        let points_m = simplified(&lane.points_m);
+        let arc_m = arc_lengths(&points_m);
+        let length_m = arc_m.last().copied().unwrap_or(0.0);
+        if kinds.is_empty() || length_m <= 0.0 {
+            return;
+        }
+        // Slots keep their spacing in spite of the jitter, whatever the count: a crowded lane gets a longer loop.
+        let loop_m = (length_m + GAP_M).max(kinds.len() as f64 * spacing_m / (1.0 - 2.0 * JITTER));
+        let slot_m = loop_m / kinds.len() as f64;
+        let turn_m = stream.range(0.0, loop_m);
+        let first = self.movers.len();
+        for (k, kind) in kinds.iter().enumerate() {
+            let number = &mut numbers[*kind as usize];
+            *number += 1;
+            let phase_m = (turn_m + slot_m * (k as f64 + stream.range(-JITTER, JITTER))).rem_euclid(loop_m);
+            self.movers.push(Mover { kind: *kind, number: *number, track: self.tracks.len(), phase_m });
+        }
+        let reach_m = kinds.iter().map(|k| k.reach_m() + k.half_length_m()).fold(0.0, f64::max);
+        let band_m = points_m.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |b, p| (b.0.min(p.up()), b.1.max(p.up())));
+        self.tracks.push(Track { band_m, points_m, arc_m, length_m, loop_m, speed_m_s, first, count: kinds.len(), reach_m });
+    }
+
+    /// Traffic was stopped and let go so.
+    pub fn set_gates(&mut self, gates: Gates) {
+        self.gates = gates;
+    }
+
+    /// When it was stopped and let go.
+    #[must_use]
+    pub fn gates(&self) -> &Gates {
+        &self.gates
+    }
+
+    /// The objects on the decks.
+    #[must_use]
+    pub fn movers(&self) -> &[Mover] {
+        &self.movers
+    }
+
+    /// Where a mover is; `None` while it is beyond the bridge's ends, and on a round that it could not begin because the bridge was closed.
+    #[must_use]
+    pub fn place(&self, mover: &Mover, at: SimTime) -> Option<Placed> {
+        let track = &self.tracks[mover.track];
+        let half = mover.kind.half_length_m();
+        let driven_m = (mover.phase_m + track.speed_m_s * at.s()).rem_euclid(track.loop_m);
+        let s = driven_m - half;
+        let entered = s <= track.length_m + half && self.gates.are_open_at(at.s() - driven_m / track.speed_m_s);
+        entered.then(|| track.at(s))
+    }
+
+    /// Solids of everything there is at an instant, for drawing and tests.
+    #[must_use]
+    pub fn solids(&self, at: SimTime) -> Vec<(ObjectId, Surface, OrientedBox)> {
+        let mut all = self.crew.clone();
+        for (k, mover) in self.movers.iter().enumerate() {
+            let Some(placed) = self.place(mover, at) else { continue };
+            all.extend(boxes(mover.kind, placed).map(|b| (ObjectId(FIRST_OBJECT + k as u32), mover.kind.surface(), b)));
+        }
+        all
+    }
+
+    /// Nearest traffic or crew within `max_m`.
+    #[must_use]
+    pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<Nearest> {
+        let mut best: Option<Nearest> = None;
+        self.near(position_m, max_m, at, |object, surface, solid, _| {
+            let (distance_m, point_m, normal) = solid.nearest(position_m);
+            if distance_m <= best.map_or(max_m, |b| b.distance_m) {
+                best = Some(Nearest { distance_m, point_m, normal, surface, object });
+            }
+        });
+        best
+    }
+
+    /// Least distance within `max_m` that anything on the decks may ever come to a point, m: every lane carries all vehicles of the plan, or all
+    /// who walk.
+    #[must_use]
+    pub fn nearest_ever_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
+        let mut least: Option<f64> = None;
+        let tracks = self.tracks.iter().filter(|track| track.count > 0);
+        for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + Kind::LARGEST_REACH_M) {
+            let surface = self.movers[track.first].kind.surface();
+            for kind in Kind::ALL.into_iter().filter(|kind| kind.surface() == surface && self.has(*kind)) {
+                let placed = track.at(track.beside_m(position_m, kind.half_length_m()));
+                let distance_m = boxes(kind, placed).map(|solid| solid.nearest(position_m).0).fold(max_m, f64::min);
+                least = Some(distance_m).filter(|d| *d < least.unwrap_or(max_m)).or(least);
+            }
+        }
+        least
+    }
+
+    fn has(&self, kind: Kind) -> bool {
+        self.movers.iter().any(|mover| mover.kind == kind)
+    }
+
+    /// First traffic or crew that a ray hits within `max_m`.
+    #[must_use]
+    pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit> {
+        let mut best: Option<RayHit> = None;
+        let mut test = |object, surface, solid: &OrientedBox| {
+            let reach = best.map_or(max_m, |b| b.distance_m);
+            if let Some((distance_m, normal)) = solid.ray(origin_m, direction, reach) {
+                best = Some(RayHit { distance_m, normal, surface, object });
+            }
+        };
+        for (object, surface, solid) in &self.crew {
+            test(*object, *surface, solid);
+        }
+        for track in self.tracks.iter().filter(|t| t.ray_passes(origin_m, direction, max_m)) {
+            for k in track.first..track.first + track.count {
+                let mover = &self.movers[k];
+                let Some(placed) = self.place(mover, at) else { continue };
+                let to = placed.position_m - origin_m;
+                let along = to.dot(direction).clamp(0.0, max_m);
+                let reach = mover.kind.reach_m();
+                if (to - direction * along).norm_squared() > reach * reach {
+                    continue;
+                }
+                for solid in boxes(mover.kind, placed) {
+                    test(ObjectId(FIRST_OBJECT + k as u32), mover.kind.surface(), &solid);
+                }
+            }
+        }
+        best
+    }
+
+    /// Appends contacts of a probe with traffic and crew; a mover's velocity is the contact's.
+    pub fn contacts(&self, probe: &Probe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
+        let (centre_m, radius_m) = bounding_ball(probe);
+        self.near(centre_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {
+            solid.contacts(probe, margin_m, |gap_m, point_m, normal| {
+                out.push(Contact { point_m, normal, gap_m, velocity_m_s, surface, object });
+            });
+        });
+    }
+
+    /// Name of an object of the traffic or the crew.
+    #[must_use]
+    pub fn name(&self, object: ObjectId) -> Option<String> {
+        if object == INSPECTOR {
+            return Some("inspector".into());
+        }
+        if object == CREW_TRUCK {
+            return Some("crew truck".into());
+        }
+        let mover = self.movers.get(object.0.checked_sub(FIRST_OBJECT)? as usize)?;
+        let kind = match mover.kind {
+            Kind::Car => "car",
+            Kind::Truck => "truck",
+            Kind::Pedestrian => "pedestrian",
+        };
+        Some(format!("{kind} {}", mover.number))
+    }
+
+    /// Visits every solid that may lie within `reach_m` of a point. Far from all lanes it costs one distance per lane segment.
+    fn near(
+        &self,
+        point_m: Vec3<Enu>,
+        reach_m: f64,
+        at: SimTime,
+        mut visit: impl FnMut(ObjectId, Surface, &OrientedBox, Vec3<Enu>),
+    ) {
+        for (object, surface, solid) in &self.crew {
+            if (solid.centre_m - point_m).norm() <= reach_m + solid.radius_m() {
+                visit(*object, *surface, solid, Vec3::zero());
+            }
+        }
+        for track in &self.tracks {
+            if track.distance_m(point_m) > reach_m + track.reach_m {
+                continue;
+            }
+            for k in track.first..track.first + track.count {
+                let mover = &self.movers[k];
+                let Some(placed) = self.place(mover, at) else { continue };
+                if (placed.position_m - point_m).norm() > reach_m + mover.kind.reach_m() {
+                    continue;
+                }
+                for solid in boxes(mover.kind, placed) {
+                    visit(ObjectId(FIRST_OBJECT + k as u32), mover.kind.surface(), &solid, placed.velocity_m_s);
+                }
+            }
+        }
+    }
+}
+
+/// Deals objects to lanes in turn.
+fn deal<'a>(lanes: &[&'a Lane], kinds: &[Kind]) -> Vec<(&'a Lane, Vec<Kind>)> {
+    let mut dealt: Vec<(&Lane, Vec<Kind>)> = lanes.iter().map(|l| (*l, Vec::new())).collect();
+    for (k, kind) in kinds.iter().enumerate().take(if lanes.is_empty() { 0 } else { usize::MAX }) {
+        dealt[k % lanes.len()].1.push(*kind);
+    }
+    dealt
+}
+
+fn crew(team: &GroundTeam) -> Vec<(ObjectId, Surface, OrientedBox)> {
+    let towards = |heading_deg: f64, feet: Vec3<Enu>| {
+        let (s, c) = math::sin_cos(heading_deg.to_radians());
+        Placed { position_m: feet, forward: Vec3::new(s, c, 0.0), velocity_m_s: Vec3::zero() }
+    };
+    let inspector =
+        boxes(Kind::Pedestrian, towards(team.pad_heading_deg, team.inspector_m)).map(|b| (INSPECTOR, Surface::Person, b));
+    let truck = boxes(Kind::Truck, towards(team.truck_heading_deg, team.truck_m)).map(|b| (CREW_TRUCK, Surface::Vehicle, b));
+    inspector.chain(truck).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lanes() -> Vec<Lane> {
+        let line = |north: f64, walkway: bool, backwards: bool| {
+            let mut points_m: Vec<Vec3<Enu>> =
+                (0..=40).map(|k| Vec3::new(f64::from(k) * 5.0, north, 20.0 + 0.0005 * f64::from(k * (40 - k)))).collect();
+            if backwards {
+                points_m.reverse();
+            }
+            Lane { bridge: 0, points_m, walkway }
+        };
+        vec![line(-1.8, false, false), line(1.8, false, true), line(4.5, true, false)]
+    }
+
+    fn team() -> GroundTeam {
+        GroundTeam {
+            pad_m: Vec3::new(-50.0, 0.0, 0.0),
+            pad_heading_deg: 0.0,
+            pad_half_m: 2.0,
+            inspector_m: Vec3::new(-55.0, 0.0, 0.0),
+            truck_m: Vec3::new(-60.0, 8.0, 0.0),
+            truck_heading_deg: 90.0,
+            home_radius_m: 5.0,
+        }
+    }
+
+    fn plan(seed: u64) -> TrafficPlan {
+        let settings = TrafficSettings { cars: 8, trucks: 3, pedestrians: 6, car_speed_m_s: 13.4 };
+        TrafficPlan::new(&lanes(), &settings, &team(), seed)
+    }
+
+    #[test]
+    fn prop_traffic_is_continuous_and_periodic() {
+        let plan = plan(3);
+        assert_eq!(plan.movers().len(), 17);
+        for mover in plan.movers() {
+            let track = &plan.tracks[mover.track];
+            let mut last = plan.place(mover, SimTime::ZERO);
+            for ms in (10..60_000).step_by(10) {
+                let now = plan.place(mover, SimTime::from_ms(ms));
+                if let (Some(a), Some(b)) = (last, now) {
+                    // A centimetre of slack where the lane bends.
+                    assert!((b.position_m - a.position_m).norm() < track.speed_m_s * 0.01 + 0.01, "jump at {ms} ms");
+                }
+                last = now;
+            }
+            let later = SimTime::from_s(7.0 + track.loop_m / track.speed_m_s);
+            let (a, b) = (plan.place(mover, SimTime::from_s(7.0)), plan.place(mover, later));
+            assert_eq!(a.is_some(), b.is_some());
+            if let (Some(a), Some(b)) = (a, b) {
+                assert!((a.position_m - b.position_m).norm() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn prop_nothing_leaves_its_lane_sideways_and_appears_only_beyond_the_ends() {
+        let plan = plan(9);
+        for ms in (0..120_000).step_by(250) {
+            for mover in plan.movers() {
+                let Some(p) = plan.place(mover, SimTime::from_ms(ms)) else { continue };
+                let lane = match mover.kind {
+                    Kind::Pedestrian => 4.5,
+                    Kind::Car | Kind::Truck => 1.8,
+                };
+                assert!((p.position_m.north().abs() - lane).abs() < 1e-6, "{mover:?}");
+                let half = mover.kind.half_length_m() + 1e-6;
+                assert!((-half..=200.0 + half).contains(&p.position_m.east()), "{mover:?} {p:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn prop_who_has_entered_drives_on_and_nobody_enters_a_closed_bridge() {
+        let open = plan(3);
+        let (closed_s, opened_s) = (40.0, 130.0);
+        let mut gated = open.clone();
+        gated.set_gates(Gates::from_codes([-40_000, 130_000]));
+        // The slowest walker needs so long for 200 m, and then the decks are empty; half a lane later they are full again.
+        let (mut least, mut shown) = (usize::MAX, [None; 17]);
+        for tenth in 0..4_000 {
+            let t_s = 0.1 * f64::from(tenth);
+            let at = SimTime::from_s(t_s);
+            let mut vehicles = 0;
+            for (k, mover) in open.movers().iter().enumerate() {
+                let (free, held) = (open.place(mover, at), gated.place(mover, at));
+                // A gate moves nobody: who is there is where he would be.
+                assert!(held.is_none() || held == free, "{mover:?} at {t_s} s");
+                if t_s < closed_s {
+                    assert_eq!(held, free);
+                }
+                let entered = held.is_some() && shown[k] == Some(false);
+                assert!(!entered || !(closed_s + 0.1..opened_s).contains(&t_s), "{mover:?} enters at {t_s} s");
+                let vanished = held.is_none() && shown[k] == Some(true);
+                assert!(!vanished || free.is_none(), "{mover:?} vanishes at {t_s} s");
+                shown[k] = Some(held.is_some());
+                vehicles += usize::from(held.is_some() && mover.kind != Kind::Pedestrian);
+            }
+            if (closed_s..opened_s).contains(&t_s) {
+                least = least.min(vehicles);
+            }
+        }
+        assert_eq!(least, 0, "the roads run empty");
+        let late = SimTime::from_s(399.0);
+        assert_eq!(gated.solids(late), open.solids(late), "and are as full as ever in the end");
+    }
+
+    #[test]
+    fn prop_vehicles_of_one_lane_never_overlap() {
+        let plan = plan(4);
+        for s in 0..200 {
+            let solids = plan.solids(SimTime::from_s(f64::from(s) * 1.7));
+            for (a, _, x) in &solids {
+                for (b, _, y) in solids.iter().filter(|(b, _, _)| b.0 > a.0) {
+                    assert!(x.nearest(y.centre_m).0 > 0.0, "{a:?} in {b:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn prop_culled_queries_equal_the_search_through_all_solids() {
+        let plan = plan(5);
+        let mut stream = RandomStream::new(1, "test");
+        for _ in 0..3000 {
+            let at = SimTime::from_s(stream.range(0.0, 500.0));
+            let p = Vec3::new(stream.range(-70.0, 210.0), stream.range(-8.0, 8.0), stream.range(0.0, 30.0));
+            let solids = plan.solids(at);
+            let brute = solids.iter().map(|(_, _, b)| b.nearest(p).0).fold(f64::INFINITY, f64::min);
+            let found = plan.nearest(p, 6.0, at).map(|n| n.distance_m);
+            assert_eq!(found, (brute <= 6.0).then_some(brute));
+            let d = Vec3::new(stream.normal(), stream.normal(), stream.normal()).unit();
+            let brute = solids.iter().filter_map(|(_, _, b)| b.ray(p, d, 80.0)).map(|h| h.0).fold(f64::INFINITY, f64::min);
+            assert_eq!(plan.ray(p, d, 80.0, at).map(|h| h.distance_m), brute.is_finite().then_some(brute));
+        }
+    }
+
+    #[test]
+    fn prop_a_contact_carries_the_velocity_of_the_car() {
+        let plan = plan(6);
+        let at = SimTime::from_s(12.0);
+        let (k, placed) = plan
+            .movers()
+            .iter()
+            .enumerate()
+            .find_map(|(k, m)| plan.place(m, at).filter(|_| m.kind == Kind::Truck).map(|p| (k, p)))
+            .expect("a truck is on the deck at 12 s");
+        let over = placed.position_m - placed.forward * 1.2 + Vec3::new(0.0, 0.0, 3.7);
+        let mut out = Vec::new();
+        plan.contacts(&Probe::Ball { centre_m: over, radius_m: 0.25 }, 0.01, at, &mut out);
+        assert_eq!(out.len(), 1, "{out:?}");
+        assert_eq!(out[0].surface, Surface::Vehicle);
+        assert_eq!(out[0].velocity_m_s, placed.velocity_m_s);
+        let name = plan.name(out[0].object).expect("named");
+        assert_eq!(name, format!("truck {}", plan.movers()[k].number));
+    }
+
+    #[test]
+    fn prop_another_seed_is_another_plan_and_the_same_seed_the_same() {
+        assert_eq!(plan(1), plan(1));
+        assert_ne!(plan(1), plan(2));
+    }
+
+    #[test]
+    fn exact_the_crew_is_a_person_and_a_vehicle() {
+        let plan = plan(1);
+        let hit = plan.nearest(Vec3::new(-55.0, 1.0, 1.0), 3.0, SimTime::ZERO).expect("inspector");
+        assert_eq!((hit.surface, hit.object), (Surface::Person, INSPECTOR));
+        let down = plan.ray(Vec3::new(-60.0, 8.0, 10.0), Vec3::new(0.0, 0.0, -1.0), 20.0, SimTime::ZERO).expect("truck");
+        assert_eq!(down.surface, Surface::Vehicle);
+        assert!((down.distance_m - 6.5).abs() < 1e-9);
+        assert_eq!(plan.name(CREW_TRUCK).as_deref(), Some("crew truck"));
+    }
+}

@@ -1,0 +1,370 @@
+//! The moving air: mean profile over water and ground, weather changes, 1-cosine gusts and Dryden turbulence (MIL-F-8785C, low altitude).
+//!
+//! Turbulence is driven along the vehicle's flight, so it has a state; the state is plain data and part of a snapshot. Not
+//! modelled: shelter, wakes and speed-up near the structures (the mean profile is that of open water, below 20 ft over land that of grass).
+
+use super::turbulence::{Dryden, FirstOrder, SecondOrder};
+use crate::frames::{Ned, Vec3};
+use crate::math;
+use crate::random::RandomStream;
+use crate::scenario::{Wind, WindEvent, WindModel};
+use crate::time::SimTime;
+
+/// Rate at which the air is sampled; in between it is interpolated linearly, one sample late (10 ms).
+pub const SAMPLE_RATE_HZ: i64 = 100;
+const SAMPLE_PERIOD: SimTime = SimTime::from_ms(1000 / SAMPLE_RATE_HZ);
+/// Roughness length of open water, m (domain.md 4b; the usual order for calm to moderate sea).
+const WATER_ROUGHNESS_M: f64 = 0.0003;
+/// Roughness length of open ground with grass, m (WMO guide to instruments, class 3: 0.03 m).
+const GROUND_ROUGHNESS_M: f64 = 0.03;
+/// Height of the reference wind, 20 ft in m.
+const REFERENCE_HEIGHT_M: f64 = 6.096;
+/// Turbulence falls off with the mean wind below this height, where MIL-F-8785C ends (10 ft), m (estimate: constant intensity).
+const LOWEST_TURBULENCE_M: f64 = 3.048;
+/// The profile is held below this height, m (estimate: wave height).
+const LOWEST_HEIGHT_M: f64 = 0.5;
+/// Slowest drift of the turbulence past the vehicle, m/s (estimate; keeps the time scale finite in still air).
+const LOWEST_DRIFT_M_S: f64 = 0.1;
+
+/// Mean wind at one instant: speed at 20 ft and where it comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mean {
+    /// Speed at 20 ft over the water, m/s.
+    pub speed_m_s: f64,
+    /// Comes from, rad clockwise from north.
+    pub from_rad: f64,
+}
+
+/// The air at one vehicle. Call [`WindField::update`] as simulation time advances, then [`WindField::air_velocity`] as often
+/// as the physics likes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WindField {
+    wind: Wind,
+    stream: RandomStream,
+    along: FirstOrder,
+    across: SecondOrder,
+    vertical: SecondOrder,
+    over_ground: bool,
+    next: SimTime,
+    previous_m_s: Vec3<Ned>,
+    current_m_s: Vec3<Ned>,
+}
+
+impl WindField {
+    /// The air of a scenario under the session's seed.
+    #[must_use]
+    pub fn new(wind: &Wind, seed: u64) -> Self {
+        let mut stream = RandomStream::new(seed, "wind.turbulence");
+        let along = FirstOrder::start(&mut stream);
+        let across = SecondOrder::start(&mut stream);
+        let vertical = SecondOrder::start(&mut stream);
+        let mut field = Self {
+            wind: wind.clone(),
+            stream,
+            along,
+            across,
+            vertical,
+            over_ground: false,
+            next: SimTime::ZERO,
+            previous_m_s: Vec3::zero(),
+            current_m_s: Vec3::zero(),
+        };
+        field.current_m_s = field.mean_velocity(SimTime::ZERO, REFERENCE_HEIGHT_M);
+        field.previous_m_s = field.current_m_s;
+        field
+    }
+
+    /// Brings the air up to `now` for a vehicle at `height_m` over the water or ground below that moves at `velocity_m_s` over ground. Does
+    /// work only [`SAMPLE_RATE_HZ`] times a second of simulation time. The `paper` model has still air (and a force instead).
+    pub fn update(&mut self, now: SimTime, height_m: f64, velocity_m_s: Vec3<Ned>) {
+        if self.wind.model == WindModel::Paper {
+            return;
+        }
+        while self.next <= now {
+            let sample = self.sample(self.next, height_m, velocity_m_s);
+            self.previous_m_s = if self.next == SimTime::ZERO { sample } else { self.current_m_s };
+            self.current_m_s = sample;
+            self.next += SAMPLE_PERIOD;
+        }
+    }
+
+    /// Sets what lies below the vehicle from here on: ground, which slows the air near it, or water.
+    pub fn set_over_ground(&mut self, over_ground: bool) {
+        self.over_ground = over_ground;
+    }
+
+    /// The weather changes from `at` on within `over`: speed at 20 ft, m/s, and where it comes from, degrees. Only the physical wind does.
+    pub fn change(&mut self, at: SimTime, over: SimTime, speed_m_s: f64, from_deg: f64) {
+        self.wind.events.push(WindEvent::Change { at, over, speed_m_s, from_deg });
+    }
+
+    /// Velocity of the air over ground, m/s, at an instant not later than the next sample. Zero in the `paper` model.
+    #[must_use]
+    pub fn air_velocity(&self, at: SimTime) -> Vec3<Ned> {
+        if self.wind.model == WindModel::Paper {
+            return Vec3::zero();
+        }
+        let since = (at - (self.next - SAMPLE_PERIOD)).s();
+        self.previous_m_s.lerp(self.current_m_s, (since / SAMPLE_PERIOD.s()).clamp(0.0, 1.0))
+    }
+
+    /// The `paper` model's constant force at the centre of mass, N; zero in the `physical` model. It points where the scenario's
+    /// wind blows to, upward share included.
+    #[must_use]
+    pub fn paper_force_n(&self) -> Vec3<Ned> {
+        if self.wind.model == WindModel::Physical {
+            return Vec3::zero();
+        }
+        let horizontal = blowing_to(self.wind.from_deg.to_radians());
+        let tilted = horizontal * self.wind.speed_m_s + Vec3::new(0.0, 0.0, -self.wind.up_m_s);
+        let direction = if tilted.norm() > 0.0 { tilted.unit() } else { horizontal };
+        direction * self.wind.paper_force_n
+    }
+
+    /// Mean velocity of the air with gusts and weather changes but without turbulence, m/s.
+    #[must_use]
+    pub fn mean_velocity(&self, at: SimTime, height_m: f64) -> Vec3<Ned> {
+        let mean = mean_at(&self.wind, at);
+        blowing_to(mean.from_rad) * (mean.speed_m_s * self.profile(height_m))
+            + gusts_at(&self.wind, at)
+            + Vec3::new(0.0, 0.0, -self.wind.up_m_s)
+    }
+
+    /// Speed at a height over the surface below as a multiple of the speed at 20 ft.
+    fn profile(&self, height_m: f64) -> f64 {
+        let water = profile(height_m);
+        if self.over_ground { water.min(log_profile(height_m, GROUND_ROUGHNESS_M)) } else { water }
+    }
+
+    fn sample(&mut self, at: SimTime, height_m: f64, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
+        let mean = mean_at(&self.wind, at);
+        let mean_velocity = self.mean_velocity(at, height_m);
+        if self.wind.turbulence <= 0.0 {
+            return mean_velocity;
+        }
+        let dryden = Dryden::at(height_m, mean.speed_m_s);
+        // A hovering drone does not sit in frozen air: the turbulence drifts past with the wind (Taylor's hypothesis).
+        let drift = (velocity_m_s - mean_velocity).norm().max(mean_velocity.norm()).max(LOWEST_DRIFT_M_S);
+        let travelled_m = drift * SAMPLE_PERIOD.s();
+        let u = self.along.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
+        let v = self.across.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
+        let w = self.vertical.step(travelled_m / dryden.length_vertical_m, &mut self.stream);
+        let along = blowing_to(mean.from_rad);
+        let across = Vec3::new(-along.east(), along.north(), 0.0);
+        let near_surface = (self.profile(height_m) / self.profile(LOWEST_TURBULENCE_M)).min(1.0);
+        let horizontal = dryden.sigma_horizontal_m_s * self.wind.turbulence * near_surface;
+        let vertical = dryden.sigma_vertical_m_s * self.wind.turbulence * near_surface;
+        mean_velocity + along * (u * horizontal) + across * (v * horizontal) + Vec3::new(0.0, 0.0, w * vertical)
+    }
+}
+
+/// Unit vector along which air moves that comes from `from_rad` (clockwise from north).
+fn blowing_to(from_rad: f64) -> Vec3<Ned> {
+    let (s, c) = math::sin_cos(from_rad);
+    Vec3::new(-c, -s, 0.0)
+}
+
+/// Logarithmic profile over water: speed at a height as a multiple of the speed at 20 ft.
+#[must_use]
+pub fn profile(height_m: f64) -> f64 {
+    log_profile(height_m, WATER_ROUGHNESS_M)
+}
+
+fn log_profile(height_m: f64, roughness_m: f64) -> f64 {
+    math::ln(height_m.max(LOWEST_HEIGHT_M) / roughness_m) / math::ln(REFERENCE_HEIGHT_M / roughness_m)
+}
+
+/// The mean at an instant: each change moves speed and direction linearly (direction the shorter way round).
+#[must_use]
+pub fn mean_at(wind: &Wind, at: SimTime) -> Mean {
+    let mut mean = Mean { speed_m_s: wind.speed_m_s, from_rad: wind.from_deg.to_radians() };
+    for event in &wind.events {
+        let WindEvent::Change { at: start, over, speed_m_s, from_deg } = event else { continue };
+        let since = (at - *start).s();
+        if since <= 0.0 {
+            continue;
+        }
+        let share = if over.s() > 0.0 { (since / over.s()).min(1.0) } else { 1.0 };
+        mean.speed_m_s = math::lerp(mean.speed_m_s, *speed_m_s, share);
+        mean.from_rad += math::wrap_pi(from_deg.to_radians() - mean.from_rad) * share;
+    }
+    mean
+}
+
+/// Sum of the 1-cosine gusts at an instant: peak/2 (1 - cos(2 pi t/duration)), zero outside.
+fn gusts_at(wind: &Wind, at: SimTime) -> Vec3<Ned> {
+    wind.events.iter().fold(Vec3::zero(), |sum, event| match event {
+        WindEvent::Gust { at: start, duration, peak_m_s, from_deg } => {
+            let since = (at - *start).s();
+            let inside = since > 0.0 && since < duration.s();
+            let speed = if inside { 0.5 * peak_m_s * (1.0 - math::cos(math::TAU * since / duration.s())) } else { 0.0 };
+            sum + blowing_to(from_deg.to_radians()) * speed
+        }
+        WindEvent::Change { .. } => sum,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wind() -> Wind {
+        Wind {
+            model: WindModel::Physical,
+            speed_m_s: 4.917,
+            paper_force_n: 3.0,
+            from_deg: 0.0,
+            up_m_s: 0.0,
+            turbulence: 1.0,
+            events: Vec::new(),
+        }
+    }
+
+    /// Turbulence alone for `seconds`, sampled at the model's own rate.
+    fn turbulence(wind: &Wind, seconds: i64, height_m: f64, airspeed_m_s: f64) -> Vec<Vec3<Ned>> {
+        let mut field = WindField::new(wind, 11);
+        let mean = field.mean_velocity(SimTime::ZERO, height_m);
+        let velocity = mean + Vec3::new(airspeed_m_s, 0.0, 0.0);
+        (0..seconds * SAMPLE_RATE_HZ)
+            .map(|k| {
+                field.update(SimTime::from_ms(k * 10), height_m, velocity);
+                field.current_m_s - mean
+            })
+            .collect()
+    }
+
+    fn correlation(values: &[f64], lag: usize) -> f64 {
+        let pairs = values.len() - lag;
+        (0..pairs).map(|k| values[k] * values[k + lag]).sum::<f64>() / pairs as f64
+    }
+
+    #[test]
+    fn exact_turbulence_has_the_standards_variance_and_length_scales() {
+        const HEIGHT_M: f64 = 10.0;
+        const AIRSPEED_M_S: f64 = 25.0;
+        // Relative; 30 000 s hold 11 000 time scales of the slowest component: one standard error is 1.4 %.
+        const VARIANCE_TOLERANCE: f64 = 0.05;
+        // Of the correlation coefficient at a lag of one time scale; five standard errors.
+        const CORRELATION_TOLERANCE: f64 = 0.05;
+        let samples = turbulence(&wind(), 30_000, HEIGHT_M, AIRSPEED_M_S);
+        let d = Dryden::at(HEIGHT_M, 4.917);
+        // Coming from north, the air moves along -north; correlation at one time scale: 1/e first order, 1/(2e) second order.
+        let axes: [(Vec<f64>, f64, f64, f64); 3] = [
+            (samples.iter().map(|s| s.north()).collect(), d.sigma_horizontal_m_s, d.length_horizontal_m, 1.0),
+            (samples.iter().map(|s| s.east()).collect(), d.sigma_horizontal_m_s, d.length_horizontal_m, 0.5),
+            (samples.iter().map(|s| s.down()).collect(), d.sigma_vertical_m_s, d.length_vertical_m, 0.5),
+        ];
+        for (values, sigma, length, factor) in axes {
+            let variance = correlation(&values, 0);
+            assert!((variance / (sigma * sigma) - 1.0).abs() < VARIANCE_TOLERANCE, "{variance} against {}", sigma * sigma);
+            let lag = (length / AIRSPEED_M_S * SAMPLE_RATE_HZ as f64).round();
+            let scales = lag * AIRSPEED_M_S / SAMPLE_RATE_HZ as f64 / length;
+            let expected = math::exp(-scales) * (1.0 - scales * (1.0 - factor));
+            let measured = correlation(&values, lag as usize) / variance;
+            assert!((measured - expected).abs() < CORRELATION_TOLERANCE, "{measured} against {expected}");
+        }
+    }
+
+    #[test]
+    fn exact_wind_from_north_moves_air_south_and_from_east_moves_it_west() {
+        let mut w = wind();
+        w.turbulence = 0.0;
+        let at_reference = |w: &Wind| WindField::new(w, 1).mean_velocity(SimTime::ZERO, REFERENCE_HEIGHT_M);
+        assert!((at_reference(&w) - Vec3::new(-4.917, 0.0, 0.0)).norm() < 1e-12);
+        w.from_deg = 90.0;
+        assert!((at_reference(&w) - Vec3::new(0.0, -4.917, 0.0)).norm() < 1e-12);
+        w.up_m_s = 1.0;
+        assert!((at_reference(&w).down() + 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn exact_ground_slows_the_air_below_the_reference_height_alone() {
+        let mut w = wind();
+        w.turbulence = 0.0;
+        let speed = |over_ground: bool, height_m: f64| {
+            let mut field = WindField::new(&w, 1);
+            field.set_over_ground(over_ground);
+            field.mean_velocity(SimTime::ZERO, height_m).norm() / 4.917
+        };
+        // ln(1/0.03)/ln(6.096/0.03), by hand; and the two profiles meet at 20 ft.
+        assert!((speed(true, 1.0) - 0.6598).abs() < 1e-3, "{}", speed(true, 1.0));
+        assert!((speed(true, REFERENCE_HEIGHT_M) - 1.0).abs() < 1e-12);
+        assert_eq!(speed(true, 20.0), speed(false, 20.0));
+    }
+
+    #[test]
+    fn exact_a_gust_moves_air_by_half_its_peak_times_its_length() {
+        let mut w = wind();
+        w.speed_m_s = 0.0;
+        w.events =
+            vec![WindEvent::Gust { at: SimTime::from_s(2.0), duration: SimTime::from_s(4.0), peak_m_s: 6.0, from_deg: 180.0 }];
+        let field = WindField::new(&w, 1);
+        // The trapezoid rule is exact for a whole period of a cosine, so only rounding remains.
+        let dt_s = 0.01;
+        let travelled: f64 = (0..1000).map(|k| field.mean_velocity(SimTime::from_ms(10 * k), 6.0).north() * dt_s).sum();
+        assert!((travelled - 12.0).abs() < 1e-9, "{travelled}");
+        assert!((field.mean_velocity(SimTime::from_s(4.0), 6.0).north() - 6.0).abs() < 1e-12);
+        assert_eq!(field.mean_velocity(SimTime::from_s(6.5), 6.0).norm(), 0.0);
+    }
+
+    #[test]
+    fn exact_a_change_ramps_speed_and_turns_the_shorter_way() {
+        let mut w = wind();
+        w.from_deg = 350.0;
+        w.events =
+            vec![WindEvent::Change { at: SimTime::from_s(10.0), over: SimTime::from_s(20.0), speed_m_s: 8.917, from_deg: 10.0 }];
+        let half = mean_at(&w, SimTime::from_s(20.0));
+        assert!((half.speed_m_s - 6.917).abs() < 1e-12);
+        assert!(math::wrap_pi(half.from_rad).abs() < 1e-12);
+        assert!((mean_at(&w, SimTime::from_s(99.0)).speed_m_s - 8.917).abs() < 1e-12);
+        assert_eq!(mean_at(&w, SimTime::from_s(9.0)).speed_m_s, 4.917);
+    }
+
+    #[test]
+    fn prop_the_same_seed_gives_the_same_bits_and_a_clone_goes_on_alike() {
+        let run = |seed: u64| {
+            let mut field = WindField::new(&wind(), seed);
+            let mut copy = None;
+            for k in 0..5000 {
+                field.update(SimTime::from_ms(k), 12.0, Vec3::new(1.0, 2.0, 0.0));
+                if k == 2500 {
+                    copy = Some(field.clone());
+                }
+            }
+            let mut copy = copy.expect("taken at 2500");
+            copy.update(SimTime::from_ms(4999), 12.0, Vec3::new(1.0, 2.0, 0.0));
+            assert_eq!(copy.air_velocity(SimTime::from_ms(4999)), field.air_velocity(SimTime::from_ms(4999)));
+            field.air_velocity(SimTime::from_ms(4999))
+        };
+        assert_eq!(run(5), run(5));
+        assert_ne!(run(5), run(6));
+    }
+
+    #[test]
+    fn prop_air_velocity_is_continuous() {
+        // Between two milliseconds the air changes by at most a tenth of the jump between two samples, before or after a sample.
+        let mut field = WindField::new(&wind(), 3);
+        let (mut last, mut last_jump) = (None, 0.0_f64);
+        for k in 0..20_000 {
+            let now = SimTime::from_ms(k);
+            field.update(now, 5.0, Vec3::zero());
+            let air = field.air_velocity(now);
+            let jump = (field.current_m_s - field.previous_m_s).norm();
+            let bound = 0.1 * jump.max(last_jump) + 1e-12;
+            assert!(last.is_none_or(|l: Vec3<Ned>| (air - l).norm() <= bound), "at {now}");
+            (last, last_jump) = (Some(air), jump);
+        }
+    }
+
+    #[test]
+    fn exact_the_paper_model_is_a_force_in_still_air() {
+        let mut w = wind();
+        w.model = WindModel::Paper;
+        let mut field = WindField::new(&w, 1);
+        field.update(SimTime::from_s(1.0), 5.0, Vec3::zero());
+        assert_eq!(field.air_velocity(SimTime::from_s(1.0)), Vec3::zero());
+        assert!((field.paper_force_n() - Vec3::new(-3.0, 0.0, 0.0)).norm() < 1e-12);
+        w.model = WindModel::Physical;
+        assert_eq!(WindField::new(&w, 1).paper_force_n(), Vec3::zero());
+    }
+}

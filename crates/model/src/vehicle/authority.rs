@@ -1,0 +1,83 @@
+//! Whether rotors at their places can hold an aircraft in the air and turn it about every axis.
+
+use super::{Rotor, RotorModel};
+use crate::math::{self, GRAVITY_M_S2};
+use nalgebra::{DMatrix, DVector};
+
+/// Smallest singular value, as a share of the largest, of the map from rotor thrusts to lift and moments (lengths in units of the
+/// longest arm, yaw in units of one spin) that still counts as authority (estimate; a square quadrotor has 0.7).
+const LEAST_SHARE: f64 = 0.05;
+
+/// What is wrong, or `None`.
+#[must_use]
+pub fn lacking(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Option<&'static str> {
+    let arm_m = rotors.iter().map(|rotor| math::hypot(rotor.position_m.forward(), rotor.position_m.right())).fold(0.0, f64::max);
+    if rotors.len() < 4 || arm_m <= 0.0 {
+        return Some("four rotors at least, away from the centre of mass, lift and turn about three axes");
+    }
+    let entry = |row: usize, column: usize| match (row, &rotors[column]) {
+        (0, _) => 1.0,
+        (1, rotor) => -rotor.position_m.right() / arm_m,
+        (2, rotor) => rotor.position_m.forward() / arm_m,
+        (_, rotor) => -rotor.spin,
+    };
+    let map = DMatrix::from_fn(4, rotors.len(), entry).svd(true, true);
+    if map.singular_values.min() < LEAST_SHARE * map.singular_values.max() {
+        return Some("not in a line, and some of each spin, so that they turn it about three axes");
+    }
+    let weight = DVector::from_vec(vec![mass_kg * GRAVITY_M_S2, 0.0, 0.0, 0.0]);
+    let most_n = model.thrust_coefficient_n_s2 * model.max_speed_rad_s * model.max_speed_rad_s;
+    let hover = map.solve(&weight, 0.0).ok()?;
+    let holds = hover.iter().all(|thrust_n| (0.0..=most_n).contains(thrust_n));
+    (!holds).then_some("around the centre of mass, so that a level hover takes from each what it can give")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::Vec3;
+
+    const MODEL: RotorModel = RotorModel {
+        radius_m: 0.12,
+        thrust_coefficient_n_s2: 1e-5,
+        torque_coefficient_n_m_s2: 1e-7,
+        time_constant_s: 0.05,
+        max_speed_rad_s: 900.0,
+        idle_speed_rad_s: 100.0,
+        inertia_kg_m2: 0.0,
+        drag_coefficient_n_s2_m: 0.0,
+        efficiency: 0.6,
+    };
+
+    fn rotors(places: &[(f64, f64, f64)]) -> Vec<Rotor> {
+        places.iter().map(|(x, y, spin)| Rotor { position_m: Vec3::new(*x, *y, 0.0), spin: *spin }).collect()
+    }
+
+    #[test]
+    fn exact_a_square_and_a_hexagon_have_authority() {
+        assert_eq!(
+            lacking(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, -1.0), (-0.2, 0.2, -1.0)]), &MODEL, 1.2),
+            None
+        );
+        let hexagon: Vec<(f64, f64, f64)> = (0..6)
+            .map(|k| {
+                let (sine, cosine) = crate::math::sin_cos(f64::from(k) * crate::math::PI / 3.0);
+                (0.3 * cosine, 0.3 * sine, if k % 2 == 0 { 1.0 } else { -1.0 })
+            })
+            .collect();
+        assert_eq!(lacking(&rotors(&hexagon), &MODEL, 1.2), None);
+    }
+
+    #[test]
+    fn exact_three_rotors_a_line_one_spin_and_a_heap_on_one_side_have_none() {
+        assert!(lacking(&rotors(&[(0.2, 0.2, 1.0), (-0.2, 0.0, -1.0), (0.2, -0.2, -1.0)]), &MODEL, 1.2).is_some());
+        assert!(
+            lacking(&rotors(&[(0.3, 0.0, 1.0), (0.1, 0.0, -1.0), (-0.1, 0.0, 1.0), (-0.3, 0.0, -1.0)]), &MODEL, 1.2).is_some()
+        );
+        assert!(
+            lacking(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, 1.0), (-0.2, 0.2, 1.0)]), &MODEL, 1.2).is_some()
+        );
+        let aside = [(0.5, 0.2, 1.0), (0.1, -0.2, 1.0), (0.5, -0.2, -1.0), (0.1, 0.2, -1.0)];
+        assert!(lacking(&rotors(&aside), &MODEL, 1.2).is_some());
+    }
+}

@@ -1,0 +1,258 @@
+//! The aircraft: one TOML file per aircraft in `vehicle-params/`, read into validated types. Every key carries its unit;
+//! every number its source or the word estimate (vehicle-params/README.md, checked against this code by a test).
+
+mod authority;
+mod read;
+
+pub use read::{FORMAT, read, read_asked};
+
+use crate::frames::{Frd, Vec3};
+use crate::math;
+
+/// A validated aircraft. Body frame: forward, right, down from the centre of mass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vehicle {
+    /// File stem, e.g. `phantom2`.
+    pub id: String,
+    /// Display name.
+    pub name: String,
+    /// Take-off mass, kg.
+    pub mass_kg: f64,
+    /// Principal moments of inertia about forward, right, down, kg m².
+    pub inertia_kg_m2: [f64; 3],
+    /// Rotors in motor order (PX4 quad-x: front right, rear left, front left, rear right).
+    pub rotors: Vec<Rotor>,
+    /// What all rotors share.
+    pub rotor: RotorModel,
+    /// Body drag.
+    pub drag: Drag,
+    /// Collision hull and contact behaviour.
+    pub hull: Hull,
+    /// Battery.
+    pub battery: Battery,
+    /// What the flight controller allows.
+    pub limits: FlightLimits,
+    /// Sensor errors and rates.
+    pub sensors: Sensors,
+    /// Camera and gimbal.
+    pub camera: Camera,
+    /// Lamp.
+    pub lamp: Lamp,
+}
+
+/// Where one rotor sits and how it turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rotor {
+    /// Hub position, m.
+    pub position_m: Vec3<Frd>,
+    /// +1 when it turns counter-clockwise seen from above (its reaction torque turns the body clockwise, positive yaw), else -1.
+    pub spin: f64,
+}
+
+/// The rotor model shared by all rotors: T = k_T w², Q = k_Q w².
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotorModel {
+    /// Rotor disc radius, m.
+    pub radius_m: f64,
+    /// k_T, N/(rad/s)².
+    pub thrust_coefficient_n_s2: f64,
+    /// k_Q, N m/(rad/s)².
+    pub torque_coefficient_n_m_s2: f64,
+    /// First-order motor lag, s.
+    pub time_constant_s: f64,
+    /// Speed at full command, rad/s.
+    pub max_speed_rad_s: f64,
+    /// Speed at zero command while armed, rad/s.
+    pub idle_speed_rad_s: f64,
+    /// Rotor moment of inertia about its axis, kg m².
+    pub inertia_kg_m2: f64,
+    /// In-plane rotor drag (H-force) per rotor: N per (rad/s) per (m/s) of in-plane air speed.
+    pub drag_coefficient_n_s2_m: f64,
+    /// Share of electrical power that becomes induced power in hover, 0..1.
+    pub efficiency: f64,
+}
+
+/// Quadratic body drag, F = -½ rho CdA |v_air| v_air per axis, and linear angular damping.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drag {
+    /// Drag area CdA along forward, right, down, m².
+    pub area_m2: [f64; 3],
+    /// Angular damping about forward, right, down, N m/(rad/s).
+    pub angular_n_m_s: [f64; 3],
+}
+
+/// What touches: the hull is the union of convex parts built from these numbers (arms, rotor discs or cage, feet, body).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hull {
+    /// Distance between the outermost points of opposite rotor tips (or the cage's diameter), m.
+    pub tip_to_tip_m: f64,
+    /// A cage or bumpers all around: a contact does not touch the rotors.
+    pub caged: bool,
+    /// Body box half extents forward, right, down, m.
+    pub body_half_extent_m: [f64; 3],
+    /// Landing-gear contact points, m.
+    pub feet_m: Vec<Vec3<Frd>>,
+    /// Coefficient of restitution, 0..1.
+    pub restitution: f64,
+    /// Coulomb friction coefficient.
+    pub friction: f64,
+}
+
+/// Lithium-polymer battery.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Battery {
+    /// Cells in series.
+    pub cells: u32,
+    /// Capacity, A h.
+    pub capacity_ah: f64,
+    /// Internal resistance of the pack, ohm.
+    pub internal_resistance_ohm: f64,
+    /// Open-circuit voltage per cell at state of charge 0, 0.1, … 1.0, V (11 values, rising).
+    pub ocv_cell_v: [f64; 11],
+    /// Avionics load, W.
+    pub avionics_w: f64,
+    /// Lamp load when on, W.
+    pub lamp_w: f64,
+    /// Endurance of the `paper` battery: linear from 100 % to 0 %, s.
+    pub paper_endurance_s: f64,
+}
+
+/// What the flight controller lets a pilot command.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlightLimits {
+    /// Forward and backward speed at full stick in position mode, m/s.
+    pub forward_m_s: f64,
+    /// Sideward speed at full stick, m/s.
+    pub sideward_m_s: f64,
+    /// Climb speed at full stick, m/s.
+    pub climb_m_s: f64,
+    /// Descent speed at full stick, m/s.
+    pub descend_m_s: f64,
+    /// Yaw rate at full stick, rad/s.
+    pub yaw_rate_rad_s: f64,
+    /// Largest tilt, rad.
+    pub tilt_rad: f64,
+    /// Largest roll and pitch rate, rad/s.
+    pub rate_rad_s: f64,
+    /// Time from full speed to rest when the stick is let go, s (the paper's slow-down time).
+    pub slow_down_time_s: f64,
+}
+
+/// Sensor rates and errors: white noise as standard deviation per sample, bias as standard deviation at start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensors {
+    /// Accelerometer and gyroscope rate, Hz.
+    pub imu_rate_hz: f64,
+    /// Accelerometer noise density, m/s²/sqrt(Hz).
+    pub accel_noise_density: f64,
+    /// Accelerometer bias at start, m/s².
+    pub accel_bias_m_s2: f64,
+    /// Gyroscope noise density, rad/s/sqrt(Hz).
+    pub gyro_noise_density: f64,
+    /// Gyroscope bias at start, rad/s.
+    pub gyro_bias_rad_s: f64,
+    /// GNSS rate, Hz.
+    pub gnss_rate_hz: f64,
+    /// GNSS horizontal position noise under an open sky, m.
+    pub gnss_horizontal_m: f64,
+    /// GNSS vertical position noise under an open sky, m.
+    pub gnss_vertical_m: f64,
+    /// GNSS velocity noise, m/s.
+    pub gnss_velocity_m_s: f64,
+    /// Barometer rate, Hz.
+    pub baro_rate_hz: f64,
+    /// Barometer noise, m.
+    pub baro_noise_m: f64,
+    /// Barometer drift (random walk), m/sqrt(s).
+    pub baro_drift_m_sqrt_s: f64,
+    /// Magnetometer rate, Hz.
+    pub mag_rate_hz: f64,
+    /// Magnetometer noise, gauss.
+    pub mag_noise_gauss: f64,
+    /// Magnetometer bias in each body axis: what calibration leaves of the aircraft's own field, gauss.
+    pub mag_bias_gauss: f64,
+    /// Range finder rate, Hz.
+    pub range_rate_hz: f64,
+    /// Range finder noise, m.
+    pub range_noise_m: f64,
+    /// Bias of each range finder, m.
+    pub range_bias_m: f64,
+    /// Range finder reach, m.
+    pub range_max_m: f64,
+    /// Optical-flow horizontal velocity noise, m/s, where light and texture suffice; 0 means that none is fitted.
+    pub flow_velocity_m_s: f64,
+}
+
+/// Camera on a pitch gimbal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Lens position, m.
+    pub position_m: Vec3<Frd>,
+    /// Image width, px.
+    pub width_px: u32,
+    /// Image height, px.
+    pub height_px: u32,
+    /// Horizontal field of view, rad; of a zoom lens at its wide end.
+    pub hfov_rad: f64,
+    /// Longest focal length of the lens over its shortest; 1 for a lens that does not zoom.
+    pub zoom_max: f64,
+    /// f-number.
+    pub f_number: f64,
+    /// Largest ISO sensitivity.
+    pub iso_max: f64,
+    /// Longest exposure that still counts as sharp, s.
+    pub exposure_max_s: f64,
+    /// Gimbal pitch range, rad; negative looks down.
+    pub gimbal_pitch_min_rad: f64,
+    /// Upper end of the gimbal range, rad.
+    pub gimbal_pitch_max_rad: f64,
+    /// Gimbal rate, rad/s.
+    pub gimbal_rate_rad_s: f64,
+}
+
+/// Width of the sensor, mm (1/2.3 inch; estimate): focal lengths in mm follow from the field of view.
+pub const SENSOR_MM: f64 = 6.17;
+
+impl Camera {
+    /// Focal length, mm.
+    #[must_use]
+    pub fn focal_mm(&self) -> f64 {
+        0.5 * SENSOR_MM / math::tan(0.5 * self.hfov_rad)
+    }
+
+    /// Width of its pictures over their height.
+    #[must_use]
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.width_px) / f64::from(self.height_px)
+    }
+
+    /// Focal length in pixels of the ideal pinhole.
+    #[must_use]
+    pub fn focal_px(&self) -> f64 {
+        0.5 * f64::from(self.width_px) / math::tan(0.5 * self.hfov_rad)
+    }
+
+    /// Vertical field of view, rad.
+    #[must_use]
+    pub fn vfov_rad(&self) -> f64 {
+        2.0 * math::atan2(0.5 * f64::from(self.height_px), self.focal_px())
+    }
+
+    /// The camera at `ratio` times its shortest focal length; at the wide end it is the same to the bit.
+    #[must_use]
+    pub fn zoomed(&self, ratio: f64) -> Self {
+        if ratio <= 1.0 {
+            return *self;
+        }
+        Self { hfov_rad: 2.0 * math::atan2(math::tan(0.5 * self.hfov_rad), ratio), ..*self }
+    }
+}
+
+/// Lamp that looks where the camera looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lamp {
+    /// Luminous flux, lm; 0 means that none is fitted.
+    pub flux_lm: f64,
+    /// Full beam angle, rad.
+    pub beam_rad: f64,
+}

@@ -1,0 +1,236 @@
+//! Vehicle files into [`Vehicle`]: every key with its unit, range and default.
+
+use super::{Battery, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, Sensors, Vehicle};
+use crate::frames::Vec3;
+use crate::math::{self, GRAVITY_M_S2};
+use crate::toml::{Asked, Problems, Reader, Section};
+use std::collections::BTreeMap;
+
+/// Newest format that this program reads.
+pub const FORMAT: i64 = 1;
+const MOST_ROTORS: usize = 8;
+/// Full thrust over weight that control needs (estimate; multicopters in use have 1.8 and more).
+const LEAST_LIFT: f64 = 1.2;
+
+/// Reads a vehicle file. `file` is its name for messages; its stem becomes [`Vehicle::id`].
+///
+/// # Errors
+/// Everything that is wrong with the file, each with line, key, value and allowed range.
+pub fn read(file: &str, text: &str) -> Result<Vehicle, Problems> {
+    read_asked(file, text).0
+}
+
+/// Reads a vehicle file and tells which keys were asked for (for the documentation test).
+pub fn read_asked(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMap<String, Asked>) {
+    let mut reader = Reader::new(file, text);
+    let vehicle = reader.parse().map(|document| {
+        let mut root = reader.root(&document);
+        let vehicle = whole(&mut reader, &mut root, file);
+        reader.finish(&root);
+        vehicle
+    });
+    let result = match vehicle {
+        Some(vehicle) if reader.problems.is_empty() => Ok(vehicle),
+        _ => Err(Problems(reader.problems)),
+    };
+    (result, reader.asked)
+}
+
+fn stem(file: &str) -> String {
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    name.strip_suffix(".toml").unwrap_or(name).to_string()
+}
+
+fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
+    r.whole(root, "format", (1, FORMAT), None);
+    let name = r.text(root, "name", None);
+    let mass_kg = r.number(root, "mass_kg", (0.05, 50.0), None);
+    let inertia_kg_m2 = r.numbers(root, "inertia_kg_m2", (1e-6, 50.0), None);
+    let (rotors, rotor) = rotors(r, root);
+    let lift_kg =
+        rotors.len() as f64 * rotor.thrust_coefficient_n_s2 * rotor.max_speed_rad_s * rotor.max_speed_rad_s / GRAVITY_M_S2;
+    if lift_kg < LEAST_LIFT * mass_kg && r.problems.is_empty() {
+        let most = format!("at most {:.3}: the rotors lift {lift_kg:.3} kg", lift_kg / LEAST_LIFT);
+        r.complain(root, "mass_kg", &mass_kg.to_string(), &most, "too heavy to fly");
+    }
+    if r.problems.is_empty()
+        && let Some(allowed) = super::authority::lacking(&rotors, &rotor, mass_kg)
+    {
+        let places = rotors.iter().map(|rotor| format!("{:?}", rotor.position_m.array())).collect::<Vec<_>>().join(", ");
+        r.complain(root, "rotors.position_m", &places, allowed, "the rotors cannot hold and turn it");
+    }
+    Vehicle {
+        id: stem(file),
+        name,
+        mass_kg,
+        inertia_kg_m2,
+        rotors,
+        rotor,
+        drag: drag(r, root),
+        hull: hull(r, root),
+        battery: battery(r, root),
+        limits: limits(r, root),
+        sensors: sensors(r, root),
+        camera: camera(r, root),
+        lamp: lamp(r, root),
+    }
+}
+
+fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
+    let mut s = r.section(root, "rotors");
+    let places = r.points(&mut s, "position_m", (-5.0, 5.0));
+    let spins = r.wholes(&mut s, "spin", (-1, 1));
+    if places.len() < 4 || places.len() > MOST_ROTORS || places.len() != spins.len() || spins.contains(&0) {
+        r.complain(&s, "spin", "", "4 to 8 rotors, one spin of -1 or 1 each", "rotors and spins do not match");
+    }
+    let model = RotorModel {
+        radius_m: r.number(&mut s, "radius_m", (0.01, 1.0), None),
+        thrust_coefficient_n_s2: r.number(&mut s, "thrust_coefficient_n_s2", (1e-9, 1e-2), None),
+        torque_coefficient_n_m_s2: r.number(&mut s, "torque_coefficient_n_m_s2", (1e-12, 1e-3), None),
+        time_constant_s: r.number(&mut s, "time_constant_s", (0.005, 0.5), None),
+        max_speed_rad_s: r.number(&mut s, "max_speed_rad_s", (50.0, 10_000.0), None),
+        idle_speed_rad_s: r.number(&mut s, "idle_speed_rad_s", (0.0, 2_000.0), None),
+        inertia_kg_m2: r.number(&mut s, "inertia_kg_m2", (0.0, 0.1), None),
+        drag_coefficient_n_s2_m: r.number(&mut s, "drag_coefficient_n_s2_m", (0.0, 0.01), None),
+        efficiency: r.number(&mut s, "efficiency", (0.1, 1.0), None),
+    };
+    if model.idle_speed_rad_s >= model.max_speed_rad_s {
+        r.complain(&s, "idle_speed_rad_s", &model.idle_speed_rad_s.to_string(), "less than max_speed_rad_s", "too fast");
+    }
+    r.finish(&s);
+    let rotors = places.iter().zip(&spins).map(|(p, spin)| Rotor { position_m: Vec3::new(p[0], p[1], p[2]), spin: *spin as f64 });
+    (rotors.collect(), model)
+}
+
+fn drag(r: &mut Reader, root: &mut Section) -> Drag {
+    let mut s = r.section(root, "drag");
+    let drag = Drag {
+        area_m2: r.numbers(&mut s, "area_m2", (0.0, 5.0), None),
+        angular_n_m_s: r.numbers(&mut s, "angular_n_m_s", (0.0, 1.0), None),
+    };
+    r.finish(&s);
+    drag
+}
+
+/// Feet that a body stands on.
+const LEAST_FEET: usize = 3;
+
+fn hull(r: &mut Reader, root: &mut Section) -> Hull {
+    let mut s = r.section(root, "hull");
+    let hull = Hull {
+        tip_to_tip_m: r.number(&mut s, "tip_to_tip_m", (0.05, 5.0), None),
+        caged: r.flag(&mut s, "caged", false),
+        body_half_extent_m: r.numbers(&mut s, "body_half_extent_m", (0.005, 2.0), None),
+        feet_m: r.points(&mut s, "feet_m", (-2.0, 2.0)).iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect(),
+        restitution: r.number(&mut s, "restitution", (0.0, 0.95), None),
+        friction: r.number(&mut s, "friction", (0.0, 2.0), None),
+    };
+    // A ball does not stand: wind rolls it.
+    let cage_m = 0.5 * hull.tip_to_tip_m;
+    let carrying = hull.feet_m.iter().filter(|foot| foot.down() >= cage_m).count();
+    if hull.caged && carrying < LEAST_FEET {
+        let allowed = format!("at least {LEAST_FEET} feet {cage_m} m or more below the center");
+        r.complain(&s, "feet_m", "", &allowed, "the aircraft would stand on its round cage and roll");
+    }
+    r.finish(&s);
+    hull
+}
+
+fn battery(r: &mut Reader, root: &mut Section) -> Battery {
+    let mut s = r.section(root, "battery");
+    let battery = Battery {
+        cells: r.whole(&mut s, "cells", (1, 14), None) as u32,
+        capacity_ah: r.number(&mut s, "capacity_ah", (0.1, 100.0), None),
+        internal_resistance_ohm: r.number(&mut s, "internal_resistance_ohm", (0.0, 1.0), None),
+        ocv_cell_v: r.numbers(&mut s, "ocv_cell_v", (2.5, 4.5), None),
+        avionics_w: r.number(&mut s, "avionics_w", (0.0, 200.0), None),
+        lamp_w: r.number(&mut s, "lamp_w", (0.0, 500.0), None),
+        paper_endurance_s: r.number(&mut s, "paper_endurance_s", (10.0, 10_000.0), Some(1500.0)),
+    };
+    if battery.ocv_cell_v.windows(2).any(|w| w[1] < w[0]) {
+        r.complain(&s, "ocv_cell_v", "", "11 rising values", "the open-circuit voltage falls with charge");
+    }
+    r.finish(&s);
+    battery
+}
+
+fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
+    let mut s = r.section(root, "limits");
+    let limits = FlightLimits {
+        forward_m_s: r.number(&mut s, "forward_m_s", (0.5, 40.0), None),
+        sideward_m_s: r.number(&mut s, "sideward_m_s", (0.5, 40.0), None),
+        climb_m_s: r.number(&mut s, "climb_m_s", (0.3, 20.0), None),
+        descend_m_s: r.number(&mut s, "descend_m_s", (0.3, 20.0), None),
+        yaw_rate_rad_s: r.number(&mut s, "yaw_rate_deg_s", (5.0, 720.0), None).to_radians(),
+        tilt_rad: r.number(&mut s, "tilt_deg", (5.0, 60.0), None).to_radians(),
+        rate_rad_s: r.number(&mut s, "rate_deg_s", (20.0, 1500.0), None).to_radians(),
+        slow_down_time_s: r.number(&mut s, "slow_down_time_s", (0.2, 10.0), None),
+    };
+    // Tilted as far as it may, it brakes with g tan(tilt); air drag and the time to tilt about cancel (flown for every shipped aircraft).
+    let least_s = limits.forward_m_s.max(limits.sideward_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
+    if limits.slow_down_time_s < least_s && r.problems.is_empty() {
+        let allowed = format!("at least {least_s:.2}: full speed over g tan(tilt_deg)");
+        r.complain(&s, "slow_down_time_s", &limits.slow_down_time_s.to_string(), &allowed, "no tilt stops it so soon");
+    }
+    r.finish(&s);
+    limits
+}
+
+fn sensors(r: &mut Reader, root: &mut Section) -> Sensors {
+    let mut s = r.section(root, "sensors");
+    let mut n = |key: &'static str, range: (f64, f64), default: f64| r.number(&mut s, key, range, Some(default));
+    let sensors = Sensors {
+        imu_rate_hz: n("imu_rate_hz", (100.0, 1000.0), 400.0),
+        accel_noise_density: n("accel_noise_density_m_s2_sqrt_hz", (0.0, 1.0), 0.002),
+        accel_bias_m_s2: n("accel_bias_m_s2", (0.0, 2.0), 0.05),
+        gyro_noise_density: n("gyro_noise_density_rad_s_sqrt_hz", (0.0, 0.1), 1e-4),
+        gyro_bias_rad_s: n("gyro_bias_rad_s", (0.0, 0.2), 0.003),
+        gnss_rate_hz: n("gnss_rate_hz", (1.0, 20.0), 5.0),
+        gnss_horizontal_m: n("gnss_horizontal_m", (0.0, 20.0), 0.5),
+        gnss_vertical_m: n("gnss_vertical_m", (0.0, 40.0), 0.8),
+        gnss_velocity_m_s: n("gnss_velocity_m_s", (0.0, 2.0), 0.1),
+        baro_rate_hz: n("baro_rate_hz", (5.0, 200.0), 50.0),
+        baro_noise_m: n("baro_noise_m", (0.0, 10.0), 0.1),
+        baro_drift_m_sqrt_s: n("baro_drift_m_sqrt_s", (0.0, 1.0), 0.005),
+        mag_rate_hz: n("mag_rate_hz", (5.0, 200.0), 50.0),
+        mag_noise_gauss: n("mag_noise_gauss", (0.0, 0.2), 0.003),
+        mag_bias_gauss: n("mag_bias_gauss", (0.0, 0.1), 0.001),
+        range_rate_hz: n("range_rate_hz", (1.0, 50.0), 20.0),
+        range_noise_m: n("range_noise_m", (0.0, 1.0), 0.02),
+        range_bias_m: n("range_bias_m", (0.0, 1.0), 0.01),
+        range_max_m: n("range_max_m", (1.0, 100.0), 10.0),
+        flow_velocity_m_s: n("flow_velocity_m_s", (0.0, 2.0), 0.0),
+    };
+    r.finish(&s);
+    sensors
+}
+
+fn camera(r: &mut Reader, root: &mut Section) -> Camera {
+    let mut s = r.section(root, "camera");
+    let [x, y, z] = r.numbers(&mut s, "position_m", (-2.0, 2.0), None);
+    let camera = Camera {
+        position_m: Vec3::new(x, y, z),
+        width_px: r.whole(&mut s, "width_px", (160, 20_000), None) as u32,
+        height_px: r.whole(&mut s, "height_px", (120, 20_000), None) as u32,
+        hfov_rad: r.number(&mut s, "hfov_deg", (5.0, 150.0), None).to_radians(),
+        zoom_max: r.number(&mut s, "zoom_max", (1.0, 30.0), Some(1.0)),
+        f_number: r.number(&mut s, "f_number", (0.9, 22.0), None),
+        iso_max: r.number(&mut s, "iso_max", (50.0, 409_600.0), None),
+        exposure_max_s: r.number(&mut s, "exposure_max_s", (1e-4, 1.0), None),
+        gimbal_pitch_min_rad: r.number(&mut s, "gimbal_pitch_min_deg", (-120.0, 0.0), Some(-90.0)).to_radians(),
+        gimbal_pitch_max_rad: r.number(&mut s, "gimbal_pitch_max_deg", (0.0, 120.0), Some(90.0)).to_radians(),
+        gimbal_rate_rad_s: r.number(&mut s, "gimbal_rate_deg_s", (5.0, 720.0), None).to_radians(),
+    };
+    r.finish(&s);
+    camera
+}
+
+fn lamp(r: &mut Reader, root: &mut Section) -> Lamp {
+    let mut s = r.section(root, "lamp");
+    let lamp = Lamp {
+        flux_lm: r.number(&mut s, "flux_lm", (0.0, 100_000.0), Some(0.0)),
+        beam_rad: r.number(&mut s, "beam_deg", (5.0, 170.0), Some(60.0)).to_radians(),
+    };
+    r.finish(&s);
+    lamp
+}

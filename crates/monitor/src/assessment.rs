@@ -1,0 +1,472 @@
+//! The assessment: the names of its parts are the names in `assessment.json`, which other tools read.
+
+use super::measures::attention::{self, Snapshot, Survey};
+use super::measures::coverage::{self, PathCoverage};
+use super::measures::crash::{self, Crash};
+use super::measures::on_path::{OnPath, Paths};
+use super::measures::on_speed;
+use super::score::accuracy::Counts;
+use super::score::certification::{self, Certification, Evidence};
+use super::score::completion::{Completion, TaskState};
+use super::score::conformity::TaskShares;
+use super::score::{Score, conformity, efficiency, safety};
+use super::session::{EndReason, Session, lift_off_height_m};
+use serde::Serialize;
+use spandrel_mavlink::telemetry::log_stream::Log;
+use spandrel_mavlink::telemetry::{Contact, Flight, Frame, Hand, Timeline};
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::vehicle::Vehicle;
+use std::collections::BTreeSet;
+
+/// What is scored against.
+#[derive(Debug, Clone, Copy)]
+pub struct Job<'a> {
+    /// Scenario.
+    pub scenario: &'a Scenario,
+    /// Aircraft.
+    pub vehicle: &'a Vehicle,
+    /// Site of this session's seed.
+    pub survey: &'a dyn Survey,
+}
+
+/// Why there is nothing to score.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum AssessError {
+    /// The drone never rose.
+    #[error("the drone never lifted off (more than 0.3 m above the pad), so there is no session to score")]
+    NeverFlown,
+    /// No truth in the telemetry.
+    #[error("no HIL_STATE_QUATERNION in the telemetry: it carries the clock and the truth that the scores need")]
+    NoTruth,
+    /// The simulator runs another scenario.
+    #[error("the simulator runs another scenario: its scn_crc is {heard:#010x}, that of `{name}` is {ours:#010x}")]
+    OtherScenario {
+        /// Our scenario.
+        name: String,
+        /// Heard.
+        heard: u32,
+        /// Ours.
+        ours: u32,
+    },
+    /// The simulator runs another seed.
+    #[error("the simulator's seed is {heard}, the session's is {ours}: they would place other defects")]
+    OtherSeed {
+        /// Heard.
+        heard: u64,
+        /// Ours.
+        ours: u64,
+    },
+    /// No seed anywhere.
+    #[error("no seed: the telemetry holds no `seed` message, and neither scenario nor command line names one")]
+    NoSeed,
+    /// The telemetry cannot be read.
+    #[error("the telemetry cannot be read: {0}")]
+    Unreadable(String),
+}
+
+impl From<std::io::Error> for AssessError {
+    fn from(error: std::io::Error) -> Self {
+        Self::Unreadable(error.to_string())
+    }
+}
+
+/// Both profiles of one session.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Assessment {
+    /// Profile of `scores`: always `paper`.
+    pub profile: &'static str,
+    /// The four scores and their sum.
+    pub scores: Scores,
+    /// How much of the job was done.
+    pub completion: Completion,
+    /// Tasks in file order.
+    pub tasks: Vec<TaskResult>,
+    /// Crashes.
+    pub crashes: CrashCounts,
+    /// Pictures.
+    pub snapshots: SnapshotCounts,
+    /// The end.
+    pub end: End,
+    /// How much was seen.
+    pub telemetry: Coverage,
+    /// Who flew when; it changes no score.
+    pub flown_by: Vec<Stretch>,
+    /// The other profile.
+    pub certification: Certification,
+}
+
+/// Frames in a row that one hand flew.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Stretch {
+    /// First frame.
+    pub from_frame: u32,
+    /// Last frame, included.
+    pub to_frame: u32,
+    /// Who; `None` before the first heartbeat.
+    pub by: Option<Hand>,
+}
+
+/// The paper's scores.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Scores {
+    /// `None` for a job without tasks.
+    pub conformity: Option<Score>,
+    /// Time.
+    pub efficiency: Score,
+    /// Crashes.
+    pub safety: Score,
+    /// `None` when no defect was placed.
+    pub accuracy: Option<Score>,
+    /// Plain sum of the percentages.
+    pub overall: f64,
+    /// What the sum is out of: 100 for each score that applies.
+    pub overall_max: f64,
+}
+
+/// One task.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TaskResult {
+    /// Number.
+    pub id: u32,
+    /// Its path was entered; false is the flag `not_attempted`.
+    pub attempted: bool,
+    /// Done, part or not attempted.
+    pub state: TaskState,
+    /// Share of its path that was flown, 0 to 1.
+    pub covered: f64,
+    /// First on-path frame.
+    pub first_frame: Option<u32>,
+    /// Last on-path frame.
+    pub last_frame: Option<u32>,
+    /// P_p.
+    pub on_path: f64,
+    /// P_s.
+    pub speeding: f64,
+}
+
+/// Crashes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CrashCounts {
+    /// X_o.
+    pub other: usize,
+    /// X_h.
+    pub person: usize,
+    /// X_v.
+    pub vehicle: usize,
+    /// All crashes by task number, and `outside`.
+    pub by_task: serde_json::Map<String, serde_json::Value>,
+}
+
+/// Pictures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SnapshotCounts {
+    /// X_pd.
+    pub taken: usize,
+    /// Pictures that show a defect for the first time.
+    pub hits: usize,
+    /// X_td.
+    pub defects_found: usize,
+    /// X_d.
+    pub defects_placed: usize,
+    /// hits / taken.
+    pub precision: f64,
+    /// found / placed.
+    pub recall: Option<f64>,
+    /// F.
+    pub f_beta: Option<f64>,
+    /// Each picture, with what failed.
+    pub each: Vec<Snapshot>,
+}
+
+/// The end.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct End {
+    /// Why.
+    pub reason: EndReason,
+    /// N.
+    pub frames: usize,
+    /// N/f.
+    pub seconds: f64,
+    /// X_b.
+    pub battery_failed: bool,
+}
+
+/// How much of the session telemetry covers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Coverage {
+    /// Frames in gaps over 1 s: held.
+    pub missing_frames: usize,
+    /// Frames in gaps of 0.2 to 1 s: interpolated.
+    pub interpolated_frames: usize,
+    /// Gaps over 0.2 s.
+    pub gaps: usize,
+    /// Share of the frames that are not missing.
+    pub covered: f64,
+}
+
+/// An assessment with the frames behind it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Graded {
+    /// Scores.
+    pub assessment: Assessment,
+    /// Frames 1 to N.
+    pub frames: Vec<Frame>,
+    /// Seed that placed the defects.
+    pub seed: u64,
+}
+
+/// Scores one flight.
+///
+/// # Errors
+/// When there is no session in it.
+pub fn assess(flight: &Flight, job: &Job<'_>) -> Result<(Assessment, Vec<Frame>), AssessError> {
+    if flight.truths.is_empty() {
+        return Err(AssessError::NoTruth);
+    }
+    let scenario = job.scenario;
+    let session = Session::cut(flight, scenario, job.vehicle).ok_or(AssessError::NeverFlown)?;
+    let paths = Paths::new(scenario);
+    let on_path = OnPath::measure(&paths, session.frames.iter().map(|frame| frame.position_m));
+    let crashes = crash::crashes(&session.frames, &on_path);
+    let pictures = attention::snapshots(flight, &session.frames, job.vehicle, job.survey);
+    let found: BTreeSet<u32> = pictures.iter().flat_map(|picture| picture.found.iter().copied()).collect();
+    let counts = Counts {
+        taken: pictures.len(),
+        hits: pictures.iter().filter(|picture| picture.hit).count(),
+        found: found.len(),
+        placed: job.survey.defects().len(),
+    };
+    let shares = shares(scenario, &session, &on_path);
+    let covered = coverage::coverage(&paths, &on_path);
+    let done_share = scenario.scoring.task_done_share;
+    let attempted = on_path.windows.iter().map(Option::is_some);
+    let states: Vec<TaskState> =
+        attempted.zip(&covered).map(|(attempted, covered)| TaskState::of(attempted, covered.share, done_share)).collect();
+    let completion = Completion::of(&states, &covered, session.reason == EndReason::Landed, done_share);
+    let evidence = Evidence {
+        scenario,
+        paths: &paths,
+        session: &session,
+        on_path: &on_path,
+        covered: &covered,
+        states: &states,
+        completion,
+        crashes: &crashes,
+        counts,
+        defects: job.survey.defects(),
+        found: &found,
+    };
+    let certification = certification::grade(&evidence);
+    let end = end(scenario, &session);
+    let assessment = Assessment {
+        profile: "paper",
+        scores: scores(scenario, &shares, &end, &crashes, counts),
+        completion,
+        tasks: tasks(scenario, &on_path, &shares, (&states, &covered)),
+        crashes: crash_counts(scenario, &crashes),
+        snapshots: snapshot_counts(scenario, counts, pictures),
+        end,
+        telemetry: telemetry_coverage(&session.frames),
+        flown_by: flown_by(flight, &session.frames),
+        certification,
+    };
+    Ok((assessment, session.frames))
+}
+
+/// Scores a telemetry log.
+///
+/// # Errors
+/// When the log cannot be read, is of another scenario or seed, or holds no session.
+pub fn assess_log(
+    log: &(impl Log + ?Sized),
+    scenario: &Scenario,
+    vehicle: &Vehicle,
+    build: impl FnOnce(&Scenario, u64) -> std::sync::Arc<dyn Survey>,
+) -> Result<Graded, AssessError> {
+    let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
+    timeline.push_log(log)?;
+    let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
+    let survey = attention::gated(build(scenario, seed), &flight);
+    let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: survey.as_ref() })?;
+    Ok(Graded { assessment, frames, seed })
+}
+
+/// The flight that counts, and its seed.
+///
+/// # Errors
+/// When the telemetry is of another scenario or seed, or holds no session.
+pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Result<(Flight, u64), AssessError> {
+    let flight = scored_flight(timeline, scenario, vehicle);
+    if flight.truths.is_empty() {
+        return Err(AssessError::NoTruth);
+    }
+    let seed = check_identity(&flight, scenario, None)?;
+    Ok((flight, seed))
+}
+
+/// The flight that counts: the first one that lifted off, else the last.
+#[must_use]
+pub fn scored_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Flight {
+    scored_epoch(timeline, scenario, vehicle).1
+}
+
+/// The same, with how many flights of the timeline came before it.
+#[must_use]
+pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> (usize, Flight) {
+    let height_m = lift_off_height_m(vehicle);
+    let mut last = (0, Flight::default());
+    for epoch in 0..timeline.epochs() {
+        last = (epoch, timeline.flight(epoch));
+        if last.1.lift_off(scenario.ground_team.pad_m.up(), height_m).is_some() {
+            break;
+        }
+    }
+    last
+}
+
+/// The session's seed, when telemetry, scenario and command line agree on scenario and seed.
+///
+/// # Errors
+/// When they do not, or when nobody names a seed.
+pub fn check_identity(flight: &Flight, scenario: &Scenario, asked: Option<u64>) -> Result<u64, AssessError> {
+    for (_, _, heard) in flight.scenario_crcs.all() {
+        check_scenario(scenario, *heard)?;
+    }
+    let mut seed = asked.or(scenario.seed);
+    for (_, _, heard) in flight.seeds.all() {
+        check_seed(seed, *heard)?;
+        seed = Some(*heard);
+    }
+    seed.ok_or(AssessError::NoSeed)
+}
+
+/// Refuses another scenario.
+///
+/// # Errors
+/// When the CRCs differ.
+pub fn check_scenario(scenario: &Scenario, heard: u32) -> Result<(), AssessError> {
+    if heard == scenario.crc {
+        return Ok(());
+    }
+    Err(AssessError::OtherScenario { name: scenario.name.clone(), heard, ours: scenario.crc })
+}
+
+/// Refuses another seed.
+///
+/// # Errors
+/// When one is known and differs.
+pub fn check_seed(ours: Option<u64>, heard: u64) -> Result<(), AssessError> {
+    match ours {
+        Some(ours) if ours != heard => Err(AssessError::OtherSeed { heard, ours }),
+        Some(_) | None => Ok(()),
+    }
+}
+
+fn shares(scenario: &Scenario, session: &Session, on_path: &OnPath) -> Vec<TaskShares> {
+    let limit = scenario.scoring.speed_limit_m_s;
+    let speeds: Vec<f64> = session.frames.iter().map(Frame::speed_m_s).collect();
+    let speeding = on_speed::speeding(&speeds, &on_path.windows, limit);
+    let one = |(task, window): (usize, &Option<_>)| TaskShares {
+        on_path: on_path.share(task),
+        speeding: on_speed::loss(&speeds, &speeding, *window, limit),
+    };
+    on_path.windows.iter().enumerate().map(one).collect()
+}
+
+/// The paper's scores from what they are made of.
+#[must_use]
+pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &End, crashes: &[Crash], counts: Counts) -> Scores {
+    let scoring = &scenario.scoring;
+    let hit = |with: Contact| crashes.iter().any(|crash| crash.with == with);
+    let others = crashes.iter().filter(|crash| crash.with.is_other_crash()).count();
+    let conformity = conformity::score(shares, scoring.speed_limit_m_s, scoring.max_speed_m_s);
+    let efficiency = efficiency::score(end.seconds, end.battery_failed, scoring.time_best_s, scoring.time_max_s);
+    let safety = safety::score(hit(Contact::Person), hit(Contact::Vehicle), others);
+    let accuracy = counts.score(scoring.beta);
+    let applying = [conformity, Some(efficiency), Some(safety), accuracy];
+    let overall = applying.iter().flatten().map(|score| score.pct).sum();
+    let overall_max = 100.0 * applying.iter().flatten().count() as f64;
+    Scores { conformity, efficiency, safety, accuracy, overall, overall_max }
+}
+
+fn tasks(
+    scenario: &Scenario,
+    on_path: &OnPath,
+    shares: &[TaskShares],
+    (states, covered): (&[TaskState], &[PathCoverage]),
+) -> Vec<TaskResult> {
+    let number = |i: usize| u32::try_from(i + 1).unwrap_or(u32::MAX);
+    let one = |(t, task): (usize, &spandrel_model::scenario::Task)| {
+        let window = on_path.windows[t];
+        TaskResult {
+            id: task.id,
+            attempted: window.is_some(),
+            state: states[t],
+            covered: covered[t].share,
+            first_frame: window.map(|w| number(w.first)),
+            last_frame: window.map(|w| number(w.last)),
+            on_path: shares[t].on_path,
+            speeding: shares[t].speeding,
+        }
+    };
+    scenario.tasks.iter().enumerate().map(one).collect()
+}
+
+fn crash_counts(scenario: &Scenario, crashes: &[Crash]) -> CrashCounts {
+    let among = |task: Option<usize>| crashes.iter().filter(|crash| crash.task == task).count();
+    let of = |with: Contact| usize::from(crashes.iter().any(|crash| crash.with == with));
+    let tasks = scenario.tasks.iter().enumerate().map(|(t, task)| (task.id.to_string(), among(Some(t)).into()));
+    CrashCounts {
+        other: crashes.iter().filter(|crash| crash.with.is_other_crash()).count(),
+        person: of(Contact::Person),
+        vehicle: of(Contact::Vehicle),
+        by_task: tasks.chain([("outside".to_owned(), among(None).into())]).collect(),
+    }
+}
+
+fn snapshot_counts(scenario: &Scenario, counts: Counts, each: Vec<Snapshot>) -> SnapshotCounts {
+    SnapshotCounts {
+        taken: counts.taken,
+        hits: counts.hits,
+        defects_found: counts.found,
+        defects_placed: counts.placed,
+        precision: counts.precision(),
+        recall: counts.recall(),
+        f_beta: counts.f_beta(scenario.scoring.beta),
+        each,
+    }
+}
+
+fn end(scenario: &Scenario, session: &Session) -> End {
+    End {
+        reason: session.reason,
+        frames: session.frames.len(),
+        seconds: session.seconds(scenario.scoring.frame_rate_hz),
+        battery_failed: matches!(session.reason, EndReason::Battery | EndReason::TimeLimit),
+    }
+}
+
+fn flown_by(flight: &Flight, frames: &[Frame]) -> Vec<Stretch> {
+    let mut stretches: Vec<Stretch> = Vec::new();
+    for frame in frames {
+        let by = flight.flown_by.at(frame.time);
+        match stretches.last_mut() {
+            Some(last) if last.by == by => last.to_frame = frame.index,
+            Some(_) | None => stretches.push(Stretch { from_frame: frame.index, to_frame: frame.index, by }),
+        }
+    }
+    stretches
+}
+
+fn telemetry_coverage(frames: &[Frame]) -> Coverage {
+    let gap = |frame: &Frame| frame.missing || frame.interpolated;
+    let starts = frames.iter().enumerate().filter(|(i, frame)| gap(frame) && (*i == 0 || !gap(&frames[i - 1]))).count();
+    let missing = frames.iter().filter(|frame| frame.missing).count();
+    Coverage {
+        missing_frames: missing,
+        interpolated_frames: frames.iter().filter(|frame| frame.interpolated).count(),
+        gaps: starts,
+        covered: 1.0 - missing as f64 / frames.len().max(1) as f64,
+    }
+}

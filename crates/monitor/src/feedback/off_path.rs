@@ -1,0 +1,90 @@
+//! Off path: beyond the threshold but still within reach of the task last entered. Who has not entered a task yet, or leaves one by its end
+//! or when it is flown, is between tasks (assessment.md, "Cues that mean something").
+
+use super::{CoolDown, Moment, TaskNow, Text, cue};
+use spandrel_model::scenario::Feedback;
+use spandrel_model::time::SimTime;
+
+/// Leaving counts as done after this much time of moving away (assessment.md).
+const LEFT_AFTER: SimTime = SimTime::from_ms(2_000);
+/// A distance changes that moves by so much, m, within so much time (estimate: half the slowest inspection speed; the wire rounds to 1 cm).
+const CHANGE_M: f64 = 0.15;
+const CHANGE_WITHIN: SimTime = SimTime::from_ms(600);
+
+/// The rule: shows after the state has lasted, and is held for a while.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OffPath {
+    since: Option<SimTime>,
+    shown: Option<SimTime>,
+    cool_down: CoolDown,
+    transit: Transit,
+}
+
+/// How the drone leaves a task.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Transit {
+    /// Task, and the distance (m) and time of its last change: growing or not.
+    change: Option<(u32, f64, SimTime, bool)>,
+    /// Leaving since.
+    leaving: Option<SimTime>,
+    /// It has left the task.
+    left: bool,
+}
+
+impl Transit {
+    /// Whether the drone leaves the task or has left it.
+    fn see(&mut self, now: SimTime, task: &TaskNow) -> bool {
+        let kept = self.change.filter(|(id, ..)| *id == task.id);
+        if kept.is_none() || task.distance_m <= task.threshold_m {
+            *self = Self::default();
+        }
+        let (_, before_m, since, grows) = kept.unwrap_or((task.id, task.distance_m, now, false));
+        let by_m = task.distance_m - before_m;
+        let moved = by_m.abs() >= CHANGE_M;
+        self.change = Some(if moved || kept.is_none() {
+            (task.id, task.distance_m, now, by_m > 0.0)
+        } else {
+            (task.id, before_m, since, grows)
+        });
+        let (grows, fresh) = if moved { (by_m > 0.0, true) } else { (grows, now - since < CHANGE_WITHIN) };
+        let away = fresh && grows;
+        self.leaving = (away && (task.may_leave || self.leaving.is_some())).then(|| self.leaving.unwrap_or(now));
+        self.left |= self.leaving.is_some_and(|since| now - since >= LEFT_AFTER);
+        self.left || self.leaving.is_some()
+    }
+}
+
+impl OffPath {
+    /// Cue and text at one instant.
+    pub fn see(&mut self, moment: &Moment, limits: &Feedback) -> (i32, Option<Text>) {
+        let now = moment.time;
+        if !moment.in_session {
+            *self = Self { cool_down: self.cool_down, ..Self::default() };
+            return (0, None);
+        }
+        let off = self.off(moment, limits.off_path_max_m);
+        self.since = off.and(self.since.or(Some(now)));
+        let due = self.since.is_some_and(|since| now - since >= limits.off_path_after);
+        let mut text = None;
+        if due && let Some((id, distance_m)) = off {
+            if self.shown.is_none() {
+                self.shown = Some(now);
+            }
+            let words = || format!("Off path of task {id}: {distance_m:.1} m away");
+            text = self.cool_down.say(now, limits.text_interval, cue::OFF_PATH, words);
+        }
+        let held = self.shown.is_some_and(|shown| now - shown < limits.off_path_hold);
+        if !due && !held {
+            self.shown = None;
+        }
+        (if self.shown.is_some() { cue::OFF_PATH } else { 0 }, text)
+    }
+
+    /// Task and distance when off path.
+    fn off(&mut self, moment: &Moment, reach_m: f64) -> Option<(u32, f64)> {
+        let task = &moment.tasks[moment.last?];
+        let between = self.transit.see(moment.time, task);
+        let off = moment.on.is_none() && task.distance_m > task.threshold_m && task.distance_m <= reach_m;
+        (off && !between).then_some((task.id, task.distance_m))
+    }
+}

@@ -1,0 +1,113 @@
+//! Crash analysis: the pad rule, lost contacts, onsets, and which task a crash belongs to.
+
+use super::on_path::OnPath;
+use spandrel_mavlink::telemetry::{Contact, Flight, Frame};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::GroundTeam;
+
+/// A touch of the pad is no crash below this vertical speed, m/s (assessment.md).
+const SOFT_TOUCH_M_S: f64 = 1.0;
+/// What is touched higher over the pad than this is not the ground around it, m (estimate: any aircraft's centre when tilted).
+const PAD_REACH_M: f64 = 1.0;
+/// The impact's own speed is read this many frames back at most: at the onset the drone may already stand.
+const LOOK_BACK_FRAMES: usize = 2;
+
+/// One onset of contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crash {
+    /// Index of the frame, from 0.
+    pub frame: usize,
+    /// Index of the last frame of the same contact.
+    pub last: usize,
+    /// What was hit.
+    pub with: Contact,
+    /// Fastest speed around the onset, m/s.
+    pub speed_m_s: f64,
+    /// Task in whose window it lies.
+    pub task: Option<usize>,
+}
+
+/// Fills in contacts whose messages were lost, then clears touch-downs and lift-offs on the pad. Touches frames' `contact` only.
+pub fn settle_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTeam) {
+    for time in flight.unreported_hits() {
+        let i = frames.partition_point(|frame| frame.time < time);
+        let free = |k: usize| frames.get(k).is_none_or(|frame| frame.contact == Contact::None);
+        if i < frames.len() && !frames[i].missing && free(i) && (i == 0 || free(i - 1)) && free(i + 1) {
+            frames[i].contact = Contact::Other;
+        }
+    }
+    let mut run: Option<bool> = None;
+    for i in 0..frames.len() {
+        if !matches!(frames[i].contact, Contact::Terrain | Contact::Other) {
+            run = None;
+            continue;
+        }
+        let soft = *run.get_or_insert_with(|| is_soft_touch(frames, i, team));
+        if soft && (frames[i].position_m - team.pad_m).horizontal_norm() <= team.home_radius_m {
+            frames[i].contact = Contact::None;
+        }
+    }
+}
+
+fn is_soft_touch(frames: &[Frame], onset: usize, team: &GroundTeam) -> bool {
+    let vertical = frames[onset.saturating_sub(LOOK_BACK_FRAMES)..=onset].iter().map(|frame| frame.velocity_m_s.up().abs());
+    may_touch_pad(frames[onset].position_m, vertical.fold(0.0, f64::max), team)
+}
+
+/// Whether a contact with ground or pad here and at this vertical speed is a touch-down or lift-off, and no crash.
+#[must_use]
+pub fn may_touch_pad(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam) -> bool {
+    let from_pad = position_m - team.pad_m;
+    from_pad.horizontal_norm() <= team.home_radius_m && from_pad.up() < PAD_REACH_M && vertical_m_s.abs() < SOFT_TOUCH_M_S
+}
+
+/// All onsets: frames where the contact goes from none to something, or gets as bad as a vehicle or a person.
+#[must_use]
+pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
+    let mut found: Vec<Crash> = Vec::new();
+    let mut before = Contact::None;
+    for (i, frame) in frames.iter().enumerate() {
+        let worse = matches!(frame.contact, Contact::Person | Contact::Vehicle) && before != frame.contact;
+        if frame.contact != Contact::None && (before == Contact::None || worse) {
+            let around = &frames[i.saturating_sub(LOOK_BACK_FRAMES)..=i];
+            let speed_m_s = around.iter().map(Frame::speed_m_s).fold(0.0, f64::max);
+            found.push(Crash { frame: i, last: i, with: frame.contact, speed_m_s, task: task_of(i, on_path) });
+        } else if frame.contact != Contact::None
+            && let Some(crash) = found.last_mut()
+        {
+            crash.last = i;
+        }
+        before = frame.contact;
+    }
+    found
+}
+
+/// The task in whose window frame `i` lies. Where windows overlap: the one flown, else the one flown last, else the lowest.
+fn task_of(i: usize, on_path: &OnPath) -> Option<usize> {
+    let holds = |task: usize| on_path.windows[task].is_some_and(|window| window.contains(i));
+    let open: Vec<usize> = (0..on_path.windows.len()).filter(|task| holds(*task)).collect();
+    if open.len() < 2 {
+        return open.first().copied();
+    }
+    let flown = on_path.task[..=i].iter().rev().find_map(|on| on.map(|(task, _)| task));
+    flown.filter(|task| open.contains(task)).or(open.first().copied())
+}
+
+/// Crashes less than `apart_frames` frames apart counted as one (the certification profile's merging).
+#[must_use]
+pub fn merged(crashes: &[Crash], apart_frames: f64) -> Vec<Crash> {
+    let mut merged: Vec<Crash> = Vec::new();
+    for crash in crashes {
+        match merged.last_mut() {
+            Some(last) if ((crash.frame - last.last) as f64) < apart_frames => {
+                last.last = crash.last;
+                last.speed_m_s = last.speed_m_s.max(crash.speed_m_s);
+                if crash.with.severity() > last.with.severity() {
+                    last.with = crash.with;
+                }
+            }
+            Some(_) | None => merged.push(*crash),
+        }
+    }
+    merged
+}

@@ -1,0 +1,353 @@
+//! On-path analysis (the paper's algorithm 1) and the task windows.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::Scenario;
+
+/// Points per block of the search. Blocks whose box is farther than the best point so far are skipped; the answer stays exact.
+const BLOCK: usize = 16;
+/// Room for rounding when a box is ruled out, relative.
+const BOX_SLACK: f64 = 1.0 + 1e-9;
+
+/// A reference path, ready for nearest-point queries.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Path {
+    points_m: Vec<Vec3<Enu>>,
+    closed: bool,
+    blocks: Vec<Aabb>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Aabb {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl Aabb {
+    fn around<'a>(points: impl Iterator<Item = &'a Vec3<Enu>>) -> Self {
+        let empty = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+        points.map(|point| point.array()).fold(empty, |mut sum, point| {
+            for (k, x) in point.into_iter().enumerate() {
+                sum.low[k] = sum.low[k].min(x);
+                sum.high[k] = sum.high[k].max(x);
+            }
+            sum
+        })
+    }
+
+    fn distance_squared(&self, point: [f64; 3]) -> f64 {
+        (0..3).map(|k| (self.low[k] - point[k]).max(point[k] - self.high[k]).max(0.0)).map(|d| d * d).sum()
+    }
+}
+
+/// The nearest place of a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// n*: index of the nearest reference point; in `exact` mode of the nearest segment's first point.
+    pub point: usize,
+    /// l*, m.
+    pub distance_m: f64,
+}
+
+impl Path {
+    /// A path of at least one point.
+    #[must_use]
+    pub fn new(points_m: &[Vec3<Enu>], closed: bool) -> Self {
+        let count = points_m.len();
+        // Each block also holds the end of its last segment, so that one set of boxes serves points and segments.
+        let block = |start: usize| Aabb::around((start..=(start + BLOCK).min(count)).map(|k| &points_m[k % count]));
+        Self { points_m: points_m.to_vec(), closed, blocks: (0..count).step_by(BLOCK).map(block).collect() }
+    }
+
+    /// Reference points.
+    #[must_use]
+    pub fn points_m(&self) -> &[Vec3<Enu>] {
+        &self.points_m
+    }
+
+    /// The paper's rule: the nearest reference point (lowest index on ties), then the segments that touch it.
+    #[must_use]
+    pub fn paper(&self, position_m: Vec3<Enu>) -> Option<Nearest> {
+        let point = self.search(position_m, |k| (position_m - self.points_m[k]).norm_squared())?;
+        let count = self.points_m.len();
+        let before = if point > 0 { Some(point - 1) } else { self.closed.then_some(count - 1) };
+        let segments = [before, Some(point)].into_iter().flatten().filter_map(|k| self.segment(k));
+        let own = (position_m - self.points_m[point]).norm_squared();
+        let squared = segments.map(|(a, b)| to_segment_squared(position_m, a, b)).fold(own, f64::min);
+        Some(Nearest { point, distance_m: squared.sqrt() })
+    }
+
+    /// The distance to the whole polyline.
+    #[must_use]
+    pub fn exact(&self, position_m: Vec3<Enu>) -> Option<Nearest> {
+        let to_segment = |k: usize| {
+            let (a, b) = self.segment(k).unwrap_or((self.points_m[k], self.points_m[k]));
+            to_segment_squared(position_m, a, b)
+        };
+        let point = self.search(position_m, to_segment)?;
+        Some(Nearest { point, distance_m: to_segment(point).sqrt() })
+    }
+
+    /// The nearest place on the whole polyline, m.
+    #[must_use]
+    pub fn foot(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
+        let point = self.exact(position_m)?.point;
+        let (a, b) = self.segment(point).unwrap_or((self.points_m[point], self.points_m[point]));
+        Some(a.lerp(b, along(position_m, a, b)))
+    }
+
+    /// Nothing of the path is within `distance_m`.
+    #[must_use]
+    pub fn is_beyond(&self, position_m: Vec3<Enu>, distance_m: f64) -> bool {
+        let limit = distance_m * distance_m * BOX_SLACK;
+        self.blocks.iter().all(|block| block.distance_squared(position_m.array()) > limit)
+    }
+
+    /// Length of the path from its first point to each point, m.
+    #[must_use]
+    pub fn along_m(&self) -> Vec<f64> {
+        let steps = self.points_m.windows(2).map(|pair| (pair[1] - pair[0]).norm());
+        let mut sum_m = 0.0;
+        let later = steps.map(|step_m| {
+            sum_m += step_m;
+            sum_m
+        });
+        self.points_m.first().map(|_| 0.0).into_iter().chain(later).collect()
+    }
+
+    /// Length that each point stands for, m: half of each segment that touches it.
+    #[must_use]
+    pub fn lengths_by_point_m(&self) -> Vec<f64> {
+        let mut lengths_m = vec![0.0; self.points_m.len()];
+        for k in 0..self.points_m.len() {
+            let Some((a, b)) = self.segment(k) else { continue };
+            let half_m = 0.5 * (b - a).norm();
+            lengths_m[k] += half_m;
+            lengths_m[(k + 1) % self.points_m.len()] += half_m;
+        }
+        lengths_m
+    }
+
+    /// The segment that starts at point `k`.
+    fn segment(&self, k: usize) -> Option<(Vec3<Enu>, Vec3<Enu>)> {
+        let next = if k + 1 < self.points_m.len() { Some(k + 1) } else { self.closed.then_some(0) }?;
+        Some((self.points_m[k], self.points_m[next]))
+    }
+
+    /// Index with the smallest cost, the lowest on ties; a cost is never below the distance to its block's box.
+    fn search(&self, position_m: Vec3<Enu>, cost: impl Fn(usize) -> f64) -> Option<usize> {
+        let point = position_m.array();
+        let mut best: Option<(f64, usize)> = None;
+        for (b, block) in self.blocks.iter().enumerate() {
+            if best.is_some_and(|(least, _)| block.distance_squared(point) > least * BOX_SLACK) {
+                continue;
+            }
+            for k in b * BLOCK..((b + 1) * BLOCK).min(self.points_m.len()) {
+                let cost = cost(k);
+                if best.is_none_or(|(least, _)| cost < least) {
+                    best = Some((cost, k));
+                }
+            }
+        }
+        best.map(|(_, k)| k)
+    }
+}
+
+fn to_segment_squared(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
+    (p - (a + (b - a) * along(p, a, b))).norm_squared()
+}
+
+/// Where the foot of `p` lies between `a` (0) and `b` (1).
+fn along(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
+    let way = b - a;
+    let length_squared = way.norm_squared();
+    if length_squared > 0.0 { ((p - a).dot(way) / length_squared).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// The paths of all tasks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Paths {
+    paths: Vec<Path>,
+    thresholds_m: Vec<f64>,
+    exact: bool,
+}
+
+impl Paths {
+    /// From a scenario's tasks.
+    #[must_use]
+    pub fn new(scenario: &Scenario) -> Self {
+        Self {
+            paths: scenario.tasks.iter().map(|task| Path::new(&task.path_m, task.closed)).collect(),
+            thresholds_m: scenario.tasks.iter().map(|task| task.threshold_m).collect(),
+            exact: scenario.scoring.exact_path,
+        }
+    }
+
+    /// Number of tasks.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.paths.len()
+    }
+
+    /// No tasks.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.paths.is_empty()
+    }
+
+    /// Path of a task.
+    #[must_use]
+    pub fn path(&self, task: usize) -> &Path {
+        &self.paths[task]
+    }
+
+    /// Threshold of a task, m.
+    #[must_use]
+    pub fn threshold_m(&self, task: usize) -> f64 {
+        self.thresholds_m[task]
+    }
+
+    /// l* and n* of a task.
+    #[must_use]
+    pub fn nearest(&self, task: usize, position_m: Vec3<Enu>) -> Option<Nearest> {
+        if self.exact { self.paths[task].exact(position_m) } else { self.paths[task].paper(position_m) }
+    }
+
+    /// The task whose path the drone is on: of those within their threshold the one with the smallest l*/threshold; a tie keeps
+    /// `current`, else the lowest index.
+    #[must_use]
+    pub fn on(&self, position_m: Vec3<Enu>, current: Option<usize>) -> Option<(usize, Nearest)> {
+        let mut best: Option<(f64, usize, Nearest)> = None;
+        for task in 0..self.len() {
+            let threshold = self.thresholds_m[task];
+            if self.paths[task].is_beyond(position_m, threshold) {
+                continue;
+            }
+            let Some(nearest) = self.nearest(task, position_m).filter(|nearest| nearest.distance_m <= threshold) else {
+                continue;
+            };
+            let share = nearest.distance_m / threshold;
+            let better = match best {
+                None => true,
+                Some((least, _, _)) => share < least || (share == least && current == Some(task)),
+            };
+            if better {
+                best = Some((share, task, nearest));
+            }
+        }
+        best.map(|(_, task, nearest)| (task, nearest))
+    }
+}
+
+/// First and last on-path frame of a task, as indices from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Window {
+    /// First.
+    pub first: usize,
+    /// Last, included.
+    pub last: usize,
+}
+
+impl Window {
+    /// Frames in it.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.last - self.first + 1
+    }
+
+    /// Whether frame `i` lies in it.
+    #[must_use]
+    pub fn contains(&self, i: usize) -> bool {
+        (self.first..=self.last).contains(&i)
+    }
+}
+
+/// X_t,i of all frames: at most one task per frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OnPath {
+    /// Per frame the task and the nearest point of its path.
+    pub task: Vec<Option<(usize, usize)>>,
+    /// Per task its window; `None` when its path was never entered.
+    pub windows: Vec<Option<Window>>,
+}
+
+impl OnPath {
+    /// Runs over positions in frame order.
+    pub fn measure(paths: &Paths, positions_m: impl Iterator<Item = Vec3<Enu>>) -> Self {
+        let mut windows: Vec<Option<Window>> = vec![None; paths.len()];
+        let mut current = None;
+        let mut task = Vec::new();
+        for (i, position_m) in positions_m.enumerate() {
+            let on = paths.on(position_m, current);
+            if let Some((t, _)) = on {
+                current = Some(t);
+                let first = windows[t].map_or(i, |window| window.first);
+                windows[t] = Some(Window { first, last: i });
+            }
+            task.push(on.map(|(t, nearest)| (t, nearest.point)));
+        }
+        Self { task, windows }
+    }
+
+    /// P_p,t: share of the window's frames that are on the path; 0 when it was never entered.
+    #[must_use]
+    pub fn share(&self, task: usize) -> f64 {
+        let Some(window) = self.windows[task] else { return 0.0 };
+        let on = self.task[window.first..=window.last].iter().filter(|on| on.is_some_and(|(t, _)| t == task)).count();
+        on as f64 / window.frames() as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::random::RandomStream;
+
+    #[test]
+    fn exact_the_papers_rule_and_the_true_distance_differ_on_a_folded_path() {
+        let points = [(0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.0)].map(|(e, n)| Vec3::new(e, n, 0.0));
+        let path = Path::new(&points, false);
+        let drone = Vec3::new(20.0, 3.0, 0.0);
+        assert_eq!(path.paper(drone).unwrap().distance_m, 7.0);
+        assert_eq!(path.exact(drone).unwrap().distance_m, 3.0);
+    }
+
+    #[test]
+    fn exact_a_closed_path_wraps_and_an_open_one_does_not() {
+        let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(e, n)| Vec3::new(e, n, 0.0));
+        let drone = Vec3::new(0.0, 4.0, 0.0);
+        assert_eq!(Path::new(&square, true).paper(drone).unwrap().distance_m, 0.0);
+        assert_eq!(Path::new(&square, true).exact(drone).unwrap().distance_m, 0.0);
+        assert_eq!(Path::new(&square, false).paper(drone).unwrap().distance_m, 4.0);
+        assert_eq!(Path::new(&square, true).paper(Vec3::new(-1.0, 6.0, 0.0)).unwrap().point, 3);
+    }
+
+    #[test]
+    fn exact_ties_take_the_lowest_point() {
+        let line: Vec<Vec3<Enu>> = (0..40).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
+        assert_eq!(Path::new(&line, false).paper(Vec3::new(20.5, 1.0, 0.0)).unwrap().point, 20);
+    }
+
+    #[test]
+    fn prop_the_block_search_agrees_with_trying_every_point() {
+        let mut stream = RandomStream::new(5, "paths");
+        for _ in 0..200 {
+            let count = 1 + stream.below(70);
+            let points: Vec<Vec3<Enu>> = (0..count)
+                .map(|_| {
+                    Vec3::new(stream.range(-9.0, 9.0).round(), stream.range(-9.0, 9.0).round(), stream.range(0.0, 3.0).round())
+                })
+                .collect();
+            let path = Path::new(&points, stream.below(2) == 0);
+            for _ in 0..20 {
+                let p = Vec3::new(stream.range(-12.0, 12.0).round(), stream.range(-12.0, 12.0).round(), stream.range(0.0, 3.0));
+                let least = points.iter().map(|q| (p - *q).norm_squared()).fold(f64::INFINITY, f64::min);
+                let first = points.iter().position(|q| (p - *q).norm_squared() == least).unwrap();
+                assert_eq!(path.paper(p).unwrap().point, first);
+                let exact = (0..count).filter_map(|k| path.segment(k)).map(|(a, b)| to_segment_squared(p, a, b));
+                let exact = exact.fold(least, f64::min).sqrt();
+                assert_eq!(path.exact(p).unwrap().distance_m, exact);
+                assert!(((p - path.foot(p).unwrap()).norm() - exact).abs() < 1e-12);
+            }
+        }
+    }
+}

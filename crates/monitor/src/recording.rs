@@ -1,0 +1,83 @@
+//! A flight that was heard over MAVLink, for Foxglove: frames of drone and camera, battery, what the scores are made of, and in words
+//! what happened.
+
+use spandrel_mavlink::telemetry::{Contact, Flight};
+use spandrel_model::foxglove::{self, Message, Pose};
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::{Camera, Vehicle};
+
+/// Frames come no closer than this.
+const FRAME_STEP: SimTime = SimTime::from_ms(40);
+/// The rest comes with every so many frames.
+const SLOW_EVERY: usize = 25;
+/// MAVLink severities of the words.
+const CRITICAL: u8 = 2;
+const INFO: u8 = 6;
+
+/// All messages in the order of their time.
+#[must_use]
+pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<Message> {
+    let unix_ns = |time: SimTime| (scenario.light.start_unix_s * 1_000_000_000 + time.ns()).max(0).cast_unsigned();
+    let mut out = words(flight, unix_ns);
+    let mut due = SimTime::ZERO;
+    let mut frames = 0;
+    for truth in &flight.truths {
+        if frames > 0 && truth.time < due {
+            continue;
+        }
+        due = truth.time + FRAME_STEP;
+        let (at, now) = (unix_ns(truth.time), truth.time);
+        let here: Vec3<Ned> = truth.position_m.ned();
+        let pitch_rad = flight.gimbal.at(now).unwrap_or(0.0);
+        let camera = Pose::camera(here, truth.ned_from_frd, vehicle.camera.position_m, pitch_rad);
+        out.push(foxglove::transforms(
+            at,
+            &[(foxglove::DRONE, Pose::drone(here, truth.ned_from_frd)), (foxglove::CAMERA, camera)],
+        ));
+        out.push(foxglove::scoring(
+            at,
+            &foxglove::Scoring {
+                clearance_m: flight.clearance.at(now).unwrap_or(f64::INFINITY),
+                lux: None,
+                contact: flight.contact.at(now).unwrap_or_default().word(),
+                hits: flight.hits.at(now).unwrap_or(0),
+                respawns: flight.respawns.at(now).unwrap_or(0),
+                lamp_on: flight.light.at(now).unwrap_or(false),
+                speed_m_s: truth.velocity_m_s.norm(),
+            },
+        ));
+        if frames % SLOW_EVERY == 0 {
+            let wide = vehicle.camera;
+            let lens = Camera { hfov_rad: flight.field_of_view.at(now).unwrap_or(wide.hfov_rad), ..wide };
+            out.push(foxglove::camera(at, lens.focal_px(), (lens.width_px, lens.height_px)));
+            out.extend(flight.battery.at(now).map(|pct| foxglove::battery(at, None, pct)));
+        }
+        frames += 1;
+    }
+    out.sort_by_key(|message| message.unix_ns);
+    out
+}
+
+fn words(flight: &Flight, unix_ns: impl Fn(SimTime) -> u64) -> Vec<Message> {
+    let mut out = Vec::new();
+    let mut touched = Contact::None;
+    for (time, _, contact) in flight.contact.all() {
+        if *contact != touched && *contact != Contact::None {
+            out.push(foxglove::log(unix_ns(*time), CRITICAL, &format!("contact: {}", contact.word())));
+        }
+        touched = *contact;
+    }
+    for (number, (time, _, _)) in flight.snapshots.all().iter().enumerate() {
+        out.push(foxglove::log(unix_ns(*time), INFO, &format!("picture {}", number + 1)));
+    }
+    let mut hand = None;
+    for (time, _, by) in flight.flown_by.all() {
+        if hand != Some(*by) {
+            out.push(foxglove::log(unix_ns(*time), INFO, &format!("flown by: {}", by.word())));
+        }
+        hand = Some(*by);
+    }
+    out
+}

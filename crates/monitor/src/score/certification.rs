@@ -1,0 +1,356 @@
+//! The certification profile: beside the paper's four numbers, never instead. It closes the paper's loopholes with gates, counts
+//! only the part of a path that was flown, and weighs a crash by its speed. The weights are this project's estimates and are written
+//! into the output with it.
+
+use crate::measures::coverage::PathCoverage;
+use crate::measures::crash::{self, Crash};
+use crate::measures::on_path::{OnPath, Paths};
+use crate::score::completion::{Completion, TaskState, missing};
+use crate::score::{Score, accuracy, conformity, efficiency};
+use crate::session::{EndReason, Session};
+use serde::Serialize;
+use spandrel_mavlink::telemetry::{Contact, Frame};
+use spandrel_model::numbers::{beside_limit, limit};
+use spandrel_model::scenario::{PlacedDefect, Scenario};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// On-path stretches less than this apart are one visit, s (assessment.md).
+const VISIT_APART_S: f64 = 10.0;
+/// Contacts less than this apart are one crash, s (assessment.md).
+const CRASH_APART_S: f64 = 1.0;
+/// Least battery at landing, % (assessment.md).
+const BATTERY_AT_HOME_PCT: f64 = 20.0;
+/// Loss of the gentlest crash, points (the paper's loss for any).
+const CRASH_LOSS: f64 = 3.0;
+/// A crash at this speed costs twice the gentlest, at twice the speed five times (energy goes with the square), m/s (estimate).
+const CRASH_SPEED_M_S: f64 = 2.0;
+/// Largest loss of one crash, points (estimate).
+const CRASH_LOSS_MAX: f64 = 30.0;
+/// Points lost per second spent closer than allowed (estimate: a minute costs as much as two gentle crashes).
+const EXPOSURE_LOSS_PER_S: f64 = 0.1;
+/// Largest loss for closeness alone, points (estimate).
+const EXPOSURE_LOSS_MAX: f64 = 50.0;
+
+/// The profile's output.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Certification {
+    /// All requirements are met.
+    pub passed: bool,
+    /// Gates.
+    pub gates: Gates,
+    /// Each requirement that failed, in words, with what was reached and what is needed.
+    pub unmet: Vec<String>,
+    /// Scores, 0 to 100; conformity is absent when there is no evidence (no path entered), accuracy when no defect was placed.
+    pub scores: CertificationScores,
+    /// `not_attempted:ID` per task, `no_evidence`.
+    pub flags: Vec<String>,
+    /// Tasks by visits.
+    pub tasks: Vec<TaskVisits>,
+    /// Crashes, merged when less than a second apart.
+    pub crashes: Vec<MergedCrash>,
+    /// Onsets before merging.
+    pub crash_onsets: usize,
+    /// Time spent closer than the scenario's clearance, s.
+    pub exposure_s: f64,
+    /// Battery at the last frame, %.
+    pub battery_at_end_pct: f64,
+    /// What was found, by element, kind and condition state.
+    pub detection: Detection,
+}
+
+/// What must hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Gates {
+    /// Every task is done, and the session ended by landing at home.
+    pub session_complete: bool,
+    /// Every task's path was entered.
+    pub all_tasks_attempted: bool,
+    /// Nobody and no vehicle was hit.
+    pub no_person_or_vehicle_hit: bool,
+    /// Landed near the ground team.
+    pub landed_at_home: bool,
+    /// With at least 20 % battery.
+    pub battery_reserve: bool,
+}
+
+/// 0 to 100 each.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CertificationScores {
+    /// Weighted by coverage.
+    pub conformity: Option<f64>,
+    /// 0 after an early end or with a task skipped.
+    pub efficiency: f64,
+    /// By contact speed and closeness.
+    pub safety: f64,
+    /// Detection only.
+    pub accuracy: Option<f64>,
+}
+
+/// One task by its visits.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TaskVisits {
+    /// Task number.
+    pub id: u32,
+    /// First and last frame of each visit.
+    pub visits: Vec<(u32, u32)>,
+    /// Share of the reference path that was flown.
+    pub coverage: f64,
+    /// Share of the visits' frames on the path.
+    pub on_path: f64,
+    /// The paper's weighted speeding over the visits' frames.
+    pub speeding: f64,
+}
+
+/// One crash after merging.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MergedCrash {
+    /// First frame.
+    pub frame: u32,
+    /// Since lift-off, s.
+    pub t_s: f64,
+    /// What was hit.
+    pub with: Contact,
+    /// Fastest speed around the onset, m/s.
+    pub speed_m_s: f64,
+    /// Points lost.
+    pub loss: f64,
+    /// Task number, if it happened in a task's window.
+    pub task: Option<u32>,
+}
+
+/// Found and placed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Found {
+    /// Found.
+    pub found: usize,
+    /// Placed.
+    pub placed: usize,
+}
+
+/// Detection broken down.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Detection {
+    /// True: trainees give no labels in this version, so only detection is graded, not the naming of kind or condition state.
+    pub detection_only: bool,
+    /// By AASHTO MBEI element.
+    pub by_element: BTreeMap<u32, Found>,
+    /// By AASHTO MBEI defect code.
+    pub by_kind: BTreeMap<u32, Found>,
+    /// By condition state.
+    pub by_condition_state: BTreeMap<u8, Found>,
+}
+
+/// Everything the profile looks at.
+#[derive(Debug)]
+pub struct Evidence<'a> {
+    /// The job.
+    pub scenario: &'a Scenario,
+    /// Its paths.
+    pub paths: &'a Paths,
+    /// The session.
+    pub session: &'a Session,
+    /// On-path measure.
+    pub on_path: &'a OnPath,
+    /// Coverage of each task's path.
+    pub covered: &'a [PathCoverage],
+    /// State of each task.
+    pub states: &'a [TaskState],
+    /// Completion of the session.
+    pub completion: Completion,
+    /// Crashes.
+    pub crashes: &'a [Crash],
+    /// Counts of the pictures.
+    pub counts: accuracy::Counts,
+    /// Defects placed.
+    pub defects: &'a [PlacedDefect],
+    /// Defects found.
+    pub found: &'a BTreeSet<u32>,
+}
+
+/// Grades.
+#[must_use]
+pub fn grade(evidence: &Evidence<'_>) -> Certification {
+    let scenario = evidence.scenario;
+    let frames = &evidence.session.frames;
+    let tasks = visits(evidence);
+    let attempted: Vec<bool> = evidence.on_path.windows.iter().map(Option::is_some).collect();
+    let crashes = merged(evidence);
+    let exposure_s = exposure_s(evidence);
+    let battery_at_end_pct = frames.last().map_or(0.0, |frame| frame.battery_pct);
+    let gates = gates(evidence, attempted.iter().all(|a| *a), battery_at_end_pct);
+    let unmet = unmet(evidence, &gates, battery_at_end_pct);
+    let none_entered = !attempted.is_empty() && attempted.iter().all(|a| !a);
+    let whole = gates.landed_at_home && gates.all_tasks_attempted;
+    let scores = CertificationScores {
+        conformity: if none_entered { None } else { covered_conformity(&tasks, scenario) },
+        efficiency: if whole { paper_efficiency(evidence) } else { 0.0 },
+        safety: safety(&gates, &crashes, exposure_s),
+        accuracy: evidence.counts.score(scenario.scoring.beta).map(|score| score.pct),
+    };
+    Certification {
+        passed: unmet.is_empty(),
+        gates,
+        unmet,
+        scores,
+        flags: flags(scenario, &attempted, none_entered),
+        tasks,
+        crash_onsets: evidence.crashes.len(),
+        crashes,
+        exposure_s,
+        battery_at_end_pct,
+        detection: detection(evidence),
+    }
+}
+
+fn gates(evidence: &Evidence<'_>, all_tasks_attempted: bool, battery_pct: f64) -> Gates {
+    let landed = evidence.session.reason == EndReason::Landed;
+    let traffic = |crash: &Crash| matches!(crash.with, Contact::Person | Contact::Vehicle);
+    Gates {
+        session_complete: evidence.completion.complete,
+        all_tasks_attempted,
+        no_person_or_vehicle_hit: !evidence.crashes.iter().any(traffic),
+        landed_at_home: landed,
+        battery_reserve: landed && battery_pct >= BATTERY_AT_HOME_PCT,
+    }
+}
+
+/// The requirements that failed. A battery that was not landed with is not one by itself, nor is a skipped task beside its own line.
+fn unmet(evidence: &Evidence<'_>, gates: &Gates, battery_pct: f64) -> Vec<String> {
+    let done_share = evidence.completion.done_share;
+    let tasks = evidence.scenario.tasks.iter().zip(evidence.states).zip(evidence.covered);
+    let mut unmet = Vec::new();
+    if !gates.no_person_or_vehicle_hit {
+        unmet.push("a person or a vehicle was hit".to_owned());
+    }
+    unmet.extend(tasks.filter_map(|((task, state), covered)| missing(task.id, *state, covered.share, done_share)));
+    if !gates.landed_at_home {
+        unmet.push("not landed at home".to_owned());
+    } else if !gates.battery_reserve {
+        let reached = beside_limit(battery_pct, BATTERY_AT_HOME_PCT, 0);
+        unmet.push(format!("{reached} % battery at landing, {} % needed", limit(BATTERY_AT_HOME_PCT)));
+    }
+    unmet
+}
+
+fn flags(scenario: &Scenario, attempted: &[bool], none_entered: bool) -> Vec<String> {
+    let skipped = scenario.tasks.iter().zip(attempted).filter(|(_, attempted)| !**attempted);
+    let mut flags: Vec<String> = skipped.map(|(task, _)| format!("not_attempted:{}", task.id)).collect();
+    if none_entered {
+        flags.push("no_evidence".to_owned());
+    }
+    flags
+}
+
+fn paper_efficiency(evidence: &Evidence<'_>) -> f64 {
+    let scoring = &evidence.scenario.scoring;
+    efficiency::score(evidence.session.seconds(scoring.frame_rate_hz), false, scoring.time_best_s, scoring.time_max_s).pct
+}
+
+/// Visits of a task: on-path stretches less than [`VISIT_APART_S`] apart, joined.
+fn visit_ranges(on_path: &OnPath, task: usize, apart_frames: f64) -> Vec<(usize, usize)> {
+    let mut ranges: Vec<(usize, usize)> = Vec::new();
+    for (i, _) in on_path.task.iter().enumerate().filter(|(_, on)| on.is_some_and(|(t, _)| t == task)) {
+        match ranges.last_mut() {
+            Some(last) if ((i - last.1) as f64) < apart_frames => last.1 = i,
+            Some(_) | None => ranges.push((i, i)),
+        }
+    }
+    ranges
+}
+
+fn visits(evidence: &Evidence<'_>) -> Vec<TaskVisits> {
+    let scenario = evidence.scenario;
+    let apart = VISIT_APART_S * scenario.scoring.frame_rate_hz;
+    let limit = scenario.scoring.speed_limit_m_s;
+    let frames = &evidence.session.frames;
+    let ranges: Vec<Vec<(usize, usize)>> =
+        (0..scenario.tasks.len()).map(|task| visit_ranges(evidence.on_path, task, apart)).collect();
+    let one = |(task, ranges): (usize, &Vec<(usize, usize)>)| {
+        let count: usize = ranges.iter().map(|(first, last)| last - first + 1).sum();
+        let on = evidence.on_path.task.iter().filter(|on| on.is_some_and(|(t, _)| t == task)).count();
+        let inside = ranges.iter().flat_map(|(first, last)| &frames[*first..=*last]);
+        let loss: f64 = inside.map(Frame::speed_m_s).filter(|v| *v > limit).map(|v| v / limit).sum();
+        let per_frame = |sum: f64| if count == 0 { 0.0 } else { (sum + 0.0) / count as f64 };
+        TaskVisits {
+            id: scenario.tasks[task].id,
+            visits: ranges.iter().map(|(first, last)| (frames[*first].index, frames[*last].index)).collect(),
+            coverage: evidence.covered[task].share,
+            on_path: per_frame(on as f64),
+            speeding: per_frame(loss),
+        }
+    };
+    ranges.iter().enumerate().map(one).collect()
+}
+
+fn covered_conformity(tasks: &[TaskVisits], scenario: &Scenario) -> Option<f64> {
+    let shares: Vec<conformity::TaskShares> = tasks
+        .iter()
+        .map(|task| conformity::TaskShares { on_path: task.coverage * task.on_path, speeding: task.speeding })
+        .collect();
+    conformity::score(&shares, scenario.scoring.speed_limit_m_s, scenario.scoring.max_speed_m_s).map(|score| score.pct)
+}
+
+fn crash_loss(speed_m_s: f64) -> f64 {
+    let ratio = speed_m_s / CRASH_SPEED_M_S;
+    (CRASH_LOSS * (1.0 + ratio * ratio)).min(CRASH_LOSS_MAX)
+}
+
+fn merged(evidence: &Evidence<'_>) -> Vec<MergedCrash> {
+    let rate = evidence.scenario.scoring.frame_rate_hz;
+    crash::merged(evidence.crashes, CRASH_APART_S * rate)
+        .iter()
+        .map(|crash| MergedCrash {
+            frame: evidence.session.frames[crash.frame].index,
+            t_s: crash.frame as f64 / rate,
+            with: crash.with,
+            speed_m_s: crash.speed_m_s,
+            loss: crash_loss(crash.speed_m_s),
+            task: crash.task.map(|task| evidence.scenario.tasks[task].id),
+        })
+        .collect()
+}
+
+/// Frames closer than the scenario's clearance, or than the smaller distance of the task last entered, as the feedback has it.
+fn exposure_s(evidence: &Evidence<'_>) -> f64 {
+    let scenario = evidence.scenario;
+    let mut current: Option<usize> = None;
+    let mut frames = 0usize;
+    for (frame, on) in evidence.session.frames.iter().zip(&evidence.on_path.task) {
+        current = on.map(|(task, _)| task).or(current);
+        let own = current.and_then(|task| scenario.tasks[task].too_close_m);
+        let limit = own.unwrap_or(f64::INFINITY).min(scenario.scoring.clearance_m);
+        let home = (frame.position_m - scenario.ground_team.pad_m).horizontal_norm() <= scenario.ground_team.home_radius_m;
+        let close = frame.clearance_m.is_some_and(|clearance| clearance < limit);
+        frames += usize::from(close && !home && !frame.missing);
+    }
+    frames as f64 / scenario.scoring.frame_rate_hz
+}
+
+fn safety(gates: &Gates, crashes: &[MergedCrash], exposure_s: f64) -> f64 {
+    if !gates.no_person_or_vehicle_hit {
+        return 0.0;
+    }
+    let crashes: f64 = crashes.iter().map(|crash| crash.loss).sum();
+    let closeness = (EXPOSURE_LOSS_PER_S * exposure_s).min(EXPOSURE_LOSS_MAX);
+    Score::on_scale(-crashes - closeness, -100.0, 0.0).pct
+}
+
+fn detection(evidence: &Evidence<'_>) -> Detection {
+    let mut detection = Detection {
+        detection_only: true,
+        by_element: BTreeMap::new(),
+        by_kind: BTreeMap::new(),
+        by_condition_state: BTreeMap::new(),
+    };
+    for defect in evidence.defects {
+        let found = usize::from(evidence.found.contains(&defect.id));
+        let add = |entry: &mut Found| {
+            entry.placed += 1;
+            entry.found += found;
+        };
+        add(detection.by_element.entry(defect.element).or_default());
+        add(detection.by_kind.entry(defect.kind).or_default());
+        add(detection.by_condition_state.entry(defect.condition_state).or_default());
+    }
+    detection
+}

@@ -1,0 +1,126 @@
+//! How much of the job was done: it stands beside every score, so that a flight that did not do the job never looks good.
+
+use crate::measures::coverage::PathCoverage;
+use serde::{Deserialize, Serialize};
+use spandrel_model::numbers::{beside_limit, limit};
+
+/// How far a task got.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TaskState {
+    /// Enough of its path was flown.
+    Done,
+    /// Its path was entered, but not enough of it was flown.
+    Part,
+    /// Its path was never entered.
+    NotAttempted,
+}
+
+impl TaskState {
+    /// From the share of a path that was flown.
+    #[must_use]
+    pub fn of(attempted: bool, covered: f64, done_share: f64) -> Self {
+        match (attempted, covered >= done_share) {
+            (false, _) => Self::NotAttempted,
+            (true, true) => Self::Done,
+            (true, false) => Self::Part,
+        }
+    }
+
+    /// In words, with the share of the path.
+    #[must_use]
+    pub fn words(self, covered: f64, done_share: f64) -> String {
+        match self {
+            Self::Done => format!("done, {} % of its path", percent(covered, done_share)),
+            Self::Part => format!("part, {} % of its path", percent(covered, done_share)),
+            Self::NotAttempted => "not attempted".to_owned(),
+        }
+    }
+}
+
+/// Completion of a session.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Completion {
+    /// Every task is done, and the session ended by landing at home.
+    pub complete: bool,
+    /// Tasks done.
+    pub tasks_done: usize,
+    /// Tasks of the job.
+    pub tasks: usize,
+    /// Share of the length of all paths that was flown, 0 to 1.
+    pub path_share: f64,
+    /// The session ended by landing at home.
+    pub landed_at_home: bool,
+    /// Share of its path from which on a task is done, 0 to 1.
+    pub done_share: f64,
+}
+
+impl Completion {
+    /// Of all tasks' states and coverage.
+    #[must_use]
+    pub fn of(states: &[TaskState], covered: &[PathCoverage], landed_at_home: bool, done_share: f64) -> Self {
+        let tasks_done = states.iter().filter(|state| **state == TaskState::Done).count();
+        let length_m: f64 = covered.iter().map(|one| one.length_m).sum();
+        let flown_m = covered.iter().fold(0.0, |sum, one| sum + one.length_m * one.share);
+        let count = states.len().max(1) as f64;
+        // Jobs of single points have no length: each point counts the same.
+        let by_count = covered.iter().fold(0.0, |sum, one| sum + one.share) / count;
+        Self {
+            complete: landed_at_home && tasks_done == states.len(),
+            tasks_done,
+            tasks: states.len(),
+            path_share: if length_m > 0.0 { flown_m / length_m } else { by_count },
+            landed_at_home,
+            done_share,
+        }
+    }
+
+    /// Tasks and path in words, such as "Incomplete: 1 of 4 tasks, 31 % of the path".
+    #[must_use]
+    pub fn short(&self) -> String {
+        let word = if self.complete { "Complete" } else { "Incomplete" };
+        // Of one task the share decides; over several tasks it only informs.
+        let share =
+            if self.tasks == 1 { percent(self.path_share, self.done_share) } else { format!("{:.0}", 100.0 * self.path_share) };
+        let tasks = if self.tasks == 1 { "task" } else { "tasks" };
+        format!("{word}: {} of {} {tasks}, {share} % of the path", self.tasks_done, self.tasks)
+    }
+
+    /// The headline: [`Self::short`], and the landing where nothing else is missing.
+    #[must_use]
+    pub fn headline(&self) -> String {
+        let only_landing = !self.landed_at_home && self.tasks_done == self.tasks;
+        self.short() + if only_landing { ", not landed at home" } else { "" }
+    }
+}
+
+/// A share as a percentage with the digits that show on which side of the limit it lies.
+#[must_use]
+pub fn percent(share: f64, done_share: f64) -> String {
+    beside_limit(100.0 * share, 100.0 * done_share, 0)
+}
+
+/// A task that is not done, in words; `None` for one that is.
+#[must_use]
+pub fn missing(id: u32, state: TaskState, covered: f64, done_share: f64) -> Option<String> {
+    match state {
+        TaskState::Done => None,
+        TaskState::Part => Some(format!(
+            "task {id} not done: {} % of its path, {} % needed",
+            percent(covered, done_share),
+            limit(100.0 * done_share)
+        )),
+        TaskState::NotAttempted => Some(format!("task {id} not attempted")),
+    }
+}
+
+/// The verdict of the certification profile in words: certified, or the first requirement that failed.
+#[must_use]
+pub fn verdict(certified: bool, unmet: &[String]) -> String {
+    match (certified, unmet) {
+        (true, _) => "Certified".to_owned(),
+        (false, []) => "Not certified".to_owned(),
+        (false, [only]) => format!("Not certified: {only}"),
+        (false, [first, rest @ ..]) => format!("Not certified: {first} (and {} more)", rest.len()),
+    }
+}

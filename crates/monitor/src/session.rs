@@ -1,0 +1,294 @@
+//! From lift-off to the end: which frames a session has, and why it ended.
+
+use super::measures::crash;
+use serde::Serialize;
+use spandrel_mavlink::telemetry::{Contact, Flight, Frame};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{AfterCrash, Scenario};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+
+/// Lift-off and landing height of the drone's centre over the pad, m (assessment.md, frames).
+const LIFT_OFF_M: f64 = 0.3;
+/// An aircraft whose centre stands higher than the rule's height lifts off this much over its stand, m (estimate).
+const OVER_STAND_M: f64 = 0.05;
+/// Slower than this is at rest, m/s (estimate: above the truth stream's resolution of 0.01 m/s, below any controlled drift).
+const REST_M_S: f64 = 0.2;
+/// At rest for this long is a landing (assessment.md, frames).
+const REST_FOR: SimTime = SimTime::from_ms(3_000);
+
+/// The words `armed` and `on the ground` come once a second and may be this old.
+const WORDS_OLD: SimTime = SimTime::from_ms(1_500);
+/// Farther between two moments than this, and farther than at [`FASTEST_M_S`], the drone has been put back, m (estimate).
+const JUMP_M: f64 = 1.5;
+/// Faster than any drone flies or falls here, m/s (estimate).
+const FASTEST_M_S: f64 = 50.0;
+
+/// Why a session ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(into = "&'static str")]
+pub enum EndReason {
+    /// Landed near the ground team.
+    Landed,
+    /// Battery empty.
+    Battery,
+    /// Longest flight time passed.
+    TimeLimit,
+    /// Hit a person.
+    Person,
+    /// Hit a vehicle.
+    Vehicle,
+    /// A crash, where the scenario ends the session on any.
+    Crash,
+    /// Stopped by somebody, or the telemetry ends.
+    Abort,
+    /// The simulator was started anew in mid-flight.
+    Restart,
+}
+
+impl From<EndReason> for &'static str {
+    fn from(reason: EndReason) -> Self {
+        reason.word()
+    }
+}
+
+impl EndReason {
+    /// The word of `assessment.json`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Landed => "landed",
+            Self::Battery => "battery",
+            Self::TimeLimit => "time_limit",
+            Self::Person => "person",
+            Self::Vehicle => "vehicle",
+            Self::Crash => "crash",
+            Self::Abort => "abort",
+            Self::Restart => "restart",
+        }
+    }
+}
+
+/// What the end rule looks at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// Simulation time.
+    pub time: SimTime,
+    /// Flight time that this moment completes, s.
+    pub flown_s: f64,
+    /// Position, m.
+    pub position_m: Vec3<Enu>,
+    /// Speed, m/s.
+    pub speed_m_s: f64,
+    /// Contact after the pad rule.
+    pub contact: Contact,
+    /// Battery, %.
+    pub battery_pct: f64,
+    /// Armed, if known.
+    pub armed: Option<bool>,
+    /// The autopilot says that it stands.
+    pub on_ground: bool,
+}
+
+/// Watches for the end, moment after moment. A landing counts from the moment at which the drone came to rest, so it is known only
+/// when the rest has lasted, and what happens meanwhile (an empty battery) does not undo it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndRule {
+    pad_m: Vec3<Enu>,
+    home_radius_m: f64,
+    lift_off_m: f64,
+    time_max_s: f64,
+    crash_ends: bool,
+    seen_armed: bool,
+    rest_since: Option<SimTime>,
+    pending: Option<(SimTime, EndReason)>,
+    last: Option<(SimTime, Vec3<Enu>)>,
+    put_back: Option<SimTime>,
+}
+
+impl EndRule {
+    /// For one session.
+    #[must_use]
+    pub fn new(scenario: &Scenario, vehicle: &Vehicle) -> Self {
+        Self {
+            pad_m: scenario.ground_team.pad_m,
+            home_radius_m: scenario.ground_team.home_radius_m,
+            lift_off_m: lift_off_height_m(vehicle),
+            time_max_s: scenario.scoring.time_max_s,
+            crash_ends: scenario.rules.after_crash == AfterCrash::End,
+            seen_armed: false,
+            rest_since: None,
+            pending: None,
+            last: None,
+            put_back: None,
+        }
+    }
+
+    /// Once the drone has been put back elsewhere, what was said of it before says nothing about there.
+    fn without_old_words(&mut self, moment: &Moment) -> Moment {
+        let jumped = self.last.is_some_and(|(time, position_m)| {
+            (moment.position_m - position_m).norm() > JUMP_M + FASTEST_M_S * (moment.time - time).s()
+        });
+        self.last = Some((moment.time, moment.position_m));
+        if jumped {
+            self.put_back = Some(moment.time);
+        }
+        if self.put_back.is_none_or(|since| moment.time - since >= WORDS_OLD) {
+            return *moment;
+        }
+        let down = matches!(moment.contact, Contact::Terrain);
+        Moment { armed: moment.armed.filter(|armed| *armed), on_ground: moment.on_ground && down, ..*moment }
+    }
+
+    /// The end, when this moment decides it; the time is that of the last frame.
+    pub fn see(&mut self, moment: &Moment) -> Option<(SimTime, EndReason)> {
+        let moment = &self.without_old_words(moment);
+        match moment.contact {
+            Contact::Person => return Some((moment.time, EndReason::Person)),
+            Contact::Vehicle => return Some((moment.time, EndReason::Vehicle)),
+            Contact::Bridge | Contact::Terrain | Contact::Water | Contact::Other if self.crash_ends => {
+                return Some((moment.time, EndReason::Crash));
+            }
+            Contact::None | Contact::Bridge | Contact::Terrain | Contact::Water | Contact::Other => {}
+        }
+        // The word `disarmed` is a second old at most, and means a landing only after the word `armed`.
+        self.seen_armed |= moment.armed == Some(true);
+        self.rest_since = self.rests_at_home(moment).then(|| self.rest_since.unwrap_or(moment.time));
+        if let Some(since) = self.rest_since
+            && (self.seen_armed && moment.armed == Some(false) || moment.time - since >= REST_FOR)
+        {
+            return Some((since, EndReason::Landed));
+        }
+        let over = if moment.battery_pct <= 0.0 {
+            Some(EndReason::Battery)
+        } else {
+            (moment.flown_s > self.time_max_s).then_some(EndReason::TimeLimit)
+        };
+        self.pending = self.pending.or(over.map(|reason| (moment.time, reason)));
+        if self.rest_since.is_none() { self.pending } else { None }
+    }
+
+    /// The end that was waiting for a landing to be confirmed, when no more moments come.
+    #[must_use]
+    pub fn pending(&self) -> Option<(SimTime, EndReason)> {
+        self.pending
+    }
+
+    fn rests_at_home(&self, moment: &Moment) -> bool {
+        let from_pad = moment.position_m - self.pad_m;
+        let down = moment.on_ground || from_pad.up() < self.lift_off_m || moment.contact == Contact::Terrain;
+        down && moment.speed_m_s < REST_M_S && from_pad.horizontal_norm() <= self.home_radius_m
+    }
+}
+
+/// Height over the pad at which this aircraft has lifted off, m.
+#[must_use]
+pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
+    let stand = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max);
+    LIFT_OFF_M.max(stand + OVER_STAND_M)
+}
+
+/// Frames are looked at this long past the time limit: longer than a landing takes to be confirmed.
+const OVERTIME: SimTime = SimTime::from_ms(10_000);
+
+/// The frames of a session and its end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Session {
+    /// Frame 1 to N; contacts after the pad rule.
+    pub frames: Vec<Frame>,
+    /// Why frame N is the last.
+    pub reason: EndReason,
+}
+
+impl Session {
+    /// Cuts a flight into its session; `None` when it never lifted off.
+    #[must_use]
+    pub fn cut(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
+        let start = flight.lift_off(scenario.ground_team.pad_m.up(), lift_off_height_m(vehicle))?;
+        // The time limit ends every session; a broken clock must not make frames without end.
+        let end = flight.end()?.min(start + SimTime::from_s(scenario.scoring.time_max_s) + OVERTIME);
+        let rate = scenario.scoring.frame_rate_hz;
+        let mut frames = all_frames(flight, start, end, rate);
+        crash::settle_contacts(&mut frames, flight, &scenario.ground_team);
+        let mut rule = EndRule::new(scenario, vehicle);
+        let decided = frames.iter().find_map(|frame| rule.see(&moment(frame, rate)));
+        let none = if flight.ended_by_restart { EndReason::Restart } else { EndReason::Abort };
+        let (last, reason) = decided.or(rule.pending()).unwrap_or((end, none));
+        frames.truncate(frames.partition_point(|frame| frame.time <= last).max(1));
+        Some(Self { frames, reason })
+    }
+
+    /// N/f, s.
+    #[must_use]
+    pub fn seconds(&self, frame_rate_hz: f64) -> f64 {
+        self.frames.len() as f64 / frame_rate_hz
+    }
+}
+
+fn all_frames(flight: &Flight, start: SimTime, end: SimTime, rate: f64) -> Vec<Frame> {
+    let at = |k: u32| start + SimTime::from_s(f64::from(k) / rate);
+    // Frame 1 has no frame before it: it sees its own instant only.
+    let before = SimTime::from_ns(start.ns() - 1);
+    (0u32..)
+        .take_while(|k| at(*k) <= end)
+        .filter_map(|k| flight.frame(k + 1, if k == 0 { before } else { at(k - 1) }, at(k)))
+        .collect()
+}
+
+fn moment(frame: &Frame, rate: f64) -> Moment {
+    Moment {
+        time: frame.time,
+        flown_s: f64::from(frame.index) / rate,
+        position_m: frame.position_m,
+        speed_m_s: frame.speed_m_s(),
+        contact: frame.contact,
+        battery_pct: frame.battery_pct,
+        armed: frame.armed,
+        on_ground: frame.on_ground,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rule() -> EndRule {
+        let read = |text| spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap();
+        let vehicle =
+            spandrel_model::vehicle::read("phantom2.toml", include_str!("../../../vehicle-params/phantom2.toml")).unwrap();
+        EndRule::new(&read(include_str!("../../../scenarios/two-bridges.toml")), &vehicle)
+    }
+
+    /// The first end within eight seconds at a fixed place, seen 30 times a second from `from_ms` on.
+    fn end(rule: &mut EndRule, from_ms: i64, position_m: Vec3<Enu>, words: impl Fn(i64) -> (bool, bool)) -> Option<EndReason> {
+        (0..240).find_map(|k| {
+            let (armed, on_ground) = words(k);
+            let time = SimTime::from_ms(from_ms + k * 33);
+            let contact = Contact::None;
+            let still = Moment {
+                time,
+                flown_s: time.s(),
+                position_m,
+                speed_m_s: 0.0,
+                contact,
+                battery_pct: 90.0,
+                armed: Some(armed),
+                on_ground,
+            };
+            rule.see(&still).map(|(_, reason)| reason)
+        })
+    }
+
+    #[test]
+    fn exact_put_back_over_home_is_no_landing_however_old_the_words_are() {
+        let mut rule = rule();
+        let pad_m = rule.pad_m;
+        let over_home = pad_m + Vec3::new(1.0, 0.0, 5.0);
+        assert_eq!(end(&mut rule, 0, over_home, |_| (true, false)), None);
+        // In the lake it disarms; put back it is armed, but for a second the wire still says that it lies there disarmed.
+        assert_eq!(end(&mut rule, 8_000, pad_m + Vec3::new(80.0, 0.0, -5.0), |_| (false, true)), None);
+        assert_eq!(end(&mut rule, 16_000, over_home, |k| (k >= 30, k < 30)), None);
+        // What is said later counts: it stands on something near home and disarms.
+        assert_eq!(end(&mut rule, 24_000, over_home, |_| (false, true)), Some(EndReason::Landed));
+    }
+}

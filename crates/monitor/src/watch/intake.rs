@@ -1,0 +1,271 @@
+//! Taking in: one frame at a time, from the stamp in the log to the end of the session.
+
+use super::{COMPONENT, HEARTBEAT_EVERY, Live, Monitor, RETRY, SETTLE, TOUCH_REACH_M};
+use crate::assessment::{self, AssessError, Graded, Job};
+use crate::feedback::{Feedback, texts::Texts};
+use crate::folder::SIMULATOR_RESTARTED;
+use crate::measures::attention;
+use crate::measures::crash::may_touch_pad;
+use crate::session::{EndReason, Moment as EndMoment, lift_off_height_m};
+use serde_json::json;
+use spandrel_mavlink::codec::Received;
+use spandrel_mavlink::dialect::MavSeverity;
+use spandrel_mavlink::note;
+use spandrel_mavlink::telemetry::frame::GAP_AFTER;
+use spandrel_mavlink::telemetry::sample::{Said, Sample};
+use spandrel_mavlink::telemetry::timeline::Pushed;
+use spandrel_mavlink::telemetry::{Contact, Truth};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::time::SimTime;
+impl Monitor {
+    /// Session start plus the simulation time since the first truth; after a simulator's restart the stamps go on rising.
+    pub(super) fn stamp_us(&mut self, received: &Received) -> u64 {
+        let own = spandrel_mavlink::telemetry::sample::truth_time(&received.bytes);
+        let since_zero = |own: SimTime| u64::try_from(own.us()).unwrap_or(0);
+        let started = self.config.started_unix_us;
+        self.zero_unix_us = self.zero_unix_us.or(own.map(|own| started.saturating_sub(since_zero(own))));
+        let Some(zero) = self.zero_unix_us else { return started };
+        let now = own.map_or(self.now(), |own| own.max(self.now()));
+        let passed = self.timeline.passed(self.timeline.epochs() - 1);
+        let since = u64::try_from((passed + now).us()).unwrap_or(0);
+        zero.saturating_add(since)
+    }
+
+    pub(super) fn take(&mut self, received: &Received) {
+        let before = self.timeline.newest();
+        match self.timeline.push(&received.bytes) {
+            Pushed::Nothing => {}
+            Pushed::Restarted(sample) => self.restarted(sample),
+            Pushed::Kept(sample) => self.note(sample, before),
+        }
+    }
+
+    /// An instructor's note at this moment.
+    pub(super) fn take_note(&mut self, received: &Received) {
+        if let Some(((system, COMPONENT), text)) = note::decode(received)
+            && system == self.encoder.system_id()
+        {
+            self.event("note", json!({ "text": text }));
+        }
+    }
+
+    fn restarted(&mut self, sample: Sample) {
+        self.event(SIMULATOR_RESTARTED, json!({}));
+        if self.live.lift_off.is_some() {
+            self.close();
+            return;
+        }
+        self.live = Live::new(&self.config);
+        self.feedback = Feedback::new(&self.config.scenario);
+        self.texts = Texts::default();
+        self.heartbeat_sim = None;
+        self.note(sample, None);
+    }
+
+    fn note(&mut self, sample: Sample, before: Option<SimTime>) {
+        match sample.said {
+            Said::Truth(truth) if before.is_none_or(|before| truth.time > before) => self.truth(truth, before),
+            Said::Truth(_) | Said::Sticks(_) | Said::Hits(_) | Said::GimbalPitch(_) | Said::FieldOfView(_) | Said::Light(_) => {}
+            Said::Battery(pct) => self.live.battery_pct = Some(pct),
+            Said::Contact(contact) => self.contact(contact),
+            Said::Respawns(count) => self.respawns(count),
+            Said::Traffic(code) => self.traffic(code),
+            Said::Seed(seed) => self.seed_heard(seed),
+            Said::ScenarioCrc(crc) => {
+                if let Err(error) = assessment::check_scenario(&self.config.scenario, crc) {
+                    self.refuse(error);
+                }
+            }
+            Said::Clearance(metres) => self.live.clearance_m = Some(metres),
+            Said::Beat { armed, by } => {
+                self.live.armed = Some(armed);
+                if self.live.flown_by.replace(by) != Some(by) {
+                    self.event("flown_by", json!({ "by": by }));
+                }
+            }
+            Said::OnGround(on_ground) => self.live.on_ground = on_ground,
+            Said::Snapshot(index) => self.event("snapshot", json!({ "image": index })),
+        }
+    }
+
+    fn seed_heard(&mut self, seed: u64) {
+        if let Err(error) = assessment::check_seed(self.seed, seed) {
+            self.refuse(error);
+            return;
+        }
+        self.seed = Some(seed);
+        if self.survey.is_none() {
+            let survey = (self.config.build)(&self.config.scenario, seed);
+            self.survey = Some(survey.with_gates(self.live.gates.clone()).unwrap_or(survey));
+            self.event("seed", json!({ "seed": seed }));
+        }
+    }
+
+    fn refuse(&mut self, error: AssessError) {
+        if self.refused.is_none() {
+            self.event("refused", json!({ "why": error.to_string() }));
+            self.text("Monitor: other scenario or seed", MavSeverity::MAV_SEVERITY_WARNING);
+            self.refused = Some(error.clone());
+            self.outcome = Some(Err(error));
+        }
+    }
+
+    /// Traffic was stopped or let go: what stands near is asked about under the same traffic as the simulator's.
+    fn traffic(&mut self, code: i32) {
+        let before = self.live.gates.clone();
+        self.live.gates.hear(code);
+        if self.live.gates == before {
+            return;
+        }
+        self.event("traffic", json!({ "open": code > 0 }));
+        self.survey = self.survey.take().map(|survey| survey.with_gates(self.live.gates.clone()).unwrap_or(survey));
+    }
+
+    fn respawns(&mut self, count: i32) {
+        if self.live.respawns.is_some_and(|known| count > known) {
+            self.event("respawn", json!({ "count": count }));
+        }
+        self.live.respawns = Some(count);
+    }
+
+    fn truth(&mut self, truth: Truth, before: Option<SimTime>) {
+        if let Some(before) = before.filter(|before| truth.time - *before > GAP_AFTER) {
+            self.event("telemetry_gap", json!({ "from_s": before.s(), "to_s": truth.time.s() }));
+        }
+        self.live.truth = Some(truth);
+        if self.live.lift_off.is_none() && self.height_m(truth.position_m) > lift_off_height_m(&self.config.vehicle) {
+            self.live.lift_off = Some(truth.time);
+            self.event("lift_off", json!({}));
+        }
+        self.place(truth.position_m);
+        self.speak();
+        self.look_for_the_end(&truth);
+        let due = |last: Option<SimTime>| last.is_none_or(|last| truth.time - last >= HEARTBEAT_EVERY);
+        if due(self.heartbeat_sim) {
+            self.heartbeat_sim = Some(truth.time);
+            self.heartbeat();
+        }
+    }
+
+    pub(super) fn height_m(&self, position_m: Vec3<Enu>) -> f64 {
+        position_m.up() - self.config.scenario.ground_team.pad_m.up()
+    }
+
+    fn place(&mut self, position_m: Vec3<Enu>) {
+        if self.live.lift_off.is_none() {
+            return;
+        }
+        let on = self.paths.on(position_m, self.live.last_task);
+        if let Some((task, nearest)) = on
+            && let Some(passed) = self.live.passed[task].get_mut(nearest.point)
+        {
+            *passed = true;
+        }
+        let on = on.map(|(task, _)| task);
+        if let Some(task) = on.filter(|task| self.live.last_task != Some(*task)) {
+            self.event("task_entered", json!({ "task": self.config.scenario.tasks[task].id }));
+        }
+        self.live.on = on;
+        self.live.last_task = on.or(self.live.last_task);
+    }
+
+    fn contact(&mut self, contact: Contact) {
+        let onset = self.live.contact == Contact::None && contact != Contact::None;
+        if onset {
+            self.live.on_pad = self.is_soft_pad_touch(contact);
+        }
+        let changed = self.live.contact != contact;
+        self.live.contact = contact;
+        if changed && contact != Contact::None && !self.live.on_pad && self.live.lift_off.is_some() {
+            let what = self.touched();
+            self.event("crash", json!({ "with": contact.word(), "what": what }));
+        }
+        if changed {
+            self.speak();
+        }
+    }
+
+    fn is_soft_pad_touch(&self, contact: Contact) -> bool {
+        let team = &self.config.scenario.ground_team;
+        matches!(contact, Contact::Terrain | Contact::Other)
+            && self.live.truth.is_some_and(|truth| may_touch_pad(truth.position_m, truth.velocity_m_s.up(), team))
+    }
+
+    pub(super) fn counted_contact(&self) -> Contact {
+        if self.live.on_pad && !matches!(self.live.contact, Contact::Person | Contact::Vehicle) {
+            Contact::None
+        } else {
+            self.live.contact
+        }
+    }
+
+    pub(super) fn touched(&self) -> Option<String> {
+        let truth = self.live.truth?;
+        self.survey.as_ref()?.name_near(truth.position_m, TOUCH_REACH_M, truth.time)
+    }
+
+    fn look_for_the_end(&mut self, truth: &Truth) {
+        let Some(start) = self.live.lift_off else { return };
+        if self.live.end.is_none() && truth.time >= self.live.no_end_before {
+            let rate = self.config.scenario.scoring.frame_rate_hz;
+            let moment = EndMoment {
+                time: truth.time,
+                flown_s: (truth.time - start).s() + 1.0 / rate,
+                position_m: truth.position_m,
+                speed_m_s: truth.velocity_m_s.norm(),
+                contact: self.counted_contact(),
+                battery_pct: self.live.battery_pct.unwrap_or(100.0),
+                armed: self.live.armed,
+                on_ground: self.live.on_ground,
+            };
+            self.live.end = self.live.rule.see(&moment).map(|(_, reason)| (truth.time, reason));
+        }
+        if let Some((time, _)) = self.live.end
+            && truth.time - time >= SETTLE
+            && !self.replaying
+        {
+            self.try_to_finish(truth.time);
+        }
+    }
+
+    /// The live rule sees samples, the scorer frames: the scorer decides. When it sees no end yet, the watch goes on.
+    fn try_to_finish(&mut self, now: SimTime) {
+        let outcome = self.score();
+        match &outcome {
+            Ok(graded) if graded.assessment.end.reason == EndReason::Abort => {
+                self.live.end = None;
+                self.live.no_end_before = now + RETRY;
+            }
+            Ok(_) | Err(_) => self.finish(outcome),
+        }
+    }
+
+    pub(super) fn score(&mut self) -> Result<Graded, AssessError> {
+        if let Some(refused) = &self.refused {
+            return Err(refused.clone());
+        }
+        let Self { config, timeline, survey, .. } = self;
+        let flight = assessment::scored_flight(timeline, &config.scenario, &config.vehicle);
+        let seed = assessment::check_identity(&flight, &config.scenario, self.seed)?;
+        let survey = survey.get_or_insert_with(|| (config.build)(&config.scenario, seed)).clone();
+        let survey = attention::gated(survey, &flight);
+        let job = Job { scenario: &config.scenario, vehicle: &config.vehicle, survey: survey.as_ref() };
+        let (assessment, frames) = assessment::assess(&flight, &job)?;
+        Ok(Graded { assessment, frames, seed })
+    }
+
+    pub(super) fn finish(&mut self, outcome: Result<Graded, AssessError>) {
+        let (reason, words) = match &outcome {
+            Ok(graded) => {
+                let (overall, completion) = (graded.assessment.scores.overall, graded.assessment.completion);
+                let words = if completion.complete { format!("Session over: {overall:.0} points") } else { completion.short() };
+                (json!(graded.assessment.end.reason), words)
+            }
+            Err(error) => (json!(error.to_string()), "Session over: nothing to score".to_owned()),
+        };
+        let counts = self.link();
+        self.event("end", json!({ "reason": reason, "link": counts }));
+        self.text(&words, MavSeverity::MAV_SEVERITY_INFO);
+        self.outcome = Some(outcome);
+    }
+}

@@ -1,0 +1,32 @@
+//! Acro: the sticks command body rates. As ArduCopter's default trainer has it, released sticks level the vehicle and the lean angle is limited.
+
+use super::core::Autopilot;
+use super::modes::Wanted;
+use spandrel_model::frames::Vec3;
+use spandrel_model::math;
+
+/// Lean angles are leveled at this rate, 1/s, counted up to this angle, rad (ArduCopter: ACRO_BAL_ROLL 1, ACRO_LEVEL_MAX_ANGLE 30 degrees).
+const LEVEL_PER_S: f64 = 1.0;
+const LEVEL_MOST_RAD: f64 = 0.524;
+/// The rate towards the lean limit falls off at this gain, 1/s (estimate: slower than the attitude loop, so that the limit is not overshot).
+const LIMIT_PER_S: f64 = 4.0;
+
+impl Autopilot {
+    pub(super) fn acro(&mut self) -> Wanted {
+        let (s, l) = (self.links.sticks, self.airframe.limits);
+        let (roll, pitch, yaw) = self.estimate.attitude.euler();
+        let most = self.gains.tilt_rad;
+        let lean_rate = |stick: f64, angle: f64| {
+            let wish = stick * l.rate_rad_s - LEVEL_PER_S * angle.clamp(-LEVEL_MOST_RAD, LEVEL_MOST_RAD);
+            wish.clamp(LIMIT_PER_S * (-most - angle), LIMIT_PER_S * (most - angle))
+        };
+        let rates_rad_s = Vec3::new(lean_rate(s.right, roll), lean_rate(-s.forward, pitch), s.yaw * l.yaw_rate_rad_s);
+        let low = math::lerp(self.gains.hover_n, self.gains.thrust_min_n, (-s.up).clamp(0.0, 1.0));
+        let thrust_n = if s.up > 0.0 { math::lerp(self.gains.hover_n, self.gains.thrust_max_n, s.up) } else { low };
+        self.contact.wanted_down_m_s = if s.up < -0.5 { l.descend_m_s } else { 0.0 };
+        // A mode that holds the heading continues from this one.
+        self.course.yaw_rad = yaw;
+        self.course.yaw_rate_rad_s = 0.0;
+        Wanted::Spin { rates_rad_s, thrust_n }
+    }
+}

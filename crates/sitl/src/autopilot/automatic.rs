@@ -1,0 +1,344 @@
+//! Hold, go-to, take-off, landing, return and external set-points.
+
+use super::core::{Autopilot, Severity};
+use super::manual::LOCK_SPEED_M_S;
+use super::modes::{ReturnPhase, Wanted};
+use super::operator_rules::Heading;
+use super::shaper::{CALM_JERK_S, JERK_S, Limits, heading_of, towards};
+use super::velocity::{Motion, Pull};
+use super::{Landed, MissionStep, Mode, OffboardSetpoint, Turn};
+use spandrel_model::frames::{Frd, Ned, Vec3};
+use spandrel_model::math;
+use spandrel_model::time::SimTime;
+
+/// In automatic modes the heading turns with this share of the full rate, and follows errors with this gain, 1/s.
+const AUTO_YAW_SHARE: f64 = 0.7;
+const AUTO_YAW_GAIN: f64 = 1.5;
+/// A height counts as reached within, m.
+pub(super) const HEIGHT_REACHED_M: f64 = 0.4;
+/// A take-off keeps its own rate up to this height over the ground, then climbs as elsewhere, m (PX4: MPC_LAND_ALT1).
+const TAKEOFF_SLOW_BELOW_M: f64 = 10.0;
+/// A take-off from the ground climbs at least so far, m (ArduCopter's AUTO).
+const TAKEOFF_LEAST_M: f64 = 1.0;
+/// The rest of a turn is flown the shorter way, rad (5 degrees, estimate: more than the heading overshoots).
+const NEARLY_TURNED_RAD: f64 = 0.087;
+/// The nose turns to the way when the target is further than this, m.
+pub(super) const TURN_BEYOND_M: f64 = 2.0;
+/// The nose turns along the path when it flies faster than this, m/s (estimate: well above the estimator's noise).
+const TURN_ABOVE_M_S: f64 = 1.0;
+
+impl Autopilot {
+    pub(super) fn turn_to(&mut self, yaw: Option<f64>, dt_s: f64) {
+        let own = AUTO_YAW_SHARE * self.airframe.limits.yaw_rate_rad_s;
+        let turn = self.course.turn.filter(|turn| yaw == Some(turn.yaw_rad));
+        let Some(yaw) = yaw else {
+            self.turn_at(0.0, dt_s);
+            return;
+        };
+        let limit = turn.and_then(|turn| turn.rate_rad_s).map_or(own, |rate| rate.min(self.airframe.limits.yaw_rate_rad_s));
+        let left = math::wrap_pi(yaw - self.course.yaw_rad);
+        let left = turn.map_or(left, |turn| self.the_way_round(turn, left));
+        self.course.heading_free = false;
+        self.advance_heading((AUTO_YAW_GAIN * left).clamp(-limit, limit), dt_s);
+    }
+
+    /// What is left of a turn in its direction, rad; once it is nearly there the direction no longer counts.
+    fn the_way_round(&mut self, turn: Turn, left: f64) -> f64 {
+        let long_way = turn.clockwise.is_some_and(|clockwise| clockwise != (left > 0.0));
+        if left.abs() < NEARLY_TURNED_RAD {
+            self.course.turn = Some(Turn { clockwise: None, ..turn });
+            return left;
+        }
+        if long_way { left - 2.0 * math::PI * left.signum() } else { left }
+    }
+
+    pub(super) fn motion(&self, velocity_m_s: Vec3<Ned>) -> Motion {
+        Motion { velocity_m_s, acceleration_m_s2: self.shaper.acceleration_m_s2, yaw_rad: self.course.yaw_rad }
+    }
+
+    pub(super) fn auto_limits(&self) -> Limits {
+        let (own, set) = (self.airframe_auto_limits(), &self.tuning.rules.envelope);
+        Limits {
+            horizontal_m_s2: own.horizontal_m_s2.min(set.acceleration_m_s2),
+            vertical_m_s2: own.vertical_m_s2.min(set.climb_acceleration_m_s2),
+            ..own
+        }
+    }
+
+    pub(super) fn airframe_auto_limits(&self) -> Limits {
+        let (horizontal_m_s2, vertical_m_s2) = (0.7 * self.gains.acceleration_m_s2, 0.7 * self.gains.climb_acceleration_m_s2);
+        Limits { horizontal_m_s2, vertical_m_s2, build_up_s: JERK_S }
+    }
+
+    /// Nobody waits for a mission or a return to react: they accelerate calmly. A pause brakes as `stopping_point` assumes.
+    fn travel_limits(&self) -> Limits {
+        let calm = matches!(self.status.mode, Mode::Mission | Mode::Return) && self.course.paused.is_none();
+        Limits { build_up_s: if calm { CALM_JERK_S } else { JERK_S }, ..self.auto_limits() }
+    }
+
+    /// Flies to the course's target and stays.
+    pub(super) fn go(&mut self, speed: Option<f64>, dt_s: f64) -> Wanted {
+        let (up, down) = (self.tuning.climb_m_s, self.tuning.descend_m_s);
+        self.go_within(speed, up, down, dt_s)
+    }
+
+    pub(super) fn go_within(&mut self, speed: Option<f64>, up: f64, down: f64, dt_s: f64) -> Wanted {
+        let l = &self.airframe.limits;
+        let cruise = speed.unwrap_or(self.cruise_m_s()).min(self.tuning.horizontal_speed_max_m_s).min(l.forward_m_s).max(0.1);
+        let (up, down) = (up.min(l.climb_m_s), down.min(l.descend_m_s));
+        let target = self.course.target_m;
+        let here = self.estimate.position_m;
+        self.status.target_m = Some(target);
+        let way = self.nose_by_rule(target);
+        let turns = speed.is_some() || self.status.mode != Mode::Hold;
+        let yaw = self.look_rad().or(self.course.target_yaw_rad).or(way.filter(|_| turns));
+        self.turn_to(yaw, dt_s);
+        let wish = towards(&self.gains, here, target, cruise, up, down);
+        self.shaper.advance(wish, &self.travel_limits(), dt_s);
+        Wanted::Fly(self.motion(self.shaper.velocity_m_s))
+    }
+
+    /// Where the nose points when nothing else says so.
+    fn nose_by_rule(&self, target_m: Vec3<Ned>) -> Option<f64> {
+        let here = self.estimate.position_m;
+        let home = self.status.home_m.unwrap_or(here);
+        let returning = self.status.mode == Mode::Return
+            || self.status.mode == Mode::Mission && self.mission.step() == Some(MissionStep::Return);
+        match self.tuning.rules.heading {
+            Heading::TargetExceptReturn if returning => None,
+            Heading::Target | Heading::TargetExceptReturn => heading_of(target_m - here, TURN_BEYOND_M),
+            Heading::Home => heading_of(home - here, TURN_BEYOND_M),
+            Heading::AwayFromHome => heading_of(here - home, TURN_BEYOND_M),
+            Heading::Path => heading_of(self.estimate.velocity_m_s, TURN_ABOVE_M_S),
+            Heading::Fixed => None,
+        }
+    }
+
+    pub(super) fn take_off(&mut self, now: SimTime, dt_s: f64) -> Wanted {
+        let left = self.estimate.position_m.down() - self.course.target_m.down();
+        if left < HEIGHT_REACHED_M && self.status.landed == Landed::InAir {
+            let target = self.course.target_m;
+            self.watch.intended = Mode::Hold;
+            self.enter(Mode::Hold, now);
+            self.course.target_m = target;
+            self.course.takeoff_up_m = None;
+        }
+        let wanted = self.climb_away(None, dt_s);
+        self.status.climbing_out = self.status.mode == Mode::Takeoff;
+        wanted
+    }
+
+    /// Climbs to a take-off's height at the take-off's rate.
+    pub(super) fn climb_away(&mut self, speed: Option<f64>, dt_s: f64) -> Wanted {
+        self.status.climbing_out = true;
+        let up = self.course.ground_down_m - self.estimate.position_m.down();
+        let slow = !self.tuning.takeoff_at_climb_speed && up < TAKEOFF_SLOW_BELOW_M;
+        let rate = if slow { self.tuning.takeoff_speed_m_s.min(self.tuning.climb_m_s) } else { self.tuning.climb_m_s };
+        self.go_within(speed, rate, self.tuning.descend_m_s, dt_s)
+    }
+
+    /// A take-off leads up: from the ground at least so far that the vehicle leaves it.
+    pub(super) fn above_ground(&self, up_m: f64) -> f64 {
+        let standing = matches!(self.status.landed, Landed::OnGround | Landed::TakingOff);
+        if standing { up_m.max(TAKEOFF_LEAST_M - self.estimate.position_m.down()) } else { up_m }
+    }
+
+    pub(super) fn land(&mut self, dt_s: f64) -> Wanted {
+        if self.status.landed == Landed::InAir {
+            self.status.landed = Landed::Landing;
+        }
+        if !self.estimate.position_valid {
+            return self.sink_blind(dt_s);
+        }
+        let here = self.estimate.position_m;
+        let speed = self.landing_speed();
+        self.turn_to(self.course.target_yaw_rad, dt_s);
+        let over = Vec3::new(self.course.target_m.north(), self.course.target_m.east(), here.down());
+        let flat = towards(&self.gains, here, over, LOCK_SPEED_M_S, 0.0, 0.0);
+        let wish = Vec3::new(flat.north(), flat.east(), speed);
+        self.shaper.advance(wish, &self.travel_limits(), dt_s);
+        self.status.target_m = Some(over);
+        Wanted::Fly(self.motion(self.shaper.velocity_m_s))
+    }
+
+    pub(super) fn landing_speed(&self) -> f64 {
+        let home = self.status.home_m.map_or(0.0, |h| h.down());
+        let over_home = home - self.estimate.position_m.down();
+        let below = self.seen.range_down_m.unwrap_or(over_home) - self.airframe.standing_m;
+        let slow = below < self.tuning.land_slow_below_m;
+        if slow {
+            return self.tuning.land_speed_m_s;
+        }
+        let set = self.tuning.rules.envelope.landing_m_s;
+        let wanted = if set.is_finite() { set } else { self.tuning.descend_m_s };
+        wanted.min(self.airframe.limits.descend_m_s)
+    }
+
+    /// Level and down: all that is left without position.
+    pub(super) fn sink_blind(&mut self, dt_s: f64) -> Wanted {
+        if self.status.landed == Landed::InAir {
+            self.status.landed = Landed::Landing;
+        }
+        self.turn_to(None, dt_s);
+        let wish = Vec3::new(0.0, 0.0, self.landing_speed());
+        self.shaper.advance(wish, &self.auto_limits(), dt_s);
+        let motion = self.motion(self.shaper.velocity_m_s);
+        Wanted::Level { motion, tilt: (0.0, 0.0) }
+    }
+
+    pub(super) fn go_home(&mut self, dt_s: f64) -> Wanted {
+        let here = self.estimate.position_m;
+        let home = self.course.refuge_m.or(self.status.home_m).unwrap_or(here);
+        match self.course.phase {
+            ReturnPhase::Climb => {
+                if (self.course.target_m.down() - here.down()).abs() < HEIGHT_REACHED_M {
+                    self.course.phase = ReturnPhase::Cruise;
+                }
+            }
+            ReturnPhase::Cruise => {
+                self.course.target_m = Vec3::new(home.north(), home.east(), self.course.target_m.down());
+                let speed = self.estimate.velocity_m_s.horizontal_norm();
+                if (here - home).horizontal_norm() < 0.5 && speed < 0.5 {
+                    self.arrive_home(home);
+                }
+            }
+            ReturnPhase::Wait => self.wait_over_home(home),
+            ReturnPhase::Stay => {}
+            ReturnPhase::Land => {
+                self.course.target_m = home;
+                return self.land(dt_s);
+            }
+        }
+        self.go(self.tuning.rules.homeward.speed_m_s.or(Some(self.cruise_m_s())), dt_s)
+    }
+
+    /// Over the place: it waits there, or lands.
+    fn arrive_home(&mut self, home: Vec3<Ned>) {
+        let rules = self.tuning.rules.homeward;
+        let waits = rules.wait_s != 0.0 || rules.final_height_m > 0.0;
+        let place = if self.status.home_m == Some(home) { "Home" } else { "Rally point" };
+        self.say(Severity::Info, format!("{place} reached, {}", if waits { "waiting" } else { "landing" }));
+        self.course.phase = if waits { ReturnPhase::Wait } else { ReturnPhase::Land };
+        self.course.wait_until = None;
+        if let Some(height_m) = rules.wait_height_m.filter(|_| waits) {
+            let down = self.estimate.position_m.down().max(home.down() - height_m);
+            self.course.target_m = Vec3::new(home.north(), home.east(), down);
+        }
+    }
+
+    fn wait_over_home(&mut self, home: Vec3<Ned>) {
+        let rules = self.tuning.rules.homeward;
+        if (self.course.target_m.down() - self.estimate.position_m.down()).abs() > HEIGHT_REACHED_M || rules.wait_s < 0.0 {
+            return;
+        }
+        let until = *self.course.wait_until.get_or_insert(self.last_step + SimTime::from_s(rules.wait_s));
+        if self.last_step < until {
+            return;
+        }
+        if rules.final_height_m > 0.0 {
+            self.course.phase = ReturnPhase::Stay;
+            let down = self.estimate.position_m.down().max(home.down() - rules.final_height_m);
+            self.course.target_m = Vec3::new(home.north(), home.east(), down);
+            self.say(Severity::Info, "Staying at the final height");
+        } else {
+            self.course.phase = ReturnPhase::Land;
+            self.say(Severity::Info, "Landing");
+        }
+    }
+
+    pub(super) fn fly_setpoint(&mut self, now: SimTime, dt_s: f64) -> Wanted {
+        let Some((setpoint, _)) =
+            self.links.offboard.filter(|_| self.links.offboard_fresh(self.tuning.offboard_patience_s(), now))
+        else {
+            return if self.estimate.position_valid { self.go(None, dt_s) } else { self.sink_blind(dt_s) };
+        };
+        match setpoint.yaw_rate_rad_s {
+            Some(rate) if setpoint.yaw_rad.is_none() => self.turn_at(rate, dt_s),
+            // Where a set-point leaves the heading open, a command may say it, as in ArduPilot's GUIDED.
+            _ => self.turn_to(setpoint.yaw_rad.or(self.course.target_yaw_rad), dt_s),
+        }
+        if let Some(up_m_s) = setpoint.climb_m_s {
+            return self.climb_at(&setpoint, up_m_s, dt_s);
+        }
+        if let Some((attitude, thrust)) = setpoint.attitude {
+            let thrust_n = (thrust.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n);
+            self.contact.wanted_down_m_s = if thrust < 0.1 { self.airframe.limits.descend_m_s } else { 0.0 };
+            self.course.yaw_rate_rad_s = 0.0;
+            return Wanted::Direct(Pull { attitude, thrust_n });
+        }
+        if let Some((rates_rad_s, thrust)) = setpoint.rates {
+            return self.spin(rates_rad_s, thrust);
+        }
+        if !self.estimate.position_valid {
+            return self.sink_blind(dt_s);
+        }
+        let wish = self.offboard_velocity(&setpoint);
+        self.shaper.advance(wish, &self.auto_limits(), dt_s);
+        let mut motion = self.motion(self.shaper.velocity_m_s);
+        self.accelerate(&setpoint, &mut motion);
+        Wanted::Fly(motion)
+    }
+
+    /// An attitude or body rates with a climb rate in place of the thrust (ArduCopter).
+    fn climb_at(&mut self, setpoint: &OffboardSetpoint, up_m_s: f64, dt_s: f64) -> Wanted {
+        let wish = Vec3::new(0.0, 0.0, -up_m_s);
+        self.shaper.advance(wish, &self.auto_limits(), dt_s);
+        let motion = self.motion(self.shaper.velocity_m_s);
+        if let Some((attitude, _)) = setpoint.attitude {
+            let (roll, pitch, yaw) = attitude.euler();
+            self.course.yaw_rad = yaw;
+            let motion = Motion { yaw_rad: yaw, ..motion };
+            return Wanted::Level { motion, tilt: (roll, pitch) };
+        }
+        let (mass_kg, rates) = (self.airframe.mass_kg, setpoint.rates.map_or(Vec3::zero(), |(rates, _)| rates));
+        let level = self.velocity_loop.fly_level(&self.gains, mass_kg, &self.estimate, &motion, (0.0, 0.0), dt_s);
+        self.contact.wanted_down_m_s = -up_m_s;
+        self.course.yaw_rad = self.estimate.attitude.yaw_rad();
+        Wanted::Spin { rates_rad_s: rates, thrust_n: level.thrust_n }
+    }
+
+    fn spin(&mut self, rates_rad_s: Vec3<Frd>, thrust: f64) -> Wanted {
+        let thrust_n = (thrust.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n);
+        self.contact.wanted_down_m_s = if thrust < 0.1 { self.airframe.limits.descend_m_s } else { 0.0 };
+        // Whatever comes after goes on from the nose as it is then.
+        self.course.yaw_rad = self.estimate.attitude.yaw_rad();
+        Wanted::Spin { rates_rad_s, thrust_n }
+    }
+
+    /// Accelerations of a set-point: alone on an axis they are flown, beside a velocity they are fed forward.
+    fn accelerate(&mut self, s: &OffboardSetpoint, motion: &mut Motion) {
+        let free = |i: usize| s.position_m[i].is_none() && s.velocity_m_s[i].is_none();
+        let flat = |i: usize| s.acceleration_m_s2[i].unwrap_or(0.0);
+        let level = Vec3::<Ned>::new(flat(0), flat(1), 0.0).limited(self.gains.acceleration_m_s2);
+        let most = self.gains.climb_acceleration_m_s2;
+        let wish = [level.north(), level.east(), flat(2).clamp(-most, most)];
+        let (mut velocity, mut acceleration) = (motion.velocity_m_s.array(), motion.acceleration_m_s2.array());
+        let mut planned = self.shaper.velocity_m_s.array();
+        let now = self.estimate.velocity_m_s.array();
+        for i in (0..3).filter(|i| s.acceleration_m_s2[*i].is_some()) {
+            acceleration[i] = wish[i] + if free(i) { 0.0 } else { acceleration[i] };
+            if free(i) {
+                // No velocity error is left then: the velocity loop compares with where the plan was a lag ago.
+                velocity[i] = now[i] + if i < 2 { wish[i] * self.gains.attitude_lag_s } else { 0.0 };
+                planned[i] = now[i];
+            }
+        }
+        let vector = |a: [f64; 3]| Vec3::new(a[0], a[1], a[2]);
+        (motion.velocity_m_s, motion.acceleration_m_s2) = (vector(velocity), vector(acceleration));
+        self.shaper.velocity_m_s = vector(planned);
+    }
+
+    /// Position set-points close in, velocity set-points are flown; an axis with both takes the velocity as the speed on the way.
+    pub(super) fn offboard_velocity(&mut self, s: &OffboardSetpoint) -> Vec3<Ned> {
+        let here = self.estimate.position_m.array();
+        let target: [f64; 3] = std::array::from_fn(|i| s.position_m[i].unwrap_or(here[i]));
+        let [n, e, d] = target;
+        let l = &self.airframe.limits;
+        let (top, up, down) = (self.tuning.horizontal_speed_max_m_s.min(l.forward_m_s), l.climb_m_s, l.descend_m_s);
+        self.status.target_m = Some(Vec3::new(n, e, d));
+        let close = towards(&self.gains, self.estimate.position_m, Vec3::new(n, e, d), top, up, down).array();
+        let mix: [f64; 3] = std::array::from_fn(|i| close[i] + s.velocity_m_s[i].unwrap_or(0.0));
+        let flat = Vec3::<Ned>::new(mix[0], mix[1], 0.0).limited(top);
+        Vec3::new(flat.north(), flat.east(), mix[2].clamp(-up, down))
+    }
+}

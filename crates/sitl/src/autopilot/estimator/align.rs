@@ -1,0 +1,170 @@
+//! Alignment at rest: roll and pitch from gravity, heading from the magnetic field, gyroscope bias from stillness.
+
+use crate::sensors::ImuReading;
+use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
+use spandrel_model::math;
+
+/// Samples are averaged for this long, s.
+pub const ALIGN_S: f64 = 0.5;
+/// Faster turning than this is not rest, rad/s.
+const STILL_RATE_RAD_S: f64 = 0.15;
+/// A specific force this far from 1 g is not rest, m/s².
+const STILL_FORCE_M_S2: f64 = 1.5;
+/// A mean rate beyond this many standard deviations of the gyroscope's bias is motion, not bias.
+const BIAS_SIGMAS: f64 = 5.0;
+/// A body that seems to rest still rocks this fast, as a share of the gyroscope's bias (1 sigma, estimate): the mean rate gives the bias no
+/// more accurately, the filter learns the rest in flight.
+pub const ROCKING_SHARE: f64 = 0.1;
+
+/// The gyroscope by its data sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gyro {
+    /// Bias after calibration, rad/s (1 sigma).
+    pub bias_rad_s: f64,
+    /// White noise of one sample, rad/s (1 sigma).
+    pub sample_rad_s: f64,
+}
+
+impl Gyro {
+    /// Whether a mean rate of rest can be this gyroscope's bias, rad/s.
+    fn allows(&self, mean_rad_s: Vec3<Frd>, samples: f64) -> bool {
+        let sigma = math::hypot(self.bias_rad_s, self.sample_rad_s / samples.sqrt());
+        mean_rad_s.array().iter().all(|rate| rate.abs() <= BIAS_SIGMAS * sigma)
+    }
+}
+
+/// Sums while aligning.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Alignment {
+    gyro: Gyro,
+    force: Vec3<Frd>,
+    rates: Vec3<Frd>,
+    mag: Vec3<Frd>,
+    samples: u32,
+    mag_samples: u32,
+    time_s: f64,
+}
+
+/// The outcome.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Aligned {
+    /// Attitude.
+    pub attitude: Rotation<Frd, Ned>,
+    /// Gyroscope bias, rad/s.
+    pub gyro_bias_rad_s: Vec3<Frd>,
+    /// Variance of the gyroscope bias, (rad/s)².
+    pub gyro_variance: f64,
+    /// How many inertial samples were averaged.
+    pub samples: f64,
+    /// How many magnetic samples were averaged.
+    pub mag_samples: f64,
+}
+
+impl Alignment {
+    /// Nothing sampled yet.
+    #[must_use]
+    pub fn new(gyro: Gyro) -> Self {
+        let zero = Vec3::zero();
+        Self { gyro, force: zero, rates: zero, mag: Vec3::zero(), samples: 0, mag_samples: 0, time_s: 0.0 }
+    }
+
+    /// Takes in an inertial sample; movement starts it over, so does a mean rate that is no bias.
+    pub fn imu(&mut self, reading: &ImuReading, dt_s: f64) {
+        let moving = reading.rates_rad_s.norm() > STILL_RATE_RAD_S
+            || (reading.specific_force_m_s2.norm() - math::GRAVITY_M_S2).abs() > STILL_FORCE_M_S2;
+        let turning = self.time_s >= ALIGN_S && !self.gyro.allows(self.mean_rate(), f64::from(self.samples));
+        if moving || turning {
+            *self = Self::new(self.gyro);
+            return;
+        }
+        self.force += reading.specific_force_m_s2;
+        self.rates += reading.rates_rad_s;
+        self.samples += 1;
+        self.time_s += dt_s;
+    }
+
+    fn mean_rate(&self) -> Vec3<Frd> {
+        self.rates / f64::from(self.samples.max(1))
+    }
+
+    /// Takes in a magnetic sample.
+    pub fn mag(&mut self, gauss: Vec3<Frd>) {
+        self.mag += gauss;
+        self.mag_samples += 1;
+    }
+
+    fn gyro_variance(&self, samples: f64) -> f64 {
+        let least = ROCKING_SHARE * self.gyro.bias_rad_s;
+        self.gyro.sample_rad_s * self.gyro.sample_rad_s / samples + least * least
+    }
+
+    /// The attitude, once enough was averaged. `field` is the earth's field at the site.
+    #[must_use]
+    pub fn done(&self, field: Vec3<Ned>) -> Option<Aligned> {
+        if self.time_s < ALIGN_S || self.mag_samples == 0 {
+            return None;
+        }
+        let samples = f64::from(self.samples);
+        if !self.gyro.allows(self.mean_rate(), samples) {
+            return None;
+        }
+        let force = self.force / samples;
+        let roll = math::atan2(-force.right(), -force.down());
+        let pitch = math::atan2(force.forward(), math::hypot(force.right(), force.down()));
+        let level = Rotation::from_euler(roll, pitch, 0.0) * self.mag;
+        let yaw = math::wrap_pi(math::atan2(field.east(), field.north()) - math::atan2(level.east(), level.north()));
+        Some(Aligned {
+            attitude: Rotation::from_euler(roll, pitch, yaw),
+            gyro_bias_rad_s: self.mean_rate(),
+            gyro_variance: self.gyro_variance(samples),
+            samples,
+            mag_samples: f64::from(self.mag_samples),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GYRO: Gyro = Gyro { bias_rad_s: 0.02, sample_rad_s: 0.002 };
+
+    #[test]
+    fn regress_a_body_that_rocks_is_not_aligned_and_one_at_rest_does_not_know_its_bias_exactly() {
+        let gyro = Gyro { bias_rad_s: 0.003, sample_rad_s: 0.002 };
+        let mut alignment = Alignment::new(gyro);
+        let field = Vec3::new(0.2, 0.02, 0.4);
+        let mut feed = |rate: f64, samples: u32| {
+            for _ in 0..samples {
+                let force = Vec3::new(0.0, 0.0, -math::GRAVITY_M_S2);
+                alignment.imu(&ImuReading { specific_force_m_s2: force, rates_rad_s: Vec3::new(rate, 0.0, 0.0) }, 0.0025);
+                alignment.mag(Vec3::new(0.2, 0.02, 0.4));
+            }
+            alignment.done(field)
+        };
+        // 20 sigma of the bias, as the caged aircraft rocked on its cage.
+        assert_eq!(feed(0.06, 800), None);
+        let aligned = feed(0.002, 400).expect("at rest");
+        assert!(aligned.gyro_variance >= 9e-8, "{}", aligned.gyro_variance);
+    }
+
+    #[test]
+    fn exact_alignment_finds_the_attitude_of_a_tilted_body() {
+        let truth = Rotation::from_euler(0.2, -0.1, 2.0);
+        let field = Vec3::new(0.2, 0.02, 0.4);
+        let mut alignment = Alignment::new(GYRO);
+        let reading = ImuReading {
+            specific_force_m_s2: truth.inverse() * Vec3::new(0.0, 0.0, -math::GRAVITY_M_S2),
+            rates_rad_s: Vec3::new(0.01, -0.02, 0.03),
+        };
+        for _ in 0..201 {
+            alignment.imu(&reading, 0.0025);
+            alignment.mag(truth.inverse() * field);
+        }
+        let aligned = alignment.done(field);
+        let error = aligned.map(|a| (a.attitude.inverse().then(truth)).raw().angle());
+        // Rounding of trigonometry.
+        assert!(error.is_some_and(|e| e < 1e-7), "{error:?}");
+        assert!(aligned.is_some_and(|a| (a.gyro_bias_rad_s - Vec3::new(0.01, -0.02, 0.03)).norm() < 1e-12));
+    }
+}

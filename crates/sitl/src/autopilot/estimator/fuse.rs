@@ -1,0 +1,292 @@
+//! Fusing one measurement after the other, each as a scalar. Outliers are refused; a source that stays one is dropped, and the filter is
+//! set to it only where no other source contradicts it.
+
+use super::Estimator;
+use super::checks::REFUSED_S;
+use super::covariance::{BA, BARO, BG, Correction, DRIFT, FLOW, MAG, P, THETA, V};
+use crate::sensors::{FlowReading, GnssReading};
+use spandrel_model::frames::{Frd, Ned, Vec3};
+use spandrel_model::math;
+use spandrel_model::time::SimTime;
+
+/// Measurements further off than this are refused, standard deviations.
+const GATE: f64 = 5.0;
+/// What the receiver claims beyond its open-sky error is mostly multipath, which lasts for seconds: its variance counts this many
+/// times (about twice its time constant times the fix rate, halved because part of it is white).
+const LASTING: f64 = 40.0;
+/// Optical flow counts as an independent witness of the velocity for this long after it was last fused, s.
+const FLOW_FRESH_S: f64 = 1.0;
+/// A fix counts as current for this long, s (estimate: five at the usual rate).
+const FIX_FRESH_S: f64 = 1.0;
+/// The receiver's slow error counts as contradicted by the barometer beyond this many standard deviations.
+const DRIFT_SIGMAS: f64 = 4.0;
+/// Receiver and filter agree on the height within this many standard deviations.
+const AGREED_SIGMAS: f64 = 1.5;
+/// What a barometer's offset may be once it is set anew, m (1 sigma; estimate).
+const NEW_OFFSET_M: f64 = 0.3;
+
+/// Slopes of one measurement.
+type Slopes<'a> = &'a [(usize, f64)];
+
+impl Estimator {
+    pub(super) fn fuse_gnss(&mut self, fix: &GnssReading, now: SimTime) {
+        let n = self.noise;
+        if !self.located {
+            self.located = true;
+            self.position_m = Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down());
+            self.covariance.reset(P, 2, 1e6);
+        }
+        let white = |claimed: f64, drift: f64, least: f64| {
+            let excess = claimed * claimed - drift * drift - least * least;
+            least * least + LASTING * excess.max(0.0)
+        };
+        let rh = white(fix.eph_m, n.gnss_drift_m[0], n.gnss_white_m[0]);
+        let rv = white(fix.epv_m, n.gnss_drift_m[1], n.gnss_white_m[1]);
+        self.fuse_fix(fix, rh, now);
+        self.fuse_fix_height(fix, rv, now);
+        let stretch = (rh.sqrt() / n.gnss_white_m[0].max(1e-6)).max(1.0);
+        self.fuse_fix_velocity(fix, (n.gnss_velocity_m_s * stretch) * (n.gnss_velocity_m_s * stretch), now);
+    }
+
+    /// How far a fix is from the filter, m.
+    fn fix_off_m(&self, fix: &GnssReading) -> Vec3<Ned> {
+        fix.position_m - self.position_m - self.drift_m
+    }
+
+    fn fuse_fix(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
+        let off = self.fix_off_m(fix).array();
+        let slopes = [[(P, 1.0), (DRIFT, 1.0)], [(P + 1, 1.0), (DRIFT + 1, 1.0)]];
+        let fits = (0..2).all(|i| self.accepts(&slopes[i], off[i], variance));
+        if self.checks.gnss.admits(fits, now) {
+            self.fuse(&slopes[0], off[0], variance);
+            let off = self.fix_off_m(fix);
+            self.fuse(&slopes[1], off.east(), variance);
+        }
+        if fits {
+            self.checks.gnss_off.forget();
+            return;
+        }
+        // Where optical flow sees no such jump, the receiver is wrong. Without a witness a steady jump is believed, noise never.
+        let off = self.fix_off_m(fix);
+        let flat = Vec3::new(off.north(), off.east(), 0.0);
+        let steady_s = self.checks.gnss_off.hold_s(flat, GATE * (2.0 * variance).sqrt(), now);
+        let witness = (now - self.trust.flow).s() < FLOW_FRESH_S;
+        if steady_s > REFUSED_S && !witness {
+            self.position_m = Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down());
+            self.covariance.reset(P, 2, fix.eph_m * fix.eph_m);
+            self.checks.gnss.forget();
+            self.checks.gnss_off.forget();
+        }
+    }
+
+    fn fuse_fix_height(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
+        let slow = self.slow_height_error_m(fix, now);
+        let slopes = [(P + 2, 1.0), (DRIFT + 2, 1.0)];
+        let off = self.fix_off_m(fix).down();
+        let fits = self.accepts(&slopes, off, variance);
+        if self.checks.gnss_height.admits(fits, now) && !self.checks.gnss.dropped() {
+            self.fuse(&slopes, off, variance);
+            self.trust.height = now;
+        }
+        let apart = (fix.position_m.down() - self.position_m.down()).abs();
+        if apart < AGREED_SIGMAS * math::hypot(slow, variance.sqrt()) {
+            self.ground.agree(self.position_m.down(), fix.position_m.down());
+        }
+        let contradicted = self.checks.gnss_height.dropped() || self.drift_m.down().abs() > DRIFT_SIGMAS * slow;
+        if contradicted && !self.checks.gnss.dropped() {
+            self.settle_heights(fix, now);
+        }
+    }
+
+    /// The receiver's slow error of height, m (1 sigma): its drift, and the multipath that it has claimed lately.
+    fn slow_height_error_m(&mut self, fix: &GnssReading, now: SimTime) -> f64 {
+        let (drift, white) = (self.noise.gnss_drift_m[1], self.noise.gnss_white_m[1]);
+        let since_s = self.latest_fix.map_or(0.0, |(_, at)| (now - at).s());
+        self.latest_fix = Some((*fix, now));
+        let keep = (1.0 - since_s / self.process.drift_time_s).max(0.0);
+        let claimed = (fix.epv_m * fix.epv_m - drift * drift - white * white).max(0.0);
+        self.multipath_m2 = claimed.max(self.multipath_m2 * keep);
+        (drift * drift + self.multipath_m2).sqrt()
+    }
+
+    /// Receiver and barometer contradict each other: the range finder decides; where it cannot, the receiver is right.
+    fn settle_heights(&mut self, fix: &GnssReading, now: SimTime) {
+        let alone = self.checks.baro.dropped();
+        if alone && (now - self.trust.height).s() <= REFUSED_S {
+            return;
+        }
+        if !alone && self.ground.sides_with_filter(self.position_m.down(), fix.position_m.down()) {
+            self.checks.gnss_height.drop_now();
+            self.forget_height_drift();
+            return;
+        }
+        self.checks.baro.drop_now();
+        self.set_height(fix, now);
+    }
+
+    fn forget_height_drift(&mut self) {
+        self.drift_m = Vec3::new(self.drift_m.north(), self.drift_m.east(), 0.0);
+        self.covariance.reset(DRIFT + 2, 1, self.process.drift[2]);
+    }
+
+    /// Height and climb rate by the receiver.
+    fn set_height(&mut self, fix: &GnssReading, now: SimTime) {
+        self.forget_height_drift();
+        let (p, v) = (self.position_m, self.velocity_m_s);
+        self.position_m = Vec3::new(p.north(), p.east(), fix.position_m.down());
+        self.velocity_m_s = Vec3::new(v.north(), v.east(), fix.velocity_m_s.down());
+        self.covariance.reset(P + 2, 1, fix.epv_m * fix.epv_m);
+        let speed = self.noise.gnss_velocity_m_s;
+        self.covariance.reset(V + 2, 1, 4.0 * speed * speed);
+        self.checks.gnss_height.forget();
+        self.trust.height = now;
+    }
+
+    fn fuse_fix_velocity(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
+        if self.checks.gnss.dropped() {
+            return;
+        }
+        let mut taken = true;
+        for i in 0..3 {
+            let innovation = fix.velocity_m_s.array()[i] - self.velocity_m_s.array()[i];
+            taken &= self.fuse(&[(V + i, 1.0)], innovation, variance);
+        }
+        self.checks.gnss_velocity.admits(taken, now);
+        if taken {
+            self.trust.velocity = now;
+        } else if (now - self.trust.velocity).s() > REFUSED_S {
+            self.velocity_m_s = fix.velocity_m_s;
+            self.covariance.reset(V, 3, 4.0 * variance);
+            self.trust.velocity = now;
+        }
+    }
+
+    pub(super) fn fuse_baro(&mut self, up_m: f64, now: SimTime) {
+        let innovation = -up_m - (self.position_m.down() - self.baro_offset_m);
+        let variance = self.noise.baro_m * self.noise.baro_m;
+        let slopes = [(P + 2, 1.0), (BARO, -1.0)];
+        let fits = self.accepts(&slopes, innovation, variance);
+        if self.checks.baro.admits(fits, now) {
+            self.fuse(&slopes, innovation, variance);
+            self.trust.height = now;
+        }
+        if fits {
+            self.checks.baro_off.forget();
+        } else {
+            self.recover_height(innovation, now);
+        }
+    }
+
+    /// No source of height fits the filter: the receiver gives it, else the climb goes on from here by the barometer, if that is steady.
+    fn recover_height(&mut self, innovation_m: f64, now: SimTime) {
+        let tolerance_m = GATE * (2.0 * self.noise.baro_m * self.noise.baro_m).sqrt();
+        let steady_s = self.checks.baro_off.hold_s(Vec3::new(0.0, 0.0, innovation_m), tolerance_m, now);
+        if (now - self.trust.height).s() <= REFUSED_S {
+            return;
+        }
+        match self.latest_fix {
+            Some((fix, at)) if (now - at).s() < FIX_FRESH_S && !self.checks.gnss.dropped() => self.set_height(&fix, now),
+            _ if steady_s > REFUSED_S => {
+                self.baro_offset_m -= innovation_m;
+                self.covariance.reset(BARO, 1, NEW_OFFSET_M * NEW_OFFSET_M);
+                self.checks.baro.forget();
+                self.checks.baro_off.forget();
+                self.trust.height = now;
+            }
+            _ => {}
+        }
+    }
+
+    /// Only the component that turns with the heading is used, so that a bent field never tilts the horizon.
+    pub(super) fn fuse_mag(&mut self, gauss: Vec3<Frd>, share: f64, now: SimTime) {
+        let field = self.field_gauss;
+        let across = Vec3::<Ned>::new(-field.east(), field.north(), 0.0).unit();
+        let gauss = gauss - self.mag_bias;
+        let innovation = (self.attitude * gauss - field).dot(across);
+        let lever = across.cross(field);
+        let bias = self.attitude.inverse() * across;
+        let slopes = [
+            (THETA, lever.north()),
+            (THETA + 1, lever.east()),
+            (THETA + 2, lever.down()),
+            (MAG, bias.forward()),
+            (MAG + 1, bias.right()),
+            (MAG + 2, bias.down()),
+        ];
+        let variance = self.noise.mag_gauss * self.noise.mag_gauss * share;
+        let fits = self.accepts(&slopes, innovation, variance);
+        if self.checks.mag.admits(fits, now) {
+            self.fuse(&slopes, innovation, variance);
+        }
+        if fits {
+            self.trust.heading = now;
+        } else if (now - self.trust.heading).s() > REFUSED_S && (self.parked || self.checks.gnss_velocity.dropped()) {
+            // In flight the gyroscopes know the heading better, unless the velocities contradict it too.
+            let measured = self.attitude * gauss;
+            let error = math::atan2(field.east(), field.north()) - math::atan2(measured.east(), measured.north());
+            self.turn(Vec3::new(0.0, 0.0, math::wrap_pi(error)));
+            self.covariance.reset(THETA + 2, 1, 0.1);
+            self.checks.mag.forget();
+            self.trust.heading = now;
+        }
+    }
+
+    pub(super) fn fuse_flow(&mut self, reading: &FlowReading, now: SimTime) {
+        let nose = self.attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
+        let level = nose.horizontal_norm().max(1e-6);
+        let (c, s) = (nose.north() / level, nose.east() / level);
+        let v = self.velocity_m_s;
+        let (forward, right) = (c * v.north() + s * v.east(), c * v.east() - s * v.north());
+        let k = self.flow_scale;
+        // A nose that is up or down turns its heading with the tilt error too.
+        let steep = -nose.down() / level;
+        let turns = |share: f64| [(THETA, share * steep * c), (THETA + 1, share * steep * s), (THETA + 2, share)];
+        let variance = self.noise.flow_m_s * self.noise.flow_m_s / reading.quality.clamp(0.1, 1.0);
+        let [n, e, d] = turns(k * right);
+        let slopes = [(V, k * c), (V + 1, k * s), n, e, d, (FLOW, forward)];
+        let a = self.fuse(&slopes, reading.forward_m_s - k * forward, variance);
+        let [n, e, d] = turns(-k * forward);
+        let slopes = [(V, -k * s), (V + 1, k * c), n, e, d, (FLOW, right)];
+        let b = self.fuse(&slopes, reading.right_m_s - k * right, variance);
+        if a && b {
+            self.trust.velocity = now;
+            self.trust.flow = now;
+        } else if (now - self.trust.velocity).s() > REFUSED_S {
+            let (f, r) = (reading.forward_m_s / k, reading.right_m_s / k);
+            self.velocity_m_s = Vec3::new(c * f - s * r, s * f + c * r, v.down());
+            self.covariance.reset(V, 2, 4.0 * variance);
+            self.trust.velocity = now;
+        }
+    }
+
+    fn accepts(&self, slopes: Slopes, innovation: f64, variance: f64) -> bool {
+        self.covariance.accepts(slopes, innovation, variance, GATE)
+    }
+
+    fn fuse(&mut self, slopes: Slopes, innovation: f64, variance: f64) -> bool {
+        match self.covariance.fuse(slopes, innovation, variance, GATE) {
+            Some(correction) => {
+                self.correct(&correction);
+                true
+            }
+            None => false,
+        }
+    }
+
+    fn correct(&mut self, d: &Correction) {
+        self.position_m += Vec3::new(d[P], d[P + 1], d[P + 2]);
+        self.velocity_m_s += Vec3::new(d[V], d[V + 1], d[V + 2]);
+        self.turn(Vec3::new(d[THETA], d[THETA + 1], d[THETA + 2]));
+        self.gyro_bias += Vec3::new(d[BG], d[BG + 1], d[BG + 2]);
+        self.accel_bias += Vec3::new(d[BA], d[BA + 1], d[BA + 2]);
+        self.drift_m += Vec3::new(d[DRIFT], d[DRIFT + 1], d[DRIFT + 2]);
+        self.baro_offset_m += d[BARO];
+        self.flow_scale += d[FLOW];
+        self.mag_bias += Vec3::new(d[MAG], d[MAG + 1], d[MAG + 2]);
+    }
+
+    /// Turns the believed attitude by a small rotation vector in NED.
+    fn turn(&mut self, by_rad: Vec3<Ned>) {
+        self.attitude = self.attitude.turned_by(self.attitude.inverse() * by_rad);
+    }
+}

@@ -1,0 +1,472 @@
+//! Error-state Kalman filter: the state at the inertial sensors' rate, the covariance at 100 Hz, position, velocity, attitude, sensor
+//! biases, the receiver's slow drift, the barometer's offset, the optical flow's scale, the compass's bias; fused from GNSS, barometer, magnetometer and
+//! optical flow.
+//!
+//! The range finder is not fused: what lies below may be a deck, a truck or water. It decides where receiver and barometer contradict
+//! each other.
+
+pub mod align;
+mod checks;
+pub mod covariance;
+mod fuse;
+mod ground;
+
+use super::Estimate;
+use super::operator_rules::NO_AID_S;
+use crate::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
+use align::{Aligned, Alignment, Gyro};
+use checks::Checks;
+use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATES, THETA, V};
+use ground::Ground;
+use nalgebra::Vector3;
+use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
+use spandrel_model::geodesy::Geo;
+use spandrel_model::math;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle;
+
+/// The covariance moves on when this much time has gathered, s.
+const COVARIANCE_PERIOD_S: f64 = 0.0099;
+/// Horizontal velocity and position are usable for control up to these accuracies (1 sigma), m/s and m.
+const USABLE_VELOCITY_M_S: f64 = 0.7;
+const USABLE_POSITION_M: f64 = 12.0;
+/// Once lost they must be this much better, as a share, to count again.
+const REGAIN_SHARE: f64 = 0.5;
+/// Specific force beyond this is a shock whose direction the sampling blurs, m/s², and the share of it that is distrusted.
+const SHOCK_M_S2: f64 = 40.0;
+const SHOCK_SHARE: f64 = 0.1;
+/// Fixes are averaged this long before the local frame gets its origin, s (estimate; PX4 asks for 10 s of good fixes, EKF2_REQ_GPS_H).
+const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
+
+/// Measurement noise, from the sensors' data sheets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct MeasurementNoise {
+    gnss_velocity_m_s: f64,
+    gnss_white_m: [f64; 2],
+    gnss_drift_m: [f64; 2],
+    baro_m: f64,
+    mag_gauss: f64,
+    mag_bias_gauss: f64,
+    flow_m_s: f64,
+    accel_bias_m_s2: f64,
+    gyro_bias_rad_s: f64,
+    accel_sample: f64,
+}
+
+/// When a source was last believed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Trust {
+    velocity: SimTime,
+    flow: SimTime,
+    height: SimTime,
+    heading: SimTime,
+}
+
+impl Trust {
+    /// All sources at once.
+    fn new(now: SimTime) -> Self {
+        Self { velocity: now, flow: now, height: now, heading: now }
+    }
+}
+
+/// Sources that the filter does not use because they contradict the others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Dropped {
+    /// Magnetometer.
+    pub compass: bool,
+    /// Barometer.
+    pub barometer: bool,
+    /// GNSS receiver.
+    pub gnss: bool,
+}
+
+/// The filter: plain data.
+#[derive(Debug, Clone)]
+pub struct Estimator {
+    process: ProcessNoise,
+    noise: MeasurementNoise,
+    field_gauss: Vec3<Ned>,
+    alignment: Alignment,
+    aligned: bool,
+    located: bool,
+    local_origin_m: Vec3<Ned>,
+    local_origin_set: bool,
+    first_fix: Option<SimTime>,
+    position_m: Vec3<Ned>,
+    velocity_m_s: Vec3<Ned>,
+    attitude: Rotation<Frd, Ned>,
+    gyro_bias: Vec3<Frd>,
+    accel_bias: Vec3<Frd>,
+    drift_m: Vec3<Ned>,
+    baro_offset_m: f64,
+    flow_scale: f64,
+    mag_bias: Vec3<Frd>,
+    covariance: Covariance,
+    gained_m_s: Vec3<Ned>,
+    gathered_s: f64,
+    jolt: f64,
+    rates_rad_s: Vec3<Frd>,
+    acceleration_m_s2: Vec3<Ned>,
+    last_imu: Option<SimTime>,
+    trust: Trust,
+    checks: Checks,
+    ground: Ground,
+    latest_fix: Option<(GnssReading, SimTime)>,
+    /// Variance of the receiver's height by the multipath that it has claimed lately, m².
+    multipath_m2: f64,
+    /// Motors are off.
+    parked: bool,
+    /// Without a fused velocity for this long the position counts as lost, s.
+    pub(super) no_aid_s: f64,
+    usable: bool,
+}
+
+impl Estimator {
+    /// Unaligned. `origin` is where the local frame lies, for the magnetic model.
+    #[must_use]
+    pub fn new(sensors: &vehicle::Sensors, origin: Geo) -> Self {
+        let sq = |x: f64| x * x;
+        let drift = [sensors.gnss_horizontal_m * gnss::DRIFT_SHARE, sensors.gnss_vertical_m * gnss::DRIFT_SHARE];
+        let rate = sensors.imu_rate_hz.sqrt();
+        Self {
+            process: ProcessNoise {
+                accel: sq(sensors.accel_noise_density),
+                gyro: sq(sensors.gyro_noise_density),
+                accel_walk: sq(sensors.accel_bias_m_s2 * imu::BIAS_WALK_SHARE),
+                gyro_walk: sq(sensors.gyro_bias_rad_s * imu::BIAS_WALK_SHARE),
+                drift: [sq(drift[0]), sq(drift[0]), sq(drift[1])],
+                drift_time_s: gnss::DRIFT_TIME_S,
+                baro_walk: sq(sensors.baro_drift_m_sqrt_s),
+            },
+            noise: MeasurementNoise {
+                gnss_velocity_m_s: sensors.gnss_velocity_m_s,
+                gnss_white_m: [sensors.gnss_horizontal_m * gnss::WHITE_SHARE, sensors.gnss_vertical_m * gnss::WHITE_SHARE],
+                gnss_drift_m: drift,
+                baro_m: sensors.baro_noise_m,
+                mag_gauss: sensors.mag_noise_gauss,
+                mag_bias_gauss: sensors.mag_bias_gauss,
+                flow_m_s: sensors.flow_velocity_m_s,
+                accel_bias_m_s2: sensors.accel_bias_m_s2,
+                gyro_bias_rad_s: sensors.gyro_bias_rad_s,
+                accel_sample: sensors.accel_noise_density * rate,
+            },
+            field_gauss: magnetometer::earth_field_gauss(origin),
+            alignment: Alignment::new(Gyro {
+                bias_rad_s: sensors.gyro_bias_rad_s,
+                sample_rad_s: sensors.gyro_noise_density * rate,
+            }),
+            aligned: false,
+            located: false,
+            local_origin_m: Vec3::zero(),
+            local_origin_set: false,
+            first_fix: None,
+            position_m: Vec3::zero(),
+            velocity_m_s: Vec3::zero(),
+            attitude: Rotation::identity(),
+            gyro_bias: Vec3::zero(),
+            accel_bias: Vec3::zero(),
+            drift_m: Vec3::zero(),
+            baro_offset_m: 0.0,
+            flow_scale: 1.0,
+            mag_bias: Vec3::zero(),
+            covariance: Covariance::diagonal(&[0.0; STATES]),
+            gained_m_s: Vec3::zero(),
+            gathered_s: 0.0,
+            jolt: 0.0,
+            rates_rad_s: Vec3::zero(),
+            acceleration_m_s2: Vec3::zero(),
+            last_imu: None,
+            trust: Trust::new(SimTime::ZERO),
+            checks: Checks::default(),
+            ground: Ground::default(),
+            latest_fix: None,
+            multipath_m2: 0.0,
+            parked: true,
+            no_aid_s: NO_AID_S,
+            usable: false,
+        }
+    }
+
+    /// Takes in what the sensors gave in one tick.
+    pub fn step(&mut self, readings: &Readings, now: SimTime) {
+        if let Some(reading) = &readings.imu {
+            let dt_s = self.last_imu.map_or(0.0, |last| (now - last).s());
+            self.last_imu = Some(now);
+            if self.aligned {
+                self.predict(reading, dt_s, now);
+            } else {
+                self.rates_rad_s = reading.rates_rad_s;
+                self.align(reading, readings, dt_s, now);
+            }
+        }
+        if !self.aligned {
+            return;
+        }
+        if let Some(range_m) = readings.range_down_m {
+            self.ground.see(range_m * (self.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down());
+        }
+        if let Some(fix) = readings.gnss.as_ref().filter(|g| g.fix >= 3) {
+            self.settle();
+            self.fuse_gnss(fix, now);
+            self.place_local_origin(now);
+        }
+        if let Some(up_m) = readings.baro_up_m {
+            self.fuse_baro(up_m, now);
+        }
+        if let Some(gauss) = readings.mag_gauss {
+            self.fuse_mag(gauss, 1.0, now);
+        }
+        if let Some(flow) = &readings.flow {
+            self.fuse_flow(flow, now);
+        }
+    }
+
+    /// The local frame's origin is where the vehicle is once the first fixes have been averaged.
+    fn place_local_origin(&mut self, now: SimTime) {
+        let first = *self.first_fix.get_or_insert(now);
+        if !self.local_origin_set {
+            self.local_origin_m = self.position_m;
+            self.local_origin_set = (now - first).s() >= LOCAL_ORIGIN_AFTER_S;
+        }
+    }
+
+    fn align(&mut self, reading: &ImuReading, readings: &Readings, dt_s: f64, now: SimTime) {
+        self.alignment.imu(reading, dt_s);
+        if let Some(gauss) = readings.mag_gauss {
+            self.alignment.mag(gauss);
+        }
+        if let Some(up_m) = readings.baro_up_m {
+            self.position_m = Vec3::new(0.0, 0.0, -up_m);
+        }
+        if let Some(aligned) = self.alignment.done(self.field_gauss) {
+            self.start(&aligned, now);
+        }
+    }
+
+    /// The covariance of a fresh alignment: tilt is known as well as the accelerometer is, so the two go together.
+    fn start(&mut self, aligned: &Aligned, now: SimTime) {
+        let n = self.noise;
+        let sq = |x: f64| x * x;
+        self.attitude = aligned.attitude;
+        self.gyro_bias = aligned.gyro_bias_rad_s;
+        let bias = sq(n.accel_bias_m_s2);
+        let tilt = (bias + sq(n.accel_sample) / aligned.samples) / sq(math::GRAVITY_M_S2);
+        let gyro = aligned.gyro_variance;
+        let (far, yaw, at_rest, bh) = (1e6, 1.0, sq(0.05), bias);
+        let height = sq(baro::START_OFFSET_M);
+        let d = self.process.drift;
+        self.covariance = Covariance::diagonal(&[
+            far,
+            far,
+            sq(10.0),
+            at_rest,
+            at_rest,
+            at_rest,
+            tilt,
+            tilt,
+            yaw,
+            gyro,
+            gyro,
+            gyro,
+            bh,
+            bh,
+            bh,
+            d[0],
+            d[1],
+            d[2],
+            height,
+            sq(flow::SCALE_ERROR),
+            sq(n.mag_bias_gauss),
+            sq(n.mag_bias_gauss),
+            sq(n.mag_bias_gauss),
+        ]);
+        let r = aligned.attitude.matrix();
+        for j in 0..3 {
+            self.covariance.set(THETA, BA + j, r[(1, j)] * bias / math::GRAVITY_M_S2);
+            self.covariance.set(THETA + 1, BA + j, -r[(0, j)] * bias / math::GRAVITY_M_S2);
+        }
+        self.aligned = true;
+        self.local_origin_m = self.position_m;
+        self.trust = Trust::new(now);
+        // The heading came from this very measurement: fusing it with no innovation gives the matching covariance.
+        let level = aligned.attitude.inverse() * self.field_gauss;
+        self.fuse_mag(level, 1.0 / aligned.mag_samples, now);
+    }
+
+    fn predict(&mut self, reading: &ImuReading, dt_s: f64, now: SimTime) {
+        let rates = reading.rates_rad_s - self.gyro_bias;
+        let force = reading.specific_force_m_s2 - self.accel_bias;
+        let turn = rates * dt_s;
+        // Half the turn brings the force to the middle of the interval.
+        let gained = self.attitude * ((force + turn.cross(force) * 0.5) * dt_s);
+        let dv = gained + Vec3::new(0.0, 0.0, math::GRAVITY_M_S2 * dt_s);
+        self.position_m += (self.velocity_m_s + dv * 0.5) * dt_s;
+        self.velocity_m_s += dv;
+        self.attitude = self.attitude.turned_by(turn);
+        self.rates_rad_s = rates;
+        self.acceleration_m_s2 = if dt_s > 0.0 { dv / dt_s } else { Vec3::zero() };
+        self.gained_m_s += gained;
+        self.gathered_s += dt_s;
+        let shock = force.norm();
+        if shock > SHOCK_M_S2 {
+            self.jolt += (SHOCK_SHARE * shock * dt_s) * (SHOCK_SHARE * shock * dt_s);
+        }
+        if self.gathered_s >= COVARIANCE_PERIOD_S {
+            self.settle();
+            self.judge(now);
+        }
+    }
+
+    /// Brings the covariance up to the state's time.
+    fn settle(&mut self) {
+        if self.gathered_s <= 0.0 {
+            return;
+        }
+        let r = self.attitude.matrix();
+        self.covariance.propagate(&r, &self.gained_m_s.raw(), self.gathered_s, &self.process, self.jolt);
+        let keep = 1.0 - self.gathered_s / self.process.drift_time_s;
+        self.drift_m = self.drift_m * keep;
+        self.gained_m_s = Vec3::zero();
+        self.gathered_s = 0.0;
+        self.jolt = 0.0;
+    }
+
+    fn judge(&mut self, now: SimTime) {
+        let share = if self.usable { 1.0 } else { REGAIN_SHARE };
+        let (v, p) = (self.velocity_sigma_m_s(), self.horizontal_sigma_m());
+        let aided = (now - self.trust.velocity).s() < self.no_aid_s;
+        self.usable = self.located && aided && v < USABLE_VELOCITY_M_S * share && p < USABLE_POSITION_M * share;
+    }
+
+    /// Horizontal velocity accuracy, m/s (1 sigma of the worse axis).
+    #[must_use]
+    pub fn velocity_sigma_m_s(&self) -> f64 {
+        self.covariance.variance(V).max(self.covariance.variance(V + 1)).sqrt()
+    }
+
+    fn horizontal_sigma_m(&self) -> f64 {
+        self.covariance.variance(P).max(self.covariance.variance(P + 1)).sqrt()
+    }
+
+    /// Sets whether the motors are off: only then may the heading be set to the compass alone.
+    pub fn set_parked(&mut self, parked: bool) {
+        self.parked = parked;
+    }
+
+    /// Sources that are not used because they contradict the others.
+    #[must_use]
+    pub fn dropped(&self) -> Dropped {
+        let c = &self.checks;
+        Dropped { compass: c.mag.dropped(), barometer: c.baro.dropped(), gnss: c.gnss.dropped() || c.gnss_height.dropped() }
+    }
+
+    /// Starts over at a known place (the vehicle was put there by hand); biases are kept.
+    pub fn reinitialise(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
+        self.position_m = position_m;
+        self.velocity_m_s = velocity_m_s;
+        self.attitude = attitude;
+        self.gained_m_s = Vec3::zero();
+        self.gathered_s = 0.0;
+        self.jolt = 0.0;
+        if !self.aligned {
+            let n = self.noise;
+            let sq = |x: f64| x * x;
+            let (g, a, d) = (sq(n.gyro_bias_rad_s), sq(n.accel_bias_m_s2), self.process.drift);
+            let mut variances = [0.0; STATES];
+            for i in 0..3 {
+                variances[BG + i] = g;
+                variances[BA + i] = a;
+                variances[DRIFT + i] = d[i];
+                variances[MAG + i] = sq(n.mag_bias_gauss);
+            }
+            variances[BARO] = sq(baro::START_OFFSET_M);
+            variances[FLOW] = sq(flow::SCALE_ERROR);
+            self.covariance = Covariance::diagonal(&variances);
+        }
+        self.covariance.reset(P, 3, 0.25);
+        self.covariance.reset(V, 3, 0.04);
+        self.covariance.reset(THETA, 3, 0.001);
+        if !self.local_origin_set {
+            self.local_origin_m = position_m;
+            self.local_origin_set = true;
+        }
+        self.aligned = true;
+        self.located = true;
+        self.usable = true;
+        self.checks = Checks::default();
+        self.ground = Ground::default();
+        self.trust = Trust::new(now);
+    }
+
+    /// What is believed now.
+    #[must_use]
+    pub fn estimate(&self) -> Estimate {
+        Estimate {
+            position_m: self.position_m,
+            velocity_m_s: self.velocity_m_s,
+            attitude: self.attitude,
+            rates_rad_s: self.rates_rad_s,
+            horizontal_m: self.horizontal_sigma_m(),
+            vertical_m: self.covariance.variance(P + 2).max(0.0).sqrt(),
+            local_origin_m: self.local_origin_m,
+            local_origin_set: self.local_origin_set,
+            position_valid: self.usable,
+            attitude_valid: self.aligned,
+        }
+    }
+
+    /// Acceleration over ground in the last inertial interval, m/s².
+    #[must_use]
+    pub fn acceleration_m_s2(&self) -> Vec3<Ned> {
+        self.acceleration_m_s2
+    }
+
+    /// A place on earth was found at least once.
+    #[must_use]
+    pub fn located(&self) -> bool {
+        self.located
+    }
+
+    /// The error covariance, for tests and for covariance messages.
+    #[must_use]
+    pub fn covariance(&self) -> &Covariance {
+        &self.covariance
+    }
+
+    /// Believed gyroscope (rad/s) and accelerometer (m/s²) biases.
+    #[must_use]
+    pub fn biases(&self) -> (Vec3<Frd>, Vec3<Frd>) {
+        (self.gyro_bias, self.accel_bias)
+    }
+
+    /// Error of the estimate against a given truth, in the order of the covariance's first fifteen states, for consistency tests.
+    #[must_use]
+    pub fn error(&self, truth: &Truth) -> [f64; 15] {
+        let turn = self.attitude.inverse().then(truth.attitude).raw();
+        // FRAME: believed-inverse then true is the small rotation in NED that turns the believed attitude into the true one.
+        let theta: Vector3<f64> = turn.scaled_axis();
+        let parts = [
+            (truth.position_m - self.position_m).array(),
+            (truth.velocity_m_s - self.velocity_m_s).array(),
+            [theta.x, theta.y, theta.z],
+            (truth.gyro_bias_rad_s - self.gyro_bias).array(),
+            (truth.accel_bias_m_s2 - self.accel_bias).array(),
+        ];
+        std::array::from_fn(|i| parts[i / 3][i % 3])
+    }
+}
+
+/// A truth that a test compares with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Truth {
+    /// Position, m.
+    pub position_m: Vec3<Ned>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Ned>,
+    /// Attitude.
+    pub attitude: Rotation<Frd, Ned>,
+    /// Gyroscope bias, rad/s.
+    pub gyro_bias_rad_s: Vec3<Frd>,
+    /// Accelerometer bias, m/s².
+    pub accel_bias_m_s2: Vec3<Frd>,
+}

@@ -1,0 +1,391 @@
+//! The geofence: where flight is allowed, and what its breach leads to.
+
+use super::core::{Autopilot, Severity};
+use super::{Landed, MissionStep, Mode, Outcome};
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::math;
+use spandrel_model::time::SimTime;
+
+/// A circle is checked as a polygon of so many sides.
+const RING_SIDES: usize = 36;
+
+/// An area's outline, north and east about the origin, m.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outline {
+    /// Corners in order; the last joins the first.
+    Polygon(Vec<(f64, f64)>),
+    /// A circle.
+    Circle {
+        /// Its middle.
+        centre_m: (f64, f64),
+        /// Its radius, m.
+        radius_m: f64,
+    },
+}
+
+impl Outline {
+    /// Whether a place lies within.
+    #[must_use]
+    pub fn holds(&self, (n, e): (f64, f64)) -> bool {
+        match self {
+            Self::Circle { centre_m, radius_m } => {
+                let (dn, de) = (n - centre_m.0, e - centre_m.1);
+                dn * dn + de * de <= radius_m * radius_m
+            }
+            // A ray towards the east crosses the outline an odd number of times from within.
+            Self::Polygon(corners) => {
+                let last = corners.len().saturating_sub(1);
+                let sides = corners.iter().enumerate().map(|(k, to)| (corners[if k == 0 { last } else { k - 1 }], *to));
+                sides.filter(|(a, b)| (a.0 > n) != (b.0 > n) && e < (b.1 - a.1) * (n - a.0) / (b.0 - a.0) + a.1).count() % 2 == 1
+            }
+        }
+    }
+
+    /// Where a straight way crosses the outline, as shares of the way.
+    fn crossings(&self, from: (f64, f64), to: (f64, f64)) -> Vec<f64> {
+        let way = (to.0 - from.0, to.1 - from.1);
+        match self {
+            Self::Circle { centre_m, radius_m } => {
+                let off = (from.0 - centre_m.0, from.1 - centre_m.1);
+                let (a, b) = (way.0 * way.0 + way.1 * way.1, off.0 * way.0 + off.1 * way.1);
+                let root = b * b - a * (off.0 * off.0 + off.1 * off.1 - radius_m * radius_m);
+                if a > 0.0 && root > 0.0 { vec![(-b - root.sqrt()) / a, (-b + root.sqrt()) / a] } else { Vec::new() }
+            }
+            Self::Polygon(corners) => {
+                let last = corners.len().saturating_sub(1);
+                let sides = corners.iter().enumerate().map(|(k, end)| (corners[if k == 0 { last } else { k - 1 }], *end));
+                let cross = |a: (f64, f64), b: (f64, f64)| a.0 * b.1 - a.1 * b.0;
+                let meet = |(start, end): ((f64, f64), (f64, f64))| {
+                    let (side, gap) = ((end.0 - start.0, end.1 - start.1), (start.0 - from.0, start.1 - from.1));
+                    let d = cross(way, side);
+                    // On the side itself, its middle tells.
+                    let share = cross(gap, way) / d;
+                    (d != 0.0 && (0.0..=1.0).contains(&share)).then(|| cross(gap, side) / d)
+                };
+                sides.filter_map(meet).collect()
+            }
+        }
+    }
+}
+
+/// One area of a fence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Zone {
+    /// Where.
+    pub outline: Outline,
+    /// Flight is allowed within some inclusion, and within no exclusion.
+    pub inclusion: bool,
+}
+
+/// A place to return to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Refuge {
+    /// Where, m about the origin.
+    pub place_m: Vec3<Ned>,
+    /// Its height counts from home and moves with it.
+    pub over_home: bool,
+}
+
+/// What was breached, by the numbers of MAVLink's FENCE_BREACH.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Breach {
+    /// Too low over home (1).
+    Floor,
+    /// Too high over home (2).
+    Height,
+    /// Out of an area, or too far from home (3).
+    Boundary,
+}
+
+/// What a breach leads to, by the numbers of PX4's `GF_ACTION`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FenceAction {
+    /// Nothing (0).
+    None,
+    /// A text (1).
+    Warning,
+    /// Stop and hold (2).
+    Hold,
+    /// Return and land (3).
+    Return,
+    /// Motors off (4).
+    Terminate,
+    /// Land here (5).
+    Land,
+}
+
+impl FenceAction {
+    /// From the parameter's number.
+    #[must_use]
+    pub fn from_number(n: i32) -> Option<Self> {
+        let all = [Self::None, Self::Warning, Self::Hold, Self::Return, Self::Terminate, Self::Land];
+        all.get(usize::try_from(n).ok()?).copied()
+    }
+}
+
+/// What the fence tells the world.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FenceState {
+    /// There is something to breach.
+    pub set: bool,
+    /// The breach of now.
+    pub breach: Option<Breach>,
+    /// Breaches so far.
+    pub count: u16,
+    /// Breaches at which the mode was changed.
+    pub taken: u16,
+    /// When the last one began.
+    pub at: SimTime,
+}
+
+/// The areas.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Fence {
+    zones: Vec<Zone>,
+}
+
+impl Fence {
+    /// Whether a place is within the areas.
+    #[must_use]
+    pub fn allows(&self, place_m: (f64, f64)) -> bool {
+        let mut inclusions = self.zones.iter().filter(|zone| zone.inclusion).peekable();
+        let within = inclusions.peek().is_none() || inclusions.any(|zone| zone.outline.holds(place_m));
+        within && !self.zones.iter().any(|zone| !zone.inclusion && zone.outline.holds(place_m))
+    }
+
+    /// Whether the whole of a straight way is within the areas.
+    #[must_use]
+    pub fn allows_way(&self, from_m: (f64, f64), to_m: (f64, f64)) -> bool {
+        let mut cuts: Vec<f64> = self.zones.iter().flat_map(|zone| zone.outline.crossings(from_m, to_m)).collect();
+        cuts.retain(|cut| (0.0..1.0).contains(cut));
+        cuts.extend([0.0, 1.0]);
+        cuts.sort_by(f64::total_cmp);
+        // Between two crossings a way is all in or all out.
+        cuts.windows(2).filter(|pair| pair[1] - pair[0] > 1e-9).all(|pair| {
+            let middle = 0.5 * (pair[0] + pair[1]);
+            let at = |a: f64, b: f64| a + middle * (b - a);
+            self.allows((at(from_m.0, to_m.0), at(from_m.1, to_m.1)))
+        })
+    }
+}
+
+impl Autopilot {
+    /// Replaces the fence's areas.
+    pub fn set_fence(&mut self, zones: Vec<Zone>) {
+        self.fence.zones = zones;
+    }
+
+    /// Switches the fence on or off.
+    pub(super) fn enable_fence(&mut self, on: bool) -> Outcome {
+        self.tuning.fence_enabled = on;
+        self.say(Severity::Info, if on { "Geofence on" } else { "Geofence off" });
+        Outcome::Accepted
+    }
+
+    /// What a place breaches, if anything.
+    pub(super) fn breach_at(&self, place_m: Vec3<Ned>) -> Option<Breach> {
+        let t = &self.tuning;
+        if !self.acts() {
+            return None;
+        }
+        let home = self.status.home_m.unwrap_or_default();
+        let from_home = place_m - home;
+        let parts = t.rules.fence;
+        if parts.height && t.fence_height_m > 0.0 && -from_home.down() > t.fence_height_m {
+            return Some(Breach::Height);
+        }
+        let far = parts.distance && t.fence_distance_m > 0.0 && from_home.horizontal_norm() > t.fence_distance_m;
+        (far || parts.areas && !self.fence.allows((place_m.north(), place_m.east()))).then_some(Breach::Boundary)
+    }
+
+    /// Why a target is refused, if it is.
+    pub(super) fn fence_refusal(&self, target_m: Vec3<Ned>) -> Option<Outcome> {
+        let here = self.estimate.position_m;
+        if self.breach_at(target_m).is_some() || self.below_floor(target_m) {
+            return Some(Outcome::Denied("Target lies outside the geofence".into()));
+        }
+        // Who is out may come back in.
+        let out = self.estimate.position_valid && self.breach_at(here).is_none() && self.leaves_between(here, target_m);
+        out.then(|| Outcome::Denied("The way there leaves the geofence".into()))
+    }
+
+    /// Lower over home than the fence allows.
+    fn below_floor(&self, place_m: Vec3<Ned>) -> bool {
+        let home = self.status.home_m.unwrap_or_default();
+        self.acts() && self.tuning.rules.fence.floor_m.is_some_and(|floor_m| home.down() - place_m.down() < floor_m)
+    }
+
+    /// Why a circle is refused, if it is.
+    pub(super) fn ring_refusal(&self, centre_m: Vec3<Ned>, radius_m: f64) -> Option<Outcome> {
+        self.ring_leaves(centre_m, radius_m).then(|| Outcome::Denied("The circle leaves the geofence".into()))
+    }
+
+    /// A straight way between two places that are within leads out between them.
+    fn leaves_between(&self, from: Vec3<Ned>, to: Vec3<Ned>) -> bool {
+        self.acts()
+            && self.tuning.rules.fence.areas
+            && !self.fence.allows_way((from.north(), from.east()), (to.north(), to.east()))
+    }
+
+    fn ring_leaves(&self, centre_m: Vec3<Ned>, radius_m: f64) -> bool {
+        let at = |k: usize| {
+            let (s, c) = math::sin_cos(k as f64 * 2.0 * math::PI / RING_SIDES as f64);
+            centre_m + Vec3::new(radius_m * c, radius_m * s, 0.0)
+        };
+        (0..RING_SIDES).any(|k| self.breach_at(at(k)).is_some() || self.leaves_between(at(k), at(k + 1)))
+    }
+
+    /// Why the mission is refused: the first step that lies outside, or whose straight way from the one before does.
+    pub(super) fn mission_leaves_fence(&self) -> Option<String> {
+        let flying = self.status.armed && self.status.landed != Landed::OnGround;
+        let home = self.status.home_m.unwrap_or_default();
+        let start = if flying { self.estimate.position_m } else { home };
+        let mut from = (self.mission.current == 0 && self.breach_at(start).is_none()).then_some(start);
+        for (step, what) in self.mission.all() {
+            let step = step + self.tuning.first_item;
+            let outside = format!("Mission item {step} lies outside the geofence");
+            let to = match what {
+                MissionStep::Waypoint { position_m, .. } | MissionStep::Land { position_m: Some(position_m) } => position_m,
+                MissionStep::Circle { centre_m, radius_m, .. } if self.ring_leaves(centre_m, radius_m.abs()) => {
+                    return Some(outside);
+                }
+                MissionStep::Circle { centre_m, .. } => centre_m,
+                MissionStep::Takeoff { up_m } => {
+                    let over = from.unwrap_or(home);
+                    Vec3::new(over.north(), over.east(), -up_m.unwrap_or_else(|| self.usual_takeoff_up_m()))
+                }
+                _ => continue,
+            };
+            if self.breach_at(to).is_some() {
+                return Some(outside);
+            }
+            if from.is_some_and(|from| self.leaves_between(from, to)) {
+                return Some(format!("The way to mission item {step} leaves the geofence"));
+            }
+            from = Some(to);
+        }
+        let back = self.mission.left_at.filter(|_| flying && self.breach_at(self.estimate.position_m).is_none());
+        let cut_off = back.is_some_and(|place| self.leaves_between(self.estimate.position_m, place));
+        cut_off.then(|| "The way back to where the mission was left leaves the geofence".into())
+    }
+
+    fn acts(&self) -> bool {
+        self.tuning.fence_enabled && self.tuning.fence_action != FenceAction::None
+    }
+
+    /// Whether there is a fence at all.
+    pub(super) fn note_fence(&mut self) {
+        let t = &self.tuning;
+        let parts = t.rules.fence;
+        let limits = parts.height && t.fence_height_m > 0.0 || parts.distance && t.fence_distance_m > 0.0;
+        let areas = parts.areas && !self.fence.zones.is_empty();
+        self.status.fence.set = self.acts() && (limits || areas || parts.floor_m.is_some());
+    }
+
+    /// Acts when a breach begins: once, so that the pilot can fly back in by hand.
+    pub(super) fn keep_fence(&mut self, now: SimTime) {
+        if !self.estimate.position_valid {
+            return;
+        }
+        let here = self.estimate.position_m;
+        // The floor counts from when it was first above it, and not on the way down to land.
+        let low = self.below_floor(here);
+        self.watch.above_floor |= !low;
+        let coming_down = matches!(self.status.mode, Mode::Land | Mode::Return) || self.status.landed == Landed::Landing;
+        let floor = (low && self.watch.above_floor && !coming_down).then_some(Breach::Floor);
+        let breach = self.breach_at(here).or(floor);
+        let before = std::mem::replace(&mut self.status.fence.breach, breach);
+        match (before, breach) {
+            (None, Some(breach)) => self.breached(breach, now),
+            (Some(_), None) => self.say(Severity::Info, "Within the geofence again"),
+            (None, None) | (Some(_), Some(_)) => {}
+        }
+    }
+
+    fn breached(&mut self, breach: Breach, now: SimTime) {
+        self.status.fence.count = self.status.fence.count.saturating_add(1);
+        self.status.fence.at = now;
+        let (consequence, mode) = match self.tuning.fence_action {
+            FenceAction::None => return,
+            FenceAction::Warning => ("", None),
+            FenceAction::Hold => (", holding", Some(Mode::Hold)),
+            FenceAction::Return => (", returning", Some(Mode::Return)),
+            FenceAction::Land => (", landing", Some(Mode::Land)),
+            FenceAction::Terminate => (", motors off", None),
+        };
+        let what = match breach {
+            Breach::Floor => "too low",
+            Breach::Height => "too high",
+            Breach::Boundary => "out of bounds",
+        };
+        self.say(Severity::Critical, format!("Geofence breached: {what}{consequence}"));
+        if self.tuning.fence_action == FenceAction::Terminate {
+            self.disarm("Disarmed: geofence");
+        } else if let Some(mode) = mode {
+            self.status.fence.taken = self.status.fence.taken.saturating_add(1);
+            self.watch.intended = mode;
+            self.watch.overridden = false;
+            self.enter(mode, now);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(half: f64) -> Outline {
+        Outline::Polygon(vec![(-half, -half), (-half, half), (half, half), (half, -half)])
+    }
+
+    #[test]
+    fn exact_areas_hold_what_lies_within() {
+        let notched = Outline::Polygon(vec![(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.0, 5.0), (0.0, 10.0)]);
+        for (place, within) in
+            [((2.0, 2.0), true), ((5.0, 4.0), true), ((5.0, 6.0), false), ((-1.0, 5.0), false), ((11.0, 1.0), false)]
+        {
+            assert_eq!(notched.holds(place), within, "{place:?}");
+        }
+        let circle = Outline::Circle { centre_m: (3.0, 4.0), radius_m: 5.0 };
+        assert!(circle.holds((0.0, 0.0)) && !circle.holds((-0.01, 0.0)));
+    }
+
+    #[test]
+    fn exact_a_way_is_allowed_only_where_all_of_it_is() {
+        let zone = |outline, inclusion| Zone { outline, inclusion };
+        let circle = |n, radius_m| Outline::Circle { centre_m: (n, 0.0), radius_m };
+        let fence = Fence {
+            // Two areas that overlap, a hole in one of them, and a third area on its own.
+            zones: vec![
+                zone(square(10.0), true),
+                zone(circle(15.0, 8.0), true),
+                zone(circle(60.0, 5.0), true),
+                zone(circle(0.0, 2.0), false),
+            ],
+        };
+        for (from, to, allowed) in [
+            ((-5.0, 5.0), (5.0, 5.0), true),
+            ((-5.0, 0.0), (5.0, 0.0), false),
+            ((-5.0, 2.5), (20.0, 1.0), true),
+            ((20.0, 0.0), (60.0, 0.0), false),
+            ((9.0, 9.5), (15.0, 7.5), false),
+            ((5.0, 5.0), (5.0, 5.0), true),
+            ((0.0, 0.0), (0.0, 0.0), false),
+        ] {
+            assert_eq!(fence.allows_way(from, to), allowed, "{from:?} to {to:?}");
+        }
+        assert!(Fence::default().allows_way((0.0, 0.0), (1e6, 0.0)));
+    }
+
+    #[test]
+    fn exact_flight_is_allowed_in_any_inclusion_and_in_no_exclusion() {
+        let zone = |outline, inclusion| Zone { outline, inclusion };
+        let circle = |n, radius_m| Outline::Circle { centre_m: (n, 0.0), radius_m };
+        let fence =
+            Fence { zones: vec![zone(square(10.0), true), zone(circle(100.0, 5.0), true), zone(circle(0.0, 2.0), false)] };
+        for (place, allowed) in [((5.0, 5.0), true), ((0.0, 0.0), false), ((50.0, 0.0), false), ((100.0, 0.0), true)] {
+            assert_eq!(fence.allows(place), allowed, "{place:?}");
+        }
+        assert!(Fence::default().allows((1e6, 0.0)), "without areas there is no boundary");
+    }
+}

@@ -1,0 +1,164 @@
+//! Following a moving target: PX4's follow-me (FLW_TGT_*) and ArduCopter's FOLLOW (FOLL_*).
+
+use super::OffboardSetpoint;
+use super::core::Autopilot;
+use super::modes::Wanted;
+use super::shaper::heading_of;
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::math;
+use spandrel_model::time::SimTime;
+
+/// A target that has not reported for this long is lost, s (PX4 and ArduCopter: 3 s).
+const LOST_S: f64 = 3.0;
+/// Slower targets have no course of their own, m/s (PX4: 1 m/s).
+const MOVES_M_S: f64 = 1.0;
+/// Positions closer in time give no velocity: their noise would be most of it, s (estimate).
+const LEAST_APART_S: f64 = 0.2;
+/// Nearer targets do not turn the nose, m.
+const TOO_NEAR_M: f64 = 0.5;
+
+/// Where the vehicle flies, seen from the target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FollowPlace {
+    /// At a distance, m, and an angle from the target's course, rad clockwise (PX4).
+    Around {
+        /// Horizontal distance, m.
+        distance_m: f64,
+        /// Angle from the course, rad.
+        angle_rad: f64,
+        /// Height, m.
+        height_m: f64,
+        /// The height counts from the target, otherwise from home.
+        over_target: bool,
+    },
+    /// At an offset, m: north, east, down, or forward, right, down of the target's course (ArduCopter). `None`: the offset of the first report.
+    Offset {
+        /// Offset, m.
+        offset_m: Option<[f64; 3]>,
+        /// The offset turns with the target's course.
+        along_course: bool,
+    },
+}
+
+/// How a target is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FollowRule {
+    /// The mode may be entered (`FOLL_ENABLE`).
+    pub enabled: bool,
+    /// Position relative to the target.
+    pub place: FollowPlace,
+    /// Targets farther away are not followed, m (`FOLL_DIST_MAX`).
+    pub farthest_m: f64,
+    /// Largest speed, m/s (`FLW_TGT_MAX_VEL`).
+    pub fastest_m_s: f64,
+    /// Share of the velocity known before in each new one (`FLW_TGT_RS`).
+    pub smoothing: f64,
+}
+
+impl Default for FollowRule {
+    fn default() -> Self {
+        let place = FollowPlace::Around { distance_m: 8.0, angle_rad: math::PI, height_m: 8.0, over_target: false };
+        Self { enabled: true, place, farthest_m: f64::INFINITY, fastest_m_s: 5.0, smoothing: 0.1 }
+    }
+}
+
+/// A target as it reports itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// Position about the origin, m.
+    pub position_m: Vec3<Ned>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Ned>,
+    /// Heading, rad, where it reports one.
+    pub heading_rad: Option<f64>,
+}
+
+/// The target and what is remembered of it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Follower {
+    seen: Option<(Target, SimTime)>,
+    course_rad: Option<f64>,
+    offset_m: Option<Vec3<Ned>>,
+}
+
+impl Autopilot {
+    /// Velocity of a target that reports positions alone, by its last two, m/s.
+    #[must_use]
+    pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
+        let recent = self.follower.seen.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= LOST_S);
+        match recent {
+            Some((before, age_s)) if age_s >= LEAST_APART_S => (position_m - before.position_m) * (1.0 / age_s),
+            Some((before, _)) => before.velocity_m_s,
+            None => Vec3::zero(),
+        }
+    }
+
+    /// A report of the target.
+    pub fn report_target(&mut self, target: Target, now: SimTime) {
+        let known = self.follower.seen.filter(|(_, at)| (now - *at).s() <= LOST_S).map(|(known, _)| known.velocity_m_s);
+        let before = known.unwrap_or(target.velocity_m_s);
+        let smooth = self.tuning.follow.smoothing.clamp(0.0, 0.99);
+        let velocity_m_s = before * smooth + target.velocity_m_s * (1.0 - smooth);
+        self.follower.seen = Some((Target { velocity_m_s, ..target }, now));
+        let moving = target.velocity_m_s.horizontal_norm() > MOVES_M_S;
+        let course = moving.then(|| heading_of(target.velocity_m_s, 0.0)).flatten();
+        self.follower.course_rad = target.heading_rad.or(course).or(self.follower.course_rad);
+    }
+
+    pub(super) fn begin_follow(&mut self) {
+        (self.follower.course_rad, self.follower.offset_m) = (None, None);
+    }
+
+    /// Where the target is now, if it still reports.
+    fn followed(&self, now: SimTime) -> Option<Target> {
+        let (target, at) = self.follower.seen?;
+        let age_s = (now - at).s();
+        let position_m = target.position_m + target.velocity_m_s * age_s;
+        let far = (position_m - self.estimate.position_m).norm() > self.tuning.follow.farthest_m;
+        (age_s <= LOST_S * self.tuning.client_pace && !far).then_some(Target { position_m, ..target })
+    }
+
+    /// The vehicle's place about a target, m.
+    fn place_about(&mut self, target: &Target) -> Vec3<Ned> {
+        let (here, there) = (self.estimate.position_m, target.position_m);
+        let turned = |angle: f64, [forward, right, down]: [f64; 3]| {
+            let (s, c) = math::sin_cos(angle);
+            Vec3::<Ned>::new(c * forward - s * right, s * forward + c * right, down)
+        };
+        match self.tuning.follow.place {
+            FollowPlace::Around { distance_m, angle_rad, height_m, over_target } => {
+                // Before the target moves, the vehicle already is at its angle.
+                let bearing = heading_of(here - there, TOO_NEAR_M).unwrap_or(0.0);
+                let course = *self.follower.course_rad.get_or_insert(math::wrap_pi(bearing - angle_rad));
+                let flat = turned(course + angle_rad, [distance_m, 0.0, 0.0]);
+                let ground = if over_target { there } else { self.status.home_m.unwrap_or(there) };
+                Vec3::new(there.north() + flat.north(), there.east() + flat.east(), ground.down() - height_m)
+            }
+            FollowPlace::Offset { offset_m: Some(offset), along_course } => {
+                let course = self.follower.course_rad.filter(|_| along_course).unwrap_or(0.0);
+                there + turned(course, offset)
+            }
+            FollowPlace::Offset { offset_m: None, .. } => there + *self.follower.offset_m.get_or_insert(here - there),
+        }
+    }
+
+    /// Keeps its place about the target, the nose to it; without a target it holds.
+    pub(super) fn follow_target(&mut self, now: SimTime, dt_s: f64) -> Wanted {
+        let Some(target) = self.followed(now) else { return self.go(None, dt_s) };
+        let here = self.estimate.position_m;
+        let place = self.place_about(&target);
+        // Where the target is lost, it holds.
+        self.course.target_m = here;
+        let yaw = self.look_rad().or_else(|| heading_of(target.position_m - here, TOO_NEAR_M));
+        self.turn_to(yaw, dt_s);
+        let setpoint = OffboardSetpoint {
+            position_m: place.array().map(Some),
+            velocity_m_s: target.velocity_m_s.array().map(Some),
+            ..OffboardSetpoint::default()
+        };
+        let wish = self.offboard_velocity(&setpoint);
+        let flat = Vec3::<Ned>::new(wish.north(), wish.east(), 0.0).limited(self.tuning.follow.fastest_m_s);
+        self.shaper.advance(Vec3::new(flat.north(), flat.east(), wish.down()), &self.auto_limits(), dt_s);
+        Wanted::Fly(self.motion(self.shaper.velocity_m_s))
+    }
+}

@@ -1,0 +1,147 @@
+//! Ground or air, from estimates and the range finder: sinking is asked for, nothing sinks, something is right below.
+
+use super::core::{Autopilot, Severity};
+use super::{Landed, Mode};
+use spandrel_model::frames::{Frd, Vec3};
+use spandrel_model::time::SimTime;
+
+/// Sinking slower than this although more is asked for, m/s and s.
+const STOPPED_M_S: f64 = 0.2;
+const STOPPED_S: f64 = 0.3;
+/// Asked for at least this, m/s.
+const ASKED_M_S: f64 = 0.25;
+/// The thrust fades out within this time once the ground is felt; then it has landed, s.
+const FADE_S: f64 = 0.5;
+/// The range finder may read this much more than the standing height, m.
+const RANGE_MARGIN_M: f64 = 0.35;
+/// Not upright enough to stand, cosine of the tilt (40 degrees).
+const UPRIGHT: f64 = 0.766;
+/// It has left the ground when this much higher, m, or climbing this fast, m/s.
+const OFF_GROUND_M: f64 = 0.35;
+const OFF_GROUND_M_S: f64 = 0.4;
+/// A take-off that nobody wants any more ends after, s.
+const GIVEN_UP_S: f64 = 1.0;
+
+/// What the detector remembers.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GroundContact {
+    /// Sinking that the guidance asks for, m/s down.
+    pub wanted_down_m_s: f64,
+    stopped_s: f64,
+    fade_s: f64,
+    given_up_s: f64,
+}
+
+impl GroundContact {
+    /// Share of the thrust that is left while the ground takes the weight.
+    #[must_use]
+    pub fn thrust_share(&self) -> f64 {
+        1.0 - self.fade_s / FADE_S
+    }
+}
+
+impl Autopilot {
+    /// Follows take-off and landing for one tick while armed.
+    pub(super) fn watch_ground(&mut self, now: SimTime, dt_s: f64) {
+        match self.status.landed {
+            Landed::OnGround => self.stand(now),
+            Landed::TakingOff if !self.off_ground() => self.wait_for_lift(now, dt_s),
+            Landed::TakingOff => {
+                self.status.landed = Landed::InAir;
+                self.say(Severity::Info, "Takeoff detected");
+            }
+            Landed::InAir | Landed::Landing => self.feel_for_ground(now, dt_s),
+        }
+    }
+
+    fn off_ground(&self) -> bool {
+        let up = self.course.ground_down_m - self.estimate.position_m.down();
+        up > OFF_GROUND_M || (up > 0.5 * OFF_GROUND_M && self.estimate.velocity_m_s.down() < -OFF_GROUND_M_S)
+    }
+
+    fn stand(&mut self, now: SimTime) {
+        if self.status.mode == Mode::Mission {
+            self.wait_on_ground(now);
+        }
+        if self.wants_to_fly(now) {
+            self.leave_ground(now);
+            return;
+        }
+        let t = &self.tuning;
+        let (since, flown) = (self.watch.standing_since, self.watch.flown);
+        let limit_s = if flown { t.disarm_after_landing_s } else { t.disarm_before_flight_s };
+        if limit_s > 0.0 && (now - since).s() > limit_s {
+            self.disarm(if flown { "Disarmed by landing" } else { "Disarmed: no take-off" });
+        }
+    }
+
+    fn leave_ground(&mut self, now: SimTime) {
+        self.reset_loops();
+        self.status.landed = Landed::TakingOff;
+        self.course.left_ground = now;
+        self.course.ground_down_m = self.estimate.position_m.down();
+        self.contact = GroundContact::default();
+        self.watch.flown = true;
+        self.trail.begin(self.estimate.position_m);
+        self.begin_course(now);
+    }
+
+    fn wait_for_lift(&mut self, now: SimTime, dt_s: f64) {
+        if self.wants_to_fly(now) {
+            self.contact.given_up_s = 0.0;
+            return;
+        }
+        self.contact.given_up_s += dt_s;
+        if self.contact.given_up_s > GIVEN_UP_S {
+            self.touch_down(now);
+        }
+    }
+
+    fn feel_for_ground(&mut self, now: SimTime, dt_s: f64) {
+        let upright = (self.estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
+        let near = self.seen.range_down_m.is_none_or(|r| r * upright < self.airframe.standing_m + RANGE_MARGIN_M);
+        let still = self.estimate.velocity_m_s.down().abs() < STOPPED_M_S;
+        let asked = self.contact.wanted_down_m_s > ASKED_M_S;
+        if !(near && still && asked && upright > UPRIGHT) {
+            self.contact.stopped_s = 0.0;
+            self.contact.fade_s = (self.contact.fade_s - dt_s).max(0.0);
+            return;
+        }
+        self.contact.stopped_s += dt_s;
+        if self.contact.stopped_s > STOPPED_S {
+            self.contact.fade_s = (self.contact.fade_s + dt_s).min(FADE_S);
+        }
+        if self.contact.fade_s >= FADE_S {
+            self.say(Severity::Info, "Landing detected");
+            self.touch_down(now);
+        }
+    }
+
+    fn touch_down(&mut self, now: SimTime) {
+        self.status.landed = Landed::OnGround;
+        self.watch.standing_since = now;
+        self.contact = GroundContact::default();
+        self.reset_loops();
+        if matches!(self.status.mode, Mode::Return | Mode::Mission) {
+            self.mission_landed(now);
+        }
+    }
+
+    pub(super) fn disarm(&mut self, why: &str) {
+        self.status.armed = false;
+        self.status.landed = Landed::OnGround;
+        self.contact = GroundContact::default();
+        self.watch.flown = false;
+        self.watch.upset_since = None;
+        // What was asked for in a flight ends with it.
+        self.look_at_m = None;
+        self.commanded_m_s = None;
+        self.course.takeoff_up_m = None;
+        self.tuning.fence_enabled |= !self.tuning.fence_switch_stays;
+        self.say(Severity::Info, why);
+        if !self.watch.intended.is_manual() {
+            self.watch.intended = Mode::Hold;
+            self.status.mode = Mode::Hold;
+        }
+    }
+}

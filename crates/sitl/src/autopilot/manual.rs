@@ -1,0 +1,169 @@
+//! What the sticks want: attitude, height or velocity, and the locks that hold the place once they are let go.
+
+use super::core::Autopilot;
+use super::modes::Wanted;
+use super::shaper::{JERK_S, Limits, stopping_point};
+use super::velocity::Pull;
+use super::{Mode, Sticks};
+use spandrel_model::frames::{Ned, Rotation, Vec3};
+use spandrel_model::math;
+
+/// Yaw rate is built up within this time, s.
+const YAW_SPOOL_S: f64 = 0.3;
+/// The wanted heading never runs further ahead of the nose, rad.
+const YAW_LEAD_RAD: f64 = 0.6;
+/// While it turns faster than this the rate is held, not the heading, rad/s; the lead is then at most this, rad.
+const TURNING_RAD_S: f64 = 0.1;
+const TURNING_LEAD_RAD: f64 = 0.08;
+/// Slower than this the nose has come to rest and the heading is captured, rad/s: at the yaw loop's lag of some tenths of a second it
+/// moves on by less than half a degree.
+const CAPTURED_RAD_S: f64 = 0.02;
+/// Slower than this the position is locked once the sticks are centred, m/s.
+const LOCK_M_S: f64 = 0.15;
+/// Without position the sticks tilt at most this share of the largest tilt.
+const BLIND_TILT_SHARE: f64 = 0.6;
+/// Share of the slow-down time in which the plan stops; the rest is the loops' lag.
+const SLOW_DOWN_SHARE: f64 = 0.55;
+/// Fastest correction towards a lock, m/s.
+pub(super) const LOCK_SPEED_M_S: f64 = 2.0;
+
+impl Autopilot {
+    pub(super) fn stick_yaw(&mut self, dt_s: f64) {
+        let most = self.airframe.limits.yaw_rate_rad_s.min(self.tuning.rules.envelope.manual_yaw_rad_s);
+        let rate = self.links.sticks.yaw * most;
+        self.turn_at(rate, dt_s);
+    }
+
+    /// Turns at a rate, rad/s. Once that is zero, the heading is captured where the nose comes to rest: captured earlier, it would lie
+    /// behind the nose, which then swings back.
+    pub(super) fn turn_at(&mut self, rate: f64, dt_s: f64) {
+        let turning = (self.estimate.attitude * self.estimate.rates_rad_s).down();
+        let c = &mut self.course;
+        if rate != 0.0 {
+            c.heading_free = true;
+        } else if turning.abs() < CAPTURED_RAD_S && c.yaw_rate_rad_s.abs() < CAPTURED_RAD_S {
+            c.heading_free = false;
+        }
+        let before = self.course.yaw_rate_rad_s;
+        self.advance_heading(rate, dt_s);
+        if rate == 0.0 && self.course.heading_free {
+            self.course.yaw_rad = self.estimate.attitude.yaw_rad();
+            // The rate loop lags by the inverse of its gain: ahead by that, the nose brakes as planned.
+            let braking = if dt_s > 0.0 { (self.course.yaw_rate_rad_s - before) / dt_s } else { 0.0 };
+            self.course.yaw_brake_rad_s = braking / self.gains.yaw_rate;
+        }
+    }
+
+    /// Moves the wanted heading on at a rate that builds up gradually, rad/s.
+    pub(super) fn advance_heading(&mut self, rate: f64, dt_s: f64) {
+        let step = self.airframe.limits.yaw_rate_rad_s / YAW_SPOOL_S * dt_s;
+        let c = &mut self.course;
+        c.yaw_brake_rad_s = 0.0;
+        c.yaw_rate_rad_s += (rate - c.yaw_rate_rad_s).clamp(-step, step);
+        let nose = self.estimate.attitude.yaw_rad();
+        let most = if c.yaw_rate_rad_s.abs() > TURNING_RAD_S { TURNING_LEAD_RAD } else { YAW_LEAD_RAD };
+        let lead = math::wrap_pi(c.yaw_rad + c.yaw_rate_rad_s * dt_s - nose).clamp(-most, most);
+        c.yaw_rad = math::wrap_pi(nose + lead);
+    }
+
+    pub(super) fn stick_climb(&self) -> f64 {
+        let (up, l, set) = (self.links.sticks.up, &self.airframe.limits, &self.tuning.rules.envelope);
+        if up > 0.0 { -up * l.climb_m_s.min(set.manual_up_m_s) } else { -up * l.descend_m_s.min(set.manual_down_m_s) }
+    }
+
+    /// Roll and pitch by the sticks, rad: both together lean no further than one alone.
+    fn stick_tilt(&self, share: f64) -> (f64, f64) {
+        let Sticks { forward, right, .. } = self.links.sticks;
+        let most =
+            self.gains.tilt_rad.min(self.tuning.rules.envelope.manual_tilt_rad) * share / math::hypot(forward, right).max(1.0);
+        (right * most, -forward * most)
+    }
+
+    pub(super) fn stabilized(&mut self, dt_s: f64) -> Wanted {
+        self.stick_yaw(dt_s);
+        let up = self.links.sticks.up;
+        let tilt = self.stick_tilt(1.0);
+        let hover = self.gains.hover_n;
+        let thrust_n = if up > 0.0 {
+            math::lerp(hover, self.gains.thrust_max_n, up)
+        } else {
+            math::lerp(hover, self.gains.thrust_min_n, -up)
+        };
+        self.contact.wanted_down_m_s = if up < -0.5 { self.airframe.limits.descend_m_s } else { 0.0 };
+        let attitude = Rotation::from_euler(tilt.0, tilt.1, self.course.yaw_rad);
+        Wanted::Direct(Pull { attitude, thrust_n })
+    }
+
+    pub(super) fn altitude(&mut self, dt_s: f64) -> Wanted {
+        self.stick_yaw(dt_s);
+        let share = if self.status.mode == Mode::Altitude { 1.0 } else { BLIND_TILT_SHARE };
+        let tilt = self.stick_tilt(share);
+        let limits = self.stick_limits();
+        let velocity =
+            self.with_locks(Vec3::new(0.0, 0.0, self.stick_climb()), false, self.links.sticks.up == 0.0, &limits, dt_s);
+        self.course.lock_flat = None;
+        Wanted::Level { motion: self.motion(velocity), tilt }
+    }
+
+    pub(super) fn position(&mut self, dt_s: f64) -> Wanted {
+        self.stick_yaw(dt_s);
+        let (s, l) = (self.links.sticks, self.airframe.limits);
+        let (sine, cosine) = math::sin_cos(self.estimate.attitude.yaw_rad());
+        let most = self.tuning.rules.envelope.manual_m_s;
+        let (forward, right) = (s.forward * l.forward_m_s.min(most), s.right * l.sideward_m_s.min(most));
+        let wish = Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb());
+        let limits = self.stick_limits();
+        let centred = s.forward == 0.0 && s.right == 0.0;
+        let velocity = self.with_locks(wish, centred, s.up == 0.0, &limits, dt_s);
+        if let (Some((n, e)), Some(d)) = (self.course.lock_flat, self.course.lock_down) {
+            self.status.target_m = Some(Vec3::new(n, e, d));
+        }
+        Wanted::Fly(self.motion(velocity))
+    }
+
+    pub(super) fn stick_limits(&self) -> Limits {
+        let l = &self.airframe.limits;
+        let plan_s = (SLOW_DOWN_SHARE * l.slow_down_time_s).max(0.1);
+        Limits {
+            horizontal_m_s2: (l.forward_m_s.max(l.sideward_m_s) / plan_s).min(self.gains.acceleration_m_s2),
+            vertical_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(self.gains.climb_acceleration_m_s2),
+            build_up_s: JERK_S,
+        }
+    }
+
+    /// Shapes a stick velocity; once centred and slow, position and height are locked.
+    pub(super) fn with_locks(
+        &mut self,
+        wish: Vec3<Ned>,
+        flat_free: bool,
+        down_free: bool,
+        limits: &Limits,
+        dt_s: f64,
+    ) -> Vec3<Ned> {
+        let planned = self.shaper.velocity_m_s;
+        self.shaper.advance(wish, limits, dt_s);
+        let e = &self.estimate;
+        let rest = stopping_point(&self.gains, e.position_m, e.velocity_m_s);
+        let c = &mut self.course;
+        if !flat_free {
+            c.lock_flat = None;
+        } else if c.lock_flat.is_none() && planned.horizontal_norm() < LOCK_M_S {
+            c.lock_flat = Some((rest.north(), rest.east()));
+        }
+        if !down_free {
+            c.lock_down = None;
+        } else if c.lock_down.is_none() && planned.down().abs() < LOCK_M_S {
+            c.lock_down = Some(rest.down());
+        }
+        let mut velocity = self.shaper.velocity_m_s;
+        if let Some((n, e_)) = c.lock_flat {
+            let way = Vec3::<Ned>::new(n - e.position_m.north(), e_ - e.position_m.east(), 0.0);
+            velocity += (way * self.gains.position).limited(LOCK_SPEED_M_S);
+        }
+        if let Some(d) = c.lock_down {
+            let speed = self.gains.height * (d - e.position_m.down());
+            velocity += Vec3::new(0.0, 0.0, speed.clamp(-LOCK_SPEED_M_S, LOCK_SPEED_M_S));
+        }
+        velocity
+    }
+}

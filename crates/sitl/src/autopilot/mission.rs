@@ -1,0 +1,379 @@
+//! The mission's list and where it stands; `modes.rs` flies the steps.
+
+use super::MissionStep;
+use super::modes::ReturnPhase;
+use super::trajectory::Waypoint;
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::time::SimTime;
+
+/// Steps without flight that follow each other in one tick; more of them go on in the next.
+const GO_ON_MAX: usize = 64;
+/// A way is planned this far ahead, m, and through at most so many waypoints: further than any aircraft brakes.
+const AHEAD_M: f64 = 80.0;
+const AHEAD_MOST: usize = 24;
+
+/// The course of a step that was left: take-off, landing and return go on with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeftCourse {
+    /// Where it flew to, m.
+    pub target_m: Vec3<Ned>,
+    /// How far it had come.
+    pub phase: ReturnPhase,
+    /// Where a return went, m.
+    pub refuge_m: Option<Vec3<Ned>>,
+}
+
+/// What a step takes from where the vehicle is when it begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Unnamed {
+    /// Its place.
+    pub place: bool,
+    /// Its height.
+    pub height: bool,
+}
+
+impl Unnamed {
+    /// A place with what is open taken from another, m.
+    #[must_use]
+    pub fn filled(self, place_m: Vec3<Ned>, from_m: Vec3<Ned>) -> Vec3<Ned> {
+        let over = if self.place { from_m } else { place_m };
+        Vec3::new(over.north(), over.east(), if self.height { from_m.down() } else { place_m.down() })
+    }
+}
+
+/// The list and its progress.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Mission {
+    steps: Vec<MissionStep>,
+    /// Steps whose heights count from home; the others' from the origin.
+    over_home: Vec<bool>,
+    /// What steps leave open.
+    unnamed: Vec<Unnamed>,
+    /// Where the vehicle was when the current step began that leaves something open, m.
+    began_m: Option<Vec3<Ned>>,
+    /// Home has risen by this much since the list came, m.
+    home_rise_m: f64,
+    jumps_done: Vec<u32>,
+    /// Current step.
+    pub current: usize,
+    /// The current step's waiting ends at this time.
+    pub wait_until: Option<SimTime>,
+    /// Cruise speed set by the mission, m/s.
+    pub speed_m_s: Option<f64>,
+    /// Steps reached and not yet reported.
+    pub reached: Vec<usize>,
+    /// The current step has been begun.
+    pub begun: bool,
+    /// Steps that were passed and order something of the autopilot, not yet carried out.
+    pub orders: Vec<MissionStep>,
+    /// It has left the ground without a take-off step and climbs to this place first, m.
+    pub lift_to: Option<Vec3<Ned>>,
+    /// Where it was left on its way, m: it goes on from there.
+    pub left_at: Option<Vec3<Ned>>,
+    /// What was left then of the current step's waiting.
+    pub left_wait: Option<SimTime>,
+    /// What was left then of the current step's circle, rad.
+    pub left_rad: Option<f64>,
+    /// The course of the current step then.
+    pub left_course: Option<LeftCourse>,
+}
+
+impl MissionStep {
+    /// Where it flies to, m, if it names a place.
+    pub fn place_mut(&mut self) -> Option<&mut Vec3<Ned>> {
+        match self {
+            Self::Waypoint { position_m, .. } | Self::Land { position_m: Some(position_m) } => Some(position_m),
+            Self::Circle { centre_m, .. } => Some(centre_m),
+            _ => None,
+        }
+    }
+
+    /// It flies along the planned way, or waits at its end.
+    pub(super) fn rests_on_way(&self) -> bool {
+        matches!(self, Self::Waypoint { .. } | Self::Near(_) | Self::Delay(_) | Self::Turn { .. })
+    }
+
+    /// It takes its time: left in the middle it goes on there.
+    pub(super) fn goes_on(&self) -> bool {
+        use MissionStep as S;
+        match self {
+            S::Waypoint { .. } | S::Takeoff { .. } | S::Land { .. } | S::Return | S::Delay(_) | S::DelayUntil(_) => true,
+            S::Circle { .. } | S::Turn { .. } | S::Near(_) => true,
+            S::Speed(_) | S::Jump { .. } | S::LookAt(_) | S::Home(_) | S::Fence(_) => false,
+            S::LandingSequence | S::Payload => false,
+        }
+    }
+}
+
+impl Mission {
+    /// From a list.
+    #[must_use]
+    pub fn new(steps: Vec<MissionStep>) -> Self {
+        Self { jumps_done: vec![0; steps.len()], steps, ..Self::default() }
+    }
+
+    /// Names the steps whose heights count from home: they rise and sink with it.
+    pub fn hang_on_home(&mut self, over_home: Vec<bool>) {
+        self.over_home = over_home;
+    }
+
+    /// Names what steps take from where the vehicle is when they begin.
+    pub fn leave_open(&mut self, unnamed: Vec<Unnamed>) {
+        self.unnamed = unnamed;
+    }
+
+    /// The vehicle is here when the current step begins, m.
+    pub fn begin_at(&mut self, here_m: Vec3<Ned>) {
+        self.began_m.get_or_insert(here_m);
+    }
+
+    /// Home has moved up by so much, m.
+    pub fn raise_home(&mut self, up_m: f64) {
+        self.home_rise_m += up_m;
+    }
+
+    /// Nothing to fly.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+
+    /// It is left in the middle of a step, and will go on here.
+    pub fn leave(&mut self, place_m: Vec3<Ned>, course: LeftCourse, left_rad: Option<f64>, now: SimTime) {
+        self.left_at = Some(place_m);
+        self.left_course = Some(course);
+        self.left_wait = self.wait_until.map(|until| until.saturating_sub(now));
+        self.left_rad = left_rad;
+    }
+
+    /// What was left of the current step counts no more.
+    pub fn begin_anew(&mut self) {
+        (self.left_at, self.left_wait, self.left_rad, self.left_course) = (None, None, None, None);
+        self.lift_to = None;
+    }
+
+    /// Where the mission lands, m: the last landing that has a place.
+    #[must_use]
+    pub fn landing(&self) -> Option<Vec3<Ned>> {
+        let lands = |k: &usize| matches!(self.step_at(*k), Some(MissionStep::Land { position_m: Some(_) }));
+        (0..self.steps.len()).rev().find(lands).and_then(|k| self.place_at(k))
+    }
+
+    /// The first place on the way, m.
+    #[must_use]
+    pub fn first_place(&self) -> Option<Vec3<Ned>> {
+        (0..self.steps.len()).find_map(|k| self.place_at(k))
+    }
+
+    fn place_at(&self, index: usize) -> Option<Vec3<Ned>> {
+        match self.step_at(index)? {
+            MissionStep::Waypoint { position_m, .. } => Some(position_m),
+            MissionStep::Circle { centre_m, .. } => Some(centre_m),
+            MissionStep::Land { position_m } => position_m,
+            _ => None,
+        }
+    }
+
+    /// The next place behind the current step, m.
+    #[must_use]
+    pub fn next_place(&self) -> Option<Vec3<Ned>> {
+        (self.current + 1..self.steps.len()).find_map(|k| self.place_at(k))
+    }
+
+    /// The waypoints that are flown through from the current step on, up to the first at which the vehicle stops. `accept_m` is the
+    /// radius of those that name none.
+    #[must_use]
+    pub fn ahead(&self, accept_m: f64) -> Vec<Waypoint> {
+        let (mut at, mut jumps, mut speed) = (self.current, self.jumps_done.clone(), self.speed_m_s);
+        // What follows a distance is done on the way: the leg begins with the speed before it.
+        let mut leg_speed: Option<Option<f64>> = None;
+        let (mut ahead, mut length_m): (Vec<Waypoint>, f64) = (Vec::new(), 0.0);
+        for _ in 0..GO_ON_MAX {
+            let here = at;
+            at += 1;
+            match self.step_at(here) {
+                Some(MissionStep::Waypoint { position_m, accept_m: own_m, hold_s, .. }) => {
+                    length_m += ahead.last().map_or(0.0, |last: &Waypoint| (position_m - last.position_m).norm());
+                    let accept_m = if own_m > 0.0 { own_m } else { accept_m };
+                    ahead.push(Waypoint { position_m, speed_m_s: leg_speed.take().unwrap_or(speed), accept_m });
+                    if hold_s > 0.0 || ahead.len() >= AHEAD_MOST || length_m > AHEAD_M {
+                        break;
+                    }
+                }
+                Some(MissionStep::Speed(other)) => speed = other,
+                Some(MissionStep::Jump { to, times }) if jumps[here] < times && to < self.steps.len() => {
+                    jumps[here] += 1;
+                    at = to;
+                }
+                Some(MissionStep::Jump { .. }) => jumps[here] = 0,
+                Some(MissionStep::Near(_)) => leg_speed = leg_speed.or(Some(speed)),
+                Some(MissionStep::Payload | MissionStep::LookAt(_) | MissionStep::Fence(_)) => {}
+                _ => break,
+            }
+        }
+        ahead
+    }
+
+    /// The landing sequence whose first place is nearest to `here_m`.
+    #[must_use]
+    pub fn landing_sequence(&self, here_m: Vec3<Ned>) -> Option<usize> {
+        let away = |start: &usize| {
+            let first = (*start + 1..self.steps.len()).find_map(|k| self.place_at(k));
+            first.map_or(f64::INFINITY, |place| (place - here_m).horizontal_norm())
+        };
+        let starts = (0..self.steps.len()).filter(|k| self.steps[*k] == MissionStep::LandingSequence);
+        starts.min_by(|a, b| away(a).total_cmp(&away(b)))
+    }
+
+    /// All steps with their numbers.
+    pub fn all(&self) -> impl Iterator<Item = (usize, MissionStep)> {
+        (0..self.steps.len()).filter_map(|k| Some((k, self.step_at(k)?)))
+    }
+
+    /// From the beginning, as if it had never been flown.
+    pub fn restart(&mut self) {
+        self.forget();
+        self.jump(0);
+    }
+
+    /// Nothing has been flown yet: jumps count from the beginning, the speed is the usual one.
+    pub fn forget(&mut self) {
+        self.jumps_done.fill(0);
+        self.speed_m_s = None;
+    }
+
+    /// The step to fly now; `None` at the end.
+    #[must_use]
+    pub fn step(&self) -> Option<MissionStep> {
+        self.step_at(self.current)
+    }
+
+    fn step_at(&self, index: usize) -> Option<MissionStep> {
+        let hangs = self.over_home.get(index).copied().unwrap_or(false);
+        let rise_m = if hangs { self.home_rise_m } else { 0.0 };
+        let mut step = match *self.steps.get(index)? {
+            MissionStep::Waypoint { position_m, accept_m, hold_s, yaw_rad } => {
+                MissionStep::Waypoint { position_m: position_m - Vec3::new(0.0, 0.0, rise_m), accept_m, hold_s, yaw_rad }
+            }
+            MissionStep::Takeoff { up_m } => MissionStep::Takeoff { up_m: up_m.map(|up_m| up_m + rise_m) },
+            MissionStep::Circle { centre_m, radius_m, turns } => {
+                MissionStep::Circle { centre_m: centre_m - Vec3::new(0.0, 0.0, rise_m), radius_m, turns }
+            }
+            MissionStep::Land { position_m: Some(place) } => {
+                MissionStep::Land { position_m: Some(place - Vec3::new(0.0, 0.0, rise_m)) }
+            }
+            other => other,
+        };
+        let open = self.unnamed.get(index).copied().unwrap_or_default();
+        if let (Some(place_m), Some(began_m)) = (step.place_mut(), self.began_m.filter(|_| index == self.current)) {
+            *place_m = open.filled(*place_m, began_m);
+        }
+        Some(step)
+    }
+
+    /// Goes to a step; false when there is none.
+    pub fn jump(&mut self, index: usize) -> bool {
+        let known = index < self.steps.len();
+        if known {
+            self.current = index;
+            self.began_m = None;
+            self.wait_until = None;
+            self.begun = false;
+            self.begin_anew();
+        }
+        known
+    }
+
+    /// The current step is done: reports it and takes the next that flies or waits. False at the end.
+    pub fn advance(&mut self, now: SimTime) -> bool {
+        self.next();
+        self.skip(now)
+    }
+
+    /// Passes over steps that neither fly nor wait. False at the end.
+    pub fn skip(&mut self, now: SimTime) -> bool {
+        for _ in 0..GO_ON_MAX {
+            match self.step() {
+                None => return false,
+                Some(MissionStep::Speed(speed)) => {
+                    self.speed_m_s = speed;
+                    self.next();
+                }
+                Some(order @ (MissionStep::LookAt(_) | MissionStep::Home(_) | MissionStep::Fence(_))) => {
+                    self.orders.push(order);
+                    self.next();
+                }
+                Some(MissionStep::Payload | MissionStep::LandingSequence) => self.next(),
+                Some(MissionStep::Jump { to, times }) => self.repeat(to, times),
+                Some(MissionStep::Delay(s)) => {
+                    self.wait_until = self.wait_until.or(Some(now + SimTime::from_s(s.clamp(0.0, 86_400.0))));
+                    return true;
+                }
+                Some(_) => return true,
+            }
+        }
+        true
+    }
+
+    fn next(&mut self) {
+        self.reached.push(self.current);
+        self.current += 1;
+        self.began_m = None;
+        self.wait_until = None;
+        self.begun = false;
+        self.begin_anew();
+    }
+
+    fn repeat(&mut self, to: usize, times: u32) {
+        let here = self.current;
+        if self.jumps_done[here] < times && to < self.steps.len() {
+            self.jumps_done[here] += 1;
+            self.reached.push(here);
+            self.jump(to);
+        } else {
+            self.jumps_done[here] = 0;
+            self.next();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_jump_repeats_as_often_as_it_says() {
+        let wait = MissionStep::Delay(1.0);
+        let mut mission = Mission::new(vec![wait, MissionStep::Jump { to: 0, times: 2 }, wait]);
+        let mut visits = Vec::new();
+        let mut going = mission.skip(SimTime::ZERO);
+        while going {
+            visits.push(mission.current);
+            going = mission.advance(SimTime::ZERO);
+        }
+        assert_eq!(visits, [0, 0, 0, 2]);
+    }
+
+    #[test]
+    fn exact_jumps_in_a_ring_stop_no_tick() {
+        let mut mission = Mission::new(vec![MissionStep::Jump { to: 0, times: u32::MAX }]);
+        // Only so many in one tick; the endpoint refuses such a list.
+        assert!(mission.skip(SimTime::ZERO));
+        assert_eq!(mission.reached.len(), GO_ON_MAX);
+    }
+
+    #[test]
+    fn exact_a_long_row_of_steps_without_flight_is_passed_in_several_ticks_and_started_anew_as_it_was() {
+        let mut steps = vec![MissionStep::Payload; 3 * GO_ON_MAX];
+        steps[5] = MissionStep::Speed(Some(7.0));
+        steps.push(MissionStep::Delay(1.0));
+        let mut mission = Mission::new(steps);
+        for tick in 1..=4 {
+            assert!(mission.skip(SimTime::ZERO));
+            assert_eq!(mission.current, (tick * GO_ON_MAX).min(3 * GO_ON_MAX));
+        }
+        assert_eq!(mission.speed_m_s, Some(7.0));
+        mission.restart();
+        assert_eq!((mission.current, mission.speed_m_s), (0, None));
+    }
+}

@@ -1,0 +1,167 @@
+//! Smart return: back to the take-off point along the path flown (ArduCopter's Smart RTL).
+
+use super::core::{Autopilot, Severity};
+use super::modes::{ReturnPhase, Wanted};
+use super::{Landed, Mode};
+use spandrel_model::frames::{Ned, Vec3};
+
+/// Distance between recorded points; two parts of the path nearer to each other are one, m (ArduCopter: SRTL_ACCURACY).
+const ACCURACY_M: f64 = 2.0;
+/// Points kept (ArduCopter: SRTL_POINTS).
+const MOST_POINTS: usize = 300;
+/// The simplified path departs at most this far from the recorded one, m (ArduCopter: half the accuracy).
+const SIMPLIFIED_WITHIN_M: f64 = 0.5 * ACCURACY_M;
+/// A point counts as reached within, m.
+const REACHED_M: f64 = 1.0;
+/// The landing begins this far above the take-off point, m (ArduCopter: pre-land position).
+const LANDING_FROM_M: f64 = 2.0;
+/// Over the take-off point: within, m, and slower than, m/s.
+const OVER_M: f64 = 0.5;
+const SLOW_M_S: f64 = 0.5;
+
+/// The path flown since take-off.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trail {
+    points: Vec<Vec3<Ned>>,
+}
+
+impl Trail {
+    /// Starts a new path.
+    pub fn begin(&mut self, place_m: Vec3<Ned>) {
+        self.points = vec![place_m];
+    }
+
+    /// No path is recorded.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// Records a place. A loop is cut out where the path comes near itself again.
+    pub fn record(&mut self, place_m: Vec3<Ned>) {
+        let Some(last) = self.points.last() else { return };
+        if (place_m - *last).norm() < ACCURACY_M {
+            return;
+        }
+        let before = &self.points[..self.points.len() - 1];
+        let near = before.windows(2).position(|leg| distance_to_leg(place_m, leg[0], leg[1]) < ACCURACY_M);
+        if let Some(leg) = near {
+            self.points.truncate(leg + 1);
+        }
+        self.points.push(place_m);
+        let mut within_m = SIMPLIFIED_WITHIN_M;
+        while self.points.len() >= MOST_POINTS {
+            self.simplify(within_m);
+            within_m *= 2.0;
+        }
+    }
+
+    /// The vehicle was moved to a place on its path: what was flown after it no longer counts.
+    pub fn cut_back_to(&mut self, place_m: Vec3<Ned>) {
+        let distance = |k: &usize| (self.points[*k] - place_m).norm();
+        let nearest = (0..self.points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        if let Some(nearest) = nearest {
+            self.points.truncate(nearest + 1);
+        }
+    }
+
+    /// Leaves out points that lie on straight legs (Ramer, Douglas and Peucker).
+    pub fn simplify(&mut self, within_m: f64) {
+        let mut keep = vec![false; self.points.len()];
+        let mut parts = vec![(0, self.points.len().saturating_sub(1))];
+        while let Some((first, last)) = parts.pop() {
+            if let (Some(a), Some(b)) = (self.points.get(first), self.points.get(last)) {
+                (keep[first], keep[last]) = (true, true);
+                let off = |k: &usize| distance_to_leg(self.points[*k], *a, *b);
+                let farthest = (first + 1..last).max_by(|x, y| off(x).total_cmp(&off(y)));
+                if let Some(k) = farthest.filter(|k| off(k) > within_m) {
+                    parts.extend([(first, k), (k, last)]);
+                }
+            }
+        }
+        let mut kept = keep.into_iter();
+        self.points.retain(|_| kept.next().unwrap_or(true));
+    }
+}
+
+/// Distance from a place to a straight leg, m.
+fn distance_to_leg(place: Vec3<Ned>, from: Vec3<Ned>, to: Vec3<Ned>) -> f64 {
+    let (leg, off) = (to - from, place - from);
+    let length2 = leg.dot(leg);
+    let share = if length2 > 0.0 { (off.dot(leg) / length2).clamp(0.0, 1.0) } else { 0.0 };
+    (off - leg * share).norm()
+}
+
+impl Autopilot {
+    /// Records the path in flight.
+    pub(super) fn record_trail(&mut self) {
+        let flying = self.status.armed && self.status.landed == Landed::InAir;
+        if flying && self.estimate.position_valid && self.status.mode != Mode::SmartReturn {
+            self.trail.record(self.estimate.position_m);
+        }
+    }
+
+    pub(super) fn begin_smart_return(&mut self) {
+        self.trail.simplify(SIMPLIFIED_WITHIN_M);
+        self.course.phase = ReturnPhase::Cruise;
+    }
+
+    /// Point by point back; above the take-off point it lands.
+    pub(super) fn fly_trail_back(&mut self, dt_s: f64) -> Wanted {
+        if self.course.phase == ReturnPhase::Land {
+            return self.land(dt_s);
+        }
+        let here = self.estimate.position_m;
+        let points = &mut self.trail.points;
+        if points.len() > 1 && points.last().is_some_and(|next| (*next - here).norm() < REACHED_M) {
+            points.pop();
+        }
+        let Some(next) = points.last().copied() else { return self.go(None, dt_s) };
+        let last = points.len() == 1;
+        self.course.target_m = if last { next - Vec3::new(0.0, 0.0, LANDING_FROM_M) } else { next };
+        let left = self.course.target_m - here;
+        let slow = self.estimate.velocity_m_s.norm() < SLOW_M_S;
+        if last && left.norm() < OVER_M && slow {
+            self.course.phase = ReturnPhase::Land;
+            self.course.target_m = next;
+            self.say(Severity::Info, "Take-off point reached, landing");
+        }
+        self.go(None, dt_s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(n: f64, e: f64, d: f64) -> Vec3<Ned> {
+        Vec3::new(n, e, d)
+    }
+
+    #[test]
+    fn exact_straight_legs_keep_their_ends_and_loops_are_cut_out() {
+        let mut trail = Trail::default();
+        trail.begin(at(0.0, 0.0, 0.0));
+        // North 40 m, east 40 m, and back to the middle of the first leg.
+        (1..=20).for_each(|k| trail.record(at(2.0 * f64::from(k), 0.0, 0.0)));
+        (1..=20).for_each(|k| trail.record(at(40.0, 2.0 * f64::from(k), 0.0)));
+        trail.simplify(SIMPLIFIED_WITHIN_M);
+        assert_eq!(trail.points, [at(0.0, 0.0, 0.0), at(40.0, 0.0, 0.0), at(40.0, 40.0, 0.0)]);
+        trail.record(at(20.0, 1.0, 0.0));
+        assert_eq!(trail.points, [at(0.0, 0.0, 0.0), at(20.0, 1.0, 0.0)]);
+    }
+
+    #[test]
+    fn exact_a_path_of_any_length_stays_within_its_points() {
+        let mut trail = Trail::default();
+        trail.begin(at(0.0, 0.0, 0.0));
+        // A rising spiral has no straight legs and never meets itself.
+        for k in 1..20_000 {
+            let angle = 0.05 * f64::from(k);
+            let (s, c) = spandrel_model::math::sin_cos(angle);
+            trail.record(at(50.0 * c, 50.0 * s, -3.0 * angle));
+            assert!(trail.points.len() < MOST_POINTS);
+        }
+        assert_eq!(trail.points[0], at(0.0, 0.0, 0.0));
+    }
+}

@@ -1,0 +1,218 @@
+//! MAV_CMD_PREFLIGHT_CALIBRATION: what can be calibrated at rest is measured at rest, and reported in the texts that ground stations read.
+
+use super::Endpoint;
+use super::commands::Command;
+use super::context::Context;
+use super::params::Value;
+use super::view::View;
+use spandrel_mavlink::dialect::{MavResult, MavSeverity};
+use spandrel_model::frames::{Frd, Vec3};
+use spandrel_model::math::GRAVITY_M_S2;
+use spandrel_model::time::SimTime;
+
+/// Readings are averaged for this long, s (PX4's gyro calibration takes about as long).
+const MEASURE_S: f64 = 4.0;
+/// Progress is reported in so many steps.
+const STEPS: u32 = 5;
+/// The halves of a measurement of rest differ by less, rad/s (PX4: gyro calibration, 0.01 rad/s).
+const STILL_RAD_S: f64 = 0.01;
+/// The same for the specific force, m/s² (estimate: ten times the noise of the mean).
+const STILL_M_S2: f64 = 0.05;
+/// Farther from 1 g is not rest, m/s².
+const REST_M_S2: f64 = 1.0;
+/// A vehicle that leans more is not level, m/s² of gravity (30 degrees; PX4: level calibration).
+const LEVEL_M_S2: f64 = 0.5 * GRAVITY_M_S2;
+
+/// What is calibrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sensor {
+    Gyro,
+    Barometer,
+    Level,
+    Accelerometer,
+}
+
+impl Sensor {
+    /// The word that QGroundControl looks for.
+    fn word(self) -> &'static str {
+        match self {
+            Self::Gyro => "gyro",
+            Self::Barometer => "baro",
+            Self::Level => "level",
+            Self::Accelerometer => "accel",
+        }
+    }
+}
+
+/// Whose texts report it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Words {
+    /// PX4's, which begin with `[cal]` (QGroundControl: SensorsComponentController).
+    Px4,
+    /// ArduPilot's, recorded.
+    ArduPilot,
+}
+
+impl Words {
+    fn start(self, sensor: Sensor) -> Option<String> {
+        match (self, sensor) {
+            (Self::Px4, _) => Some(format!("[cal] calibration started: 2 {}", sensor.word())),
+            (Self::ArduPilot, Sensor::Barometer) => Some("Updating barometer calibration".into()),
+            (Self::ArduPilot, Sensor::Gyro) => Some("Initialising ArduPilot".into()),
+            (Self::ArduPilot, Sensor::Level | Sensor::Accelerometer) => None,
+        }
+    }
+
+    fn progress(self, percent: u32) -> Option<String> {
+        (self == Self::Px4).then(|| format!("[cal] progress <{percent}>"))
+    }
+
+    fn done(self, sensor: Sensor) -> Option<String> {
+        match (self, sensor) {
+            (Self::Px4, _) => Some(format!("[cal] calibration done: {}", sensor.word())),
+            (Self::ArduPilot, Sensor::Barometer) => Some("Barometer calibration complete".into()),
+            (Self::ArduPilot, _) => None,
+        }
+    }
+
+    fn failed(self, why: &str) -> String {
+        match self {
+            Self::Px4 => format!("[cal] calibration failed: {why}"),
+            Self::ArduPilot => format!("Calibration FAILED: {why}"),
+        }
+    }
+}
+
+/// Sums over one half of the measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Half {
+    rates: Vec3<Frd>,
+    force: Vec3<Frd>,
+    samples: u32,
+}
+
+impl Half {
+    fn means(&self) -> (Vec3<Frd>, Vec3<Frd>) {
+        let share = 1.0 / f64::from(self.samples.max(1));
+        (self.rates * share, self.force * share)
+    }
+}
+
+/// A calibration that runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Calibration {
+    sensor: Sensor,
+    since: SimTime,
+    halves: [Half; 2],
+    steps: u32,
+}
+
+/// Parameters 1 gyro, 2 compass, 3 barometer, 4 radio, 5 accelerometer, 6 airspeed, 7 ESC; none of them ends what runs.
+pub(super) fn command(c: &Command, x: &mut Context) -> MavResult {
+    use MavResult as R;
+    let words = x.view.flavour.calibration;
+    let asked = |k: usize| c.given(k).unwrap_or(0.0);
+    if (0..7).all(|k| asked(k) == 0.0) {
+        if x.calibration.take().is_some() && words == Words::Px4 {
+            x.inform("[cal] calibration cancelled");
+        }
+        return R::MAV_RESULT_ACCEPTED;
+    }
+    if x.view.status.armed || x.calibration.is_some() {
+        return x.view.flavour.refusals.for_now;
+    }
+    // The radio is calibrated by the ground station; the vehicle only reads its channels.
+    if asked(3) != 0.0 {
+        return R::MAV_RESULT_ACCEPTED;
+    }
+    let rotated = if asked(1) == 1.0 { Some("mag") } else { (asked(4) == 1.0).then_some("accel") };
+    if let Some(what) = rotated {
+        if words == Words::Px4 {
+            x.inform(&format!("[cal] calibration started: 2 {what}"));
+        }
+        x.tell(&words.failed("this vehicle cannot be rotated by hand"));
+        return if words == Words::Px4 { R::MAV_RESULT_ACCEPTED } else { R::MAV_RESULT_FAILED };
+    }
+    let sensor = match (asked(0), asked(2), asked(4)) {
+        (1.0, ..) => Sensor::Gyro,
+        (_, 1.0, _) => Sensor::Barometer,
+        (.., 2.0) => Sensor::Level,
+        (.., 4.0) => Sensor::Accelerometer,
+        _ => return R::MAV_RESULT_UNSUPPORTED,
+    };
+    *x.calibration = Some(Calibration { sensor, since: x.view.now, halves: [Half::default(); 2], steps: 0 });
+    if let Some(text) = words.start(sensor) {
+        x.inform(&text);
+    }
+    R::MAV_RESULT_ACCEPTED
+}
+
+impl Calibration {
+    /// Takes in the newest reading; true once it has measured long enough.
+    fn measure(&mut self, view: &View) -> bool {
+        let age_s = (view.now - self.since).s();
+        let half = &mut self.halves[usize::from(age_s > 0.5 * MEASURE_S)];
+        if let Some(imu) = view.readings.imu {
+            half.rates += imu.rates_rad_s;
+            half.force += imu.specific_force_m_s2;
+            half.samples += 1;
+        }
+        age_s >= MEASURE_S
+    }
+
+    /// The gyroscope's offset, rad/s, or why there is none.
+    fn outcome(&self) -> Result<Vec3<Frd>, &'static str> {
+        let [(rates_0, force_0), (rates_1, force_1)] = self.halves.map(|half| half.means());
+        let force = (force_0 + force_1) * 0.5;
+        if self.halves.iter().any(|half| half.samples == 0) {
+            return Err("reading sensor");
+        }
+        let turned = (rates_1 - rates_0).array().iter().any(|rate| rate.abs() > STILL_RAD_S);
+        if turned || (force_1 - force_0).norm() > STILL_M_S2 || (force.norm() - GRAVITY_M_S2).abs() > REST_M_S2 {
+            return Err("vehicle moved");
+        }
+        if self.sensor == Sensor::Level && force.forward().abs().max(force.right().abs()) > LEVEL_M_S2 {
+            return Err("excess roll or pitch angle");
+        }
+        Ok((rates_0 + rates_1) * 0.5)
+    }
+}
+
+impl Endpoint {
+    /// What a running calibration has measured, and how it ends.
+    pub(super) fn calibrate(&mut self, view: &View) {
+        let Some(mut running) = self.calibration.take() else { return };
+        let words = self.flavour.calibration;
+        let done = running.measure(view);
+        let steps = ((view.now - running.since).s() / MEASURE_S * f64::from(STEPS)) as u32;
+        if steps > running.steps && steps <= STEPS {
+            running.steps = steps;
+            words.progress(100 / STEPS * steps).into_iter().for_each(|text| self.tell(MavSeverity::MAV_SEVERITY_INFO, &text));
+        }
+        if view.status.armed {
+            self.tell(MavSeverity::MAV_SEVERITY_CRITICAL, &words.failed("armed"));
+        } else if !done {
+            self.calibration = Some(running);
+        } else {
+            self.end_calibration(&running, words);
+        }
+    }
+
+    fn end_calibration(&mut self, ended: &Calibration, words: Words) {
+        match ended.outcome() {
+            Ok(offset) => {
+                if ended.sensor == Sensor::Gyro {
+                    for (name, value) in GYRO_OFFSETS.iter().zip(offset.array()) {
+                        // Only PX4's parameters show the offsets.
+                        let _ = self.params.set_value(name, Value::Real(value as f32));
+                    }
+                }
+                words.done(ended.sensor).into_iter().for_each(|text| self.tell(MavSeverity::MAV_SEVERITY_INFO, &text));
+            }
+            Err(why) => self.tell(MavSeverity::MAV_SEVERITY_CRITICAL, &words.failed(why)),
+        }
+    }
+}
+
+/// PX4's parameters of the gyroscope's offset, rad/s.
+const GYRO_OFFSETS: [&str; 3] = ["CAL_GYRO0_XOFF", "CAL_GYRO0_YOFF", "CAL_GYRO0_ZOFF"];

@@ -1,0 +1,439 @@
+//! The camera component: modes, pictures with their geotags, series, recording, zoom, memory card.
+
+pub mod card;
+mod series;
+pub mod settings;
+mod shot;
+pub mod stream;
+pub mod zoom;
+
+use super::payload::News;
+use super::view::CameraSummary;
+use card::{CARD_MIB, Card};
+use mavlink::MessageData;
+use series::Series;
+pub use shot::Shot;
+use spandrel_mavlink::dialect::{
+    CAMERA_CAPTURE_STATUS_DATA, CAMERA_FOV_STATUS_DATA, CAMERA_SETTINGS_DATA, MavMessage, STORAGE_INFORMATION_DATA,
+};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Camera;
+use zoom::{Wish, Zoom};
+
+/// A command for one picture with the number of the one before is its repetition within this time.
+const REPEATED_WITHIN: SimTime = SimTime::from_ms(5_000);
+/// Recordings tell of themselves this often at most, Hz.
+const FASTEST_TELLING_HZ: f64 = 10.0;
+const MIB: f64 = 1_048_576.0;
+
+/// What the camera is set to take. It takes pictures in either mode, and records in video mode alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Mode {
+    /// Pictures.
+    #[default]
+    Photo,
+    /// Recordings.
+    Video,
+}
+
+/// What can be set beside mode and zoom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Settings {
+    /// Pictures of the better quality, that take more of the card.
+    pub fine: bool,
+    /// Rate of recordings, Mbit/s.
+    pub video_mbit_s: u32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { fine: true, video_mbit_s: 60 }
+    }
+}
+
+impl Settings {
+    /// One picture, MiB (estimate: 12 MP JPEG of little and of more compression).
+    #[must_use]
+    pub fn picture_mib(&self) -> f64 {
+        if self.fine { 6.0 } else { 3.0 }
+    }
+
+    /// Recording, MiB/s.
+    #[must_use]
+    pub fn video_mib_s(&self) -> f64 {
+        f64::from(self.video_mbit_s) * 1e6 / 8.0 / MIB
+    }
+}
+
+/// Why the camera does not do what it is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// Numbers that make no sense.
+    Senseless,
+    /// Nothing more fits on the card.
+    Full,
+    /// Recording needs video mode.
+    PhotoMode,
+    /// Not while it records.
+    Recording,
+}
+
+impl Refusal {
+    /// In words; none where the command alone is to blame.
+    #[must_use]
+    pub fn text(self) -> Option<&'static str> {
+        match self {
+            Self::Senseless => None,
+            Self::Full => Some("Camera: memory card full"),
+            Self::PhotoMode => Some("Camera: records in video mode only"),
+            Self::Recording => Some("Camera: not while recording"),
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Recording {
+    since: SimTime,
+    /// Its status is told this often, and when next.
+    tell: Option<(SimTime, SimTime)>,
+}
+
+/// A command for one picture: who gave it, its number, when.
+type Trigger = ((u8, u8), u32, SimTime);
+
+/// Who lets the camera's component say heartbeats: simple clients take them for the vehicle's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Announced {
+    /// The parameter does.
+    pub parameter: bool,
+    /// Whoever started the program does not.
+    pub silenced: bool,
+}
+
+impl Default for Announced {
+    fn default() -> Self {
+        Self { parameter: true, silenced: false }
+    }
+}
+
+/// The camera's state.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CameraState {
+    /// Mode.
+    pub mode: Mode,
+    /// Lens.
+    pub zoom: Zoom,
+    /// What else is set.
+    pub settings: Settings,
+    /// The live picture.
+    pub stream: stream::Told,
+    /// Whether it says heartbeats.
+    pub announced: Announced,
+    series: Series,
+    card: Card,
+    recording: Option<Recording>,
+    last: Option<Trigger>,
+}
+
+impl CameraState {
+    /// The counters.
+    #[must_use]
+    pub fn summary(&self, now: SimTime) -> CameraSummary {
+        CameraSummary {
+            announced: self.announced.parameter && !self.announced.silenced,
+            pictures: self.card.shots().len(),
+            interval_s: self.series.interval_s(),
+            series: self.series.is_by_distance(),
+            mode: self.mode,
+            recording: self.recording.map(|recording| now - recording.since),
+            used_mib: self.used_mib(now),
+            zoom: self.zoom.level(),
+            video_mbit_s: self.settings.video_mbit_s,
+            stream: self.stream.running(now),
+        }
+    }
+
+    /// What is on the card, MiB, a running recording included.
+    fn used_mib(&self, now: SimTime) -> f64 {
+        let running = self.recording.map_or(0.0, |recording| (now - recording.since).s() * self.settings.video_mib_s());
+        (self.card.used_mib() + running).min(CARD_MIB)
+    }
+
+    /// No picture fits on the card any more.
+    #[must_use]
+    pub fn full(&self, now: SimTime) -> bool {
+        self.used_mib(now) + self.settings.picture_mib() > CARD_MIB
+    }
+
+    /// Starts a series or takes one picture: `count` 0 means until stopped.
+    ///
+    /// # Errors
+    /// A full card; numbers that make no sense.
+    pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> Result<(), Refusal> {
+        if self.full(now) {
+            return Err(Refusal::Full);
+        }
+        if self.series.start(interval_s, count, now) { Ok(()) } else { Err(Refusal::Senseless) }
+    }
+
+    /// A picture every `way_m` from `here` on, and one now if asked for; 0 ends it.
+    ///
+    /// # Errors
+    /// A full card; numbers that make no sense.
+    pub fn start_by_distance(&mut self, way_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> Result<(), Refusal> {
+        if way_m > 0.0 && self.full(now) {
+            return Err(Refusal::Full);
+        }
+        if self.series.start_by_distance(way_m, first, here, now) { Ok(()) } else { Err(Refusal::Senseless) }
+    }
+
+    /// Whether a command for one picture with a number of its own is the last one said again, as its acknowledgement was lost.
+    #[must_use]
+    pub fn is_repeated(&self, from: (u8, u8), number: u32, now: SimTime) -> bool {
+        self.last.is_some_and(|(who, last, at)| who == from && last == number && now - at <= REPEATED_WITHIN)
+    }
+
+    /// Such a command has been obeyed.
+    pub fn remember(&mut self, from: (u8, u8), number: u32, now: SimTime) {
+        self.last = Some((from, number, now));
+    }
+
+    /// Ends every series.
+    pub fn stop(&mut self) {
+        self.series.stop();
+    }
+
+    /// Changes the mode.
+    ///
+    /// # Errors
+    /// A recording runs.
+    pub fn set_mode(&mut self, mode: Mode) -> Result<(), Refusal> {
+        if self.recording.is_some() && mode != self.mode {
+            return Err(Refusal::Recording);
+        }
+        self.mode = mode;
+        Ok(())
+    }
+
+    /// Records from now on, and tells its status `tell_hz` times a second (0: not by itself). What records already goes on.
+    ///
+    /// # Errors
+    /// Photo mode; a full card; a rate that makes no sense.
+    pub fn start_recording(&mut self, tell_hz: f64, now: SimTime) -> Result<(), Refusal> {
+        if self.mode != Mode::Video {
+            return Err(Refusal::PhotoMode);
+        }
+        if self.full(now) {
+            return Err(Refusal::Full);
+        }
+        if !(tell_hz.is_finite() && tell_hz >= 0.0) {
+            return Err(Refusal::Senseless);
+        }
+        let every = (tell_hz > 0.0).then(|| SimTime::period(tell_hz.clamp(1e-3, FASTEST_TELLING_HZ)));
+        let since = self.recording.map_or(now, |running| running.since);
+        self.recording = Some(Recording { since, tell: every.map(|every| (every, now + every)) });
+        Ok(())
+    }
+
+    /// Ends a recording.
+    pub fn stop_recording(&mut self, now: SimTime) {
+        if let Some(recording) = self.recording.take() {
+            let room = CARD_MIB - self.card.used_mib();
+            self.card.keep_video(((now - recording.since).s() * self.settings.video_mib_s()).min(room));
+        }
+    }
+
+    /// Empties the card, or only counts pictures from 0 again.
+    ///
+    /// # Errors
+    /// A recording runs.
+    pub fn format(&mut self, whole: bool) -> Result<(), Refusal> {
+        if self.recording.is_some() {
+            return Err(Refusal::Recording);
+        }
+        if whole {
+            self.card.format();
+        } else {
+            self.card.forget_log();
+        }
+        Ok(())
+    }
+
+    /// Everything as delivered: photo mode, wide end, best quality.
+    ///
+    /// # Errors
+    /// A recording runs.
+    pub fn reset(&mut self, camera: &Camera) -> Result<(), Refusal> {
+        if self.recording.is_some() {
+            return Err(Refusal::Recording);
+        }
+        self.mode = Mode::Photo;
+        self.settings = Settings::default();
+        self.zoom.go(Wish::Level(0.0), camera);
+        Ok(())
+    }
+
+    /// Changes the settings.
+    ///
+    /// # Errors
+    /// A recording runs whose rate would change.
+    pub fn set(&mut self, settings: Settings) -> Result<(), Refusal> {
+        if self.recording.is_some() && settings.video_mbit_s != self.settings.video_mbit_s {
+            return Err(Refusal::Recording);
+        }
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Time passes: the lens moves, recordings tell of themselves and end on a full card.
+    pub fn step(&mut self, now: SimTime, dt_s: f64, news: &mut News) {
+        if self.zoom.step(dt_s) {
+            news.say(CAMERA_SETTINGS_DATA::ID);
+            news.say(CAMERA_FOV_STATUS_DATA::ID);
+        }
+        if self.recording.is_none() {
+            return;
+        }
+        if self.used_mib(now) >= CARD_MIB {
+            self.stop_recording(now);
+            news.warn("Memory card full");
+            news.say(STORAGE_INFORMATION_DATA::ID);
+            news.say(CAMERA_CAPTURE_STATUS_DATA::ID);
+            return;
+        }
+        if let Some((every, next)) = self.recording.as_mut().and_then(|recording| recording.tell.as_mut())
+            && *next <= now
+        {
+            *next += *every;
+            news.say(CAMERA_CAPTURE_STATUS_DATA::ID);
+        }
+    }
+
+    /// True when a picture is due at `now`; call [`CameraState::take`] then.
+    #[must_use]
+    pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
+        self.series.due(now, here) && !self.full(now)
+    }
+
+    /// The picture that is due. A full card ends every series.
+    pub fn take(&mut self, shot: Shot, now: SimTime, here: Vec3<Enu>) -> MavMessage {
+        let message = shot.message();
+        self.card.keep(shot, self.settings.picture_mib());
+        self.series.taken(now, here);
+        if self.full(now) {
+            self.series.clear();
+        }
+        message
+    }
+
+    /// A picture's message again.
+    #[must_use]
+    pub fn again(&self, index: usize) -> Option<MavMessage> {
+        self.card.shots().get(index).map(Shot::message)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FIXED: Camera = spandrel_model::site::defects::REFERENCE_CAMERA;
+
+    #[test]
+    fn exact_a_full_card_ends_a_series_and_every_picture_has_its_own_index() {
+        let (mut camera, mut now) = (CameraState::default(), SimTime::ZERO);
+        let here = Vec3::zero();
+        assert!(camera.start(1.0, 0.0, now).is_ok());
+        let mut indices = Vec::new();
+        while camera.due(now, here) {
+            let pictures = camera.summary(now).pictures;
+            let message = camera.take(Shot::numbered(pictures), now, here);
+            let MavMessage::CAMERA_IMAGE_CAPTURED(image) = message else { panic!("{message:?}") };
+            indices.push(image.image_index);
+            now += SimTime::from_s(1.0);
+        }
+        let most = (CARD_MIB / Settings::default().picture_mib()) as i32;
+        assert!(indices.iter().copied().eq(0..most), "{} pictures", indices.len());
+        let left = CARD_MIB - camera.summary(now).used_mib;
+        assert!((0.0..Settings::default().picture_mib()).contains(&left), "the storage that is told agrees: {left}");
+        assert!(camera.full(now) && camera.summary(now).interval_s.is_none());
+        assert_eq!(camera.start(0.0, 1.0, now), Err(Refusal::Full));
+        assert_eq!(camera.start_by_distance(5.0, false, here, now), Err(Refusal::Full));
+        assert_eq!(camera.format(true), Ok(()));
+        assert_eq!((camera.summary(now).pictures, camera.summary(now).used_mib), (0, 0.0));
+    }
+
+    #[test]
+    fn regress_single_pictures_that_are_asked_for_within_one_tick_are_all_taken_beside_a_series() {
+        let (mut camera, now, here) = (CameraState::default(), SimTime::ZERO, Vec3::zero());
+        for (interval_s, count) in [(0.0, 1.0), (0.0, 1.0), (1.0, 2.0), (0.0, 1.0)] {
+            assert!(camera.start(interval_s, count, now).is_ok());
+        }
+        let mut taken = 0;
+        while camera.due(now, here) {
+            let _ = camera.take(Shot::numbered(taken), now, here);
+            taken += 1;
+        }
+        assert_eq!(taken, 4, "three single ones and the first of the series");
+        assert_eq!(camera.summary(now).interval_s, Some(1.0), "the series goes on");
+        assert!(camera.start(0.0, 1.0, now).is_ok());
+        camera.stop();
+        assert!(camera.due(now, here), "a picture that was promised before the stop");
+        let _ = camera.take(Shot::numbered(taken), now, here);
+        assert!(!camera.due(now + SimTime::from_s(2.0), here));
+    }
+
+    #[test]
+    fn exact_a_recording_takes_its_rate_of_the_card_and_ends_when_the_card_is_full() {
+        let mut camera = CameraState { mode: Mode::Video, ..CameraState::default() };
+        let mut news = News::default();
+        assert_eq!(camera.start_recording(0.0, SimTime::ZERO), Ok(()));
+        // 60 Mbit/s are 7.5 MB/s.
+        let after = SimTime::from_s(100.0);
+        assert!((camera.summary(after).used_mib * MIB - 750e6).abs() < 1.0);
+        let end = SimTime::from_s(CARD_MIB * MIB / 7.5e6 + 0.01);
+        camera.step(after, 0.01, &mut news);
+        assert_eq!(camera.summary(after).recording, Some(after));
+        camera.step(end, 0.01, &mut news);
+        assert_eq!(camera.summary(end).recording, None);
+        assert_eq!(camera.summary(end).used_mib, CARD_MIB);
+        assert_eq!(camera.start_recording(0.0, end), Err(Refusal::Full));
+    }
+
+    #[test]
+    fn exact_a_recording_keeps_mode_and_card_as_they_are_and_tells_of_itself_as_often_as_asked() {
+        let mut camera = CameraState::default();
+        assert_eq!(camera.start_recording(1.0, SimTime::ZERO), Err(Refusal::PhotoMode));
+        assert_eq!(camera.set_mode(Mode::Video), Ok(()));
+        assert_eq!(camera.start_recording(-1.0, SimTime::ZERO), Err(Refusal::Senseless));
+        assert_eq!(camera.start_recording(2.0, SimTime::ZERO), Ok(()));
+        assert_eq!(camera.set_mode(Mode::Photo), Err(Refusal::Recording));
+        assert_eq!(camera.format(true), Err(Refusal::Recording));
+        assert_eq!(camera.reset(&FIXED), Err(Refusal::Recording));
+        let told = (1..=4_000).filter(|ms| {
+            let mut news = News::default();
+            camera.step(SimTime::from_ms(*ms), 0.001, &mut news);
+            news.take().0.contains(&CAMERA_CAPTURE_STATUS_DATA::ID)
+        });
+        assert_eq!(told.count(), 8, "twice a second for four seconds");
+        // Started again, as after a lost acknowledgement, it goes on.
+        assert_eq!(camera.start_recording(0.0, SimTime::from_ms(4_000)), Ok(()));
+        assert_eq!(camera.summary(SimTime::from_ms(5_000)).recording, Some(SimTime::from_ms(5_000)));
+        camera.stop_recording(SimTime::from_ms(5_000));
+        assert_eq!(camera.reset(&FIXED), Ok(()));
+        assert_eq!(camera.mode, Mode::Photo);
+    }
+
+    #[test]
+    fn exact_only_the_same_number_from_the_same_sender_soon_after_is_a_repetition() {
+        let mut camera = CameraState::default();
+        let at = SimTime::from_ms;
+        assert!(!camera.is_repeated((255, 190), 1, at(0)));
+        camera.remember((255, 190), 1, at(0));
+        assert!(camera.is_repeated((255, 190), 1, at(500)));
+        assert!(!camera.is_repeated((255, 190), 2, at(500)));
+        assert!(!camera.is_repeated((254, 190), 1, at(500)));
+        assert!(!camera.is_repeated((255, 190), 1, REPEATED_WITHIN + at(1)));
+    }
+}

@@ -1,0 +1,101 @@
+//! When pictures are due: single ones, a series by time, a series by way.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::time::SimTime;
+
+/// The shortest way between pictures of a series, m.
+const LEAST_WAY_M: f64 = 0.1;
+/// The shortest and the longest time between pictures of a series, s.
+const LEAST_INTERVAL_S: f64 = 0.2;
+const LONGEST_INTERVAL_S: f64 = 86_400.0;
+/// Counts and ways beyond these are mistakes.
+const MOST_PICTURES: f64 = 1e6;
+const LONGEST_WAY_M: f64 = 1e5;
+
+/// What is to be taken.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Series {
+    interval_s: Option<f64>,
+    next: Option<SimTime>,
+    left: Option<u32>,
+    /// A picture every so many metres, and where the last one was.
+    by_distance: Option<(f64, Vec3<Enu>)>,
+    /// Single pictures that are still to be taken: commands may come faster than pictures are taken, and none must swallow another.
+    singles: u32,
+}
+
+impl Series {
+    /// Seconds between pictures of a running series by time.
+    #[must_use]
+    pub fn interval_s(&self) -> Option<f64> {
+        self.interval_s
+    }
+
+    /// A series by way runs.
+    #[must_use]
+    pub fn is_by_distance(&self) -> bool {
+        self.by_distance.is_some()
+    }
+
+    /// Starts a series or takes one picture: `count` 0 means until stopped. False when the numbers make no sense.
+    pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> bool {
+        if !(0.0..=MOST_PICTURES).contains(&count) || !(0.0..=LONGEST_INTERVAL_S).contains(&interval_s) {
+            return false;
+        }
+        if count as u32 == 1 {
+            self.singles = self.singles.saturating_add(1);
+            return true;
+        }
+        self.interval_s = Some(interval_s.max(LEAST_INTERVAL_S));
+        self.left = (count as u32 > 0).then_some(count as u32);
+        self.next = Some(now);
+        true
+    }
+
+    /// A picture every `way_m` from `here` on, and one now if asked for; 0 ends it. False when the numbers make no sense.
+    pub fn start_by_distance(&mut self, way_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> bool {
+        if !(0.0..=LONGEST_WAY_M).contains(&way_m) {
+            return false;
+        }
+        self.by_distance = (way_m > 0.0).then_some((way_m.max(LEAST_WAY_M), here));
+        if first && way_m > 0.0 {
+            self.next = Some(now);
+        }
+        true
+    }
+
+    /// Ends every series. A single picture that was promised is still taken.
+    pub fn stop(&mut self) {
+        *self = Self { singles: self.singles, ..Self::default() };
+    }
+
+    /// Nothing is to be taken any more.
+    pub fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// True when a picture is due; call [`Series::taken`] when it is taken.
+    #[must_use]
+    pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
+        let far = self.by_distance.is_some_and(|(way_m, last)| (here - last).norm() >= way_m);
+        self.singles > 0 || far || self.next.is_some_and(|next| next <= now)
+    }
+
+    /// The picture that was due is taken.
+    pub fn taken(&mut self, now: SimTime, here: Vec3<Enu>) {
+        if self.singles > 0 {
+            self.singles -= 1;
+            return;
+        }
+        if let Some((_, last)) = &mut self.by_distance {
+            *last = here;
+        }
+        if self.next.is_some_and(|next| next <= now) {
+            self.left = self.left.map(|left| left.saturating_sub(1));
+            let goes_on = self.left != Some(0);
+            self.interval_s = self.interval_s.filter(|_| goes_on);
+            self.next = self.next.zip(self.interval_s).map(|(next, interval)| next + SimTime::from_s(interval));
+            self.left = self.left.filter(|_| self.interval_s.is_some());
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! The camera's settings as stations show them: by name and number over PARAM_EXT, described by a camera definition file
+//! (<https://mavlink.io/en/services/camera_def.html>).
+
+use super::{CameraState, Refusal, Settings};
+use std::fmt::Write;
+
+/// Where the camera's own file server has the description.
+pub const FILE: &str = "camera.xml";
+/// Where stations are told to fetch it.
+pub const URI: &str = "mftp://camera.xml";
+/// Stations keep the description by this number: it grows with every change of the table below.
+pub const VERSION: u16 = 1;
+
+/// Values that a setting may have.
+#[derive(Debug, Clone, Copy)]
+pub enum Allowed {
+    /// Each by a name.
+    Options(&'static [(&'static str, u32)]),
+    /// From, to, in steps of.
+    Range(u32, u32, u32),
+}
+
+/// One setting.
+pub struct Setting {
+    /// As on the wire, at most 16 characters.
+    pub name: &'static str,
+    description: &'static str,
+    allowed: Allowed,
+    default: u32,
+    get: fn(&CameraState) -> u32,
+    set: fn(&mut CameraState, u32) -> Result<(), Refusal>,
+}
+
+/// All of them, in the order of their numbers. The mode is none: MAV_CMD_SET_CAMERA_MODE sets it, and MAVSDK mistakes the values that a setting
+/// called CAM_MODE has (its own count from 1).
+pub const ALL: &[Setting] = &[
+    Setting {
+        name: "CAM_PHOTOQUAL",
+        description: "Photo quality",
+        allowed: Allowed::Options(&[("Normal", 0), ("Fine", 1)]),
+        default: 1,
+        get: |camera| u32::from(camera.settings.fine),
+        set: |camera, value| camera.set(Settings { fine: value == 1, ..camera.settings }),
+    },
+    Setting {
+        name: "CAM_VIDRATE",
+        description: "Video rate (Mbit/s)",
+        allowed: Allowed::Range(10, 100, 10),
+        default: 60,
+        get: |camera| camera.settings.video_mbit_s,
+        set: |camera, value| camera.set(Settings { video_mbit_s: value, ..camera.settings }),
+    },
+];
+
+impl Setting {
+    /// By its name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<(usize, &'static Self)> {
+        ALL.iter().enumerate().find(|(_, setting)| setting.name == name)
+    }
+
+    /// Its present value.
+    #[must_use]
+    pub fn value(&self, camera: &CameraState) -> u32 {
+        (self.get)(camera)
+    }
+
+    /// Changes it.
+    ///
+    /// # Errors
+    /// A value that it may not have; what the camera is doing.
+    pub fn change(&self, camera: &mut CameraState, value: u32) -> Result<(), Refusal> {
+        let legal = match self.allowed {
+            Allowed::Options(options) => options.iter().any(|(_, option)| *option == value),
+            Allowed::Range(low, high, step) => (low..=high).contains(&value) && (value - low).is_multiple_of(step),
+        };
+        if legal { (self.set)(camera, value) } else { Err(Refusal::Senseless) }
+    }
+
+    fn describe(&self, xml: &mut String) {
+        let (name, default, description) = (self.name, self.default, self.description);
+        // Writing to a string does not fail.
+        let _ = match self.allowed {
+            Allowed::Options(options) => {
+                let options: String =
+                    options.iter().map(|(name, value)| format!("<option name=\"{name}\" value=\"{value}\"/>")).collect();
+                writeln!(
+                    xml,
+                    "<parameter name=\"{name}\" type=\"uint32\" default=\"{default}\">\
+                     <description>{description}</description><options>{options}</options></parameter>"
+                )
+            }
+            Allowed::Range(low, high, step) => writeln!(
+                xml,
+                "<parameter name=\"{name}\" type=\"uint32\" default=\"{default}\" min=\"{low}\" max=\"{high}\" step=\"{step}\">\
+                 <description>{description}</description></parameter>"
+            ),
+        };
+    }
+}
+
+/// The camera definition file.
+#[must_use]
+pub fn definition() -> String {
+    let mut xml = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<mavlinkcamera>\n<definition version=\"{VERSION}\">\
+         <model>Inspection camera</model><vendor>Spandrel</vendor></definition>\n<parameters>\n"
+    );
+    ALL.iter().for_each(|setting| setting.describe(&mut xml));
+    xml.push_str("</parameters>\n</mavlinkcamera>\n");
+    xml
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Mode;
+    use super::*;
+    use spandrel_model::time::SimTime;
+
+    #[test]
+    fn exact_settings_take_what_their_description_allows_and_nothing_else() {
+        for setting in ALL {
+            assert!(setting.name.len() <= 16);
+            let mut camera = CameraState::default();
+            assert_eq!(setting.value(&camera), setting.default, "{}", setting.name);
+            let legal: Vec<u32> = (0..=200).filter(|value| setting.change(&mut camera, *value).is_ok()).collect();
+            let described: Vec<u32> = match setting.allowed {
+                Allowed::Options(options) => options.iter().map(|option| option.1).collect(),
+                Allowed::Range(low, high, step) => (low..=high).step_by(step as usize).collect(),
+            };
+            assert_eq!(legal, described, "{}", setting.name);
+            assert_eq!(setting.value(&camera), *described.last().expect("some"));
+            assert_eq!(setting.change(&mut camera, u32::MAX), Err(Refusal::Senseless));
+        }
+    }
+
+    #[test]
+    fn exact_settings_change_what_pictures_and_recordings_take_of_the_card() {
+        let mut camera = CameraState::default();
+        let mib = |camera: &CameraState| (camera.settings.picture_mib(), camera.settings.video_mib_s());
+        let before = mib(&camera);
+        for (name, value) in [("CAM_PHOTOQUAL", 0), ("CAM_VIDRATE", 30)] {
+            assert_eq!(Setting::named(name).map(|(_, setting)| setting.change(&mut camera, value)), Some(Ok(())), "{name}");
+        }
+        assert_eq!(mib(&camera), (0.5 * before.0, 0.5 * before.1));
+        camera.mode = Mode::Video;
+        assert_eq!(camera.start_recording(0.0, SimTime::ZERO), Ok(()));
+        let done = Setting::named("CAM_VIDRATE").map(|(_, setting)| setting.change(&mut camera, 40));
+        assert_eq!(done, Some(Err(Refusal::Recording)));
+    }
+}

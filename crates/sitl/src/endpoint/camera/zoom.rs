@@ -1,0 +1,199 @@
+//! The zoom lens: where it stands, where it is going, and how fast.
+
+use spandrel_model::math;
+use spandrel_model::vehicle::Camera;
+pub use spandrel_model::vehicle::SENSOR_MM;
+
+/// The whole range takes this long, s (estimate: small motor zooms take 2 to 4 s).
+const SWEEP_S: f64 = 3.0;
+/// Steps over the whole range (estimate).
+const STEPS: f64 = 10.0;
+/// A focal length or field of view this far beyond the range is taken as its end: clients round.
+const SLACK: f64 = 0.01;
+
+/// What somebody wants of the lens.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Wish {
+    /// So many steps towards tele.
+    Step(f64),
+    /// On and on, -1 wide to 1 tele of the full speed; 0 stops.
+    Rate(f64),
+    /// A place in the range, 0 wide to 1 tele.
+    Level(f64),
+    /// A focal length, mm.
+    FocalMm(f64),
+    /// A horizontal field of view, rad.
+    FieldOfView(f64),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+enum Drive {
+    #[default]
+    Rest,
+    To(f64),
+    Rate(f64),
+}
+
+/// The lens; its place in the range is proportional to the focal length.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Zoom {
+    level: f64,
+    drive: Drive,
+}
+
+/// Focal length at the wide end, mm.
+#[must_use]
+pub fn wide_mm(camera: &Camera) -> f64 {
+    camera.focal_mm()
+}
+
+impl Zoom {
+    /// Place in the range, 0 wide to 1 tele.
+    #[must_use]
+    pub fn level(&self) -> f64 {
+        self.level
+    }
+
+    /// Focal length over that of the wide end.
+    #[must_use]
+    pub fn ratio(&self, camera: &Camera) -> f64 {
+        1.0 + self.level * (camera.zoom_max - 1.0)
+    }
+
+    /// Takes a wish; false when it lies out of the range or the lens does not zoom.
+    pub fn go(&mut self, wish: Wish, camera: &Camera) -> bool {
+        if camera.zoom_max <= 1.0 {
+            return false;
+        }
+        let level_of = |ratio: f64| {
+            let inside = ratio >= 1.0 - SLACK && ratio <= camera.zoom_max * (1.0 + SLACK);
+            inside.then(|| ((ratio - 1.0) / (camera.zoom_max - 1.0)).clamp(0.0, 1.0))
+        };
+        let drive = match wish {
+            Wish::Step(steps) if steps.is_finite() => {
+                let from = if let Drive::To(target) = self.drive { target } else { self.level };
+                Some(Drive::To((from + steps.clamp(-1.0, 1.0) / STEPS).clamp(0.0, 1.0)))
+            }
+            Wish::Rate(0.0) => Some(Drive::Rest),
+            Wish::Rate(rate) if rate.is_finite() => Some(Drive::Rate(rate.clamp(-1.0, 1.0))),
+            Wish::Level(level) if (0.0..=1.0).contains(&level) => Some(Drive::To(level)),
+            Wish::FocalMm(mm) => level_of(mm / wide_mm(camera)).map(Drive::To),
+            Wish::FieldOfView(rad) if rad > 0.0 && rad < math::PI => {
+                level_of(math::tan(0.5 * camera.hfov_rad) / math::tan(0.5 * rad)).map(Drive::To)
+            }
+            _ => None,
+        };
+        if let Some(drive) = drive {
+            self.drive = drive;
+        }
+        drive.is_some()
+    }
+
+    /// Moves for `dt_s`; true when it comes to rest.
+    pub fn step(&mut self, dt_s: f64) -> bool {
+        let most = dt_s / SWEEP_S;
+        let moved = match self.drive {
+            Drive::Rest => return false,
+            Drive::To(target) => (target - self.level).clamp(-most, most),
+            Drive::Rate(rate) => rate * most,
+        };
+        let before = self.level;
+        self.level = match self.drive {
+            // Ends are met exactly, so that wide is wide to the bit.
+            Drive::To(target) if (target - before).abs() <= most => target,
+            _ => (before + moved).clamp(0.0, 1.0),
+        };
+        let arrived = match self.drive {
+            Drive::To(target) => self.level == target,
+            Drive::Rate(rate) => self.level == if rate < 0.0 { 0.0 } else { 1.0 },
+            Drive::Rest => true,
+        };
+        if arrived {
+            self.drive = Drive::Rest;
+        }
+        arrived
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::frames::Vec3;
+
+    const CAMERA: Camera = Camera {
+        position_m: Vec3::new(0.0, 0.0, 0.0),
+        width_px: 4000,
+        height_px: 3000,
+        hfov_rad: math::FRAC_PI_2,
+        zoom_max: 3.0,
+        f_number: 2.8,
+        iso_max: 1600.0,
+        exposure_max_s: 0.01,
+        gimbal_pitch_min_rad: -1.57,
+        gimbal_pitch_max_rad: 1.57,
+        gimbal_rate_rad_s: 1.0,
+    };
+    /// Rounding, of ratios and radians.
+    const NEAR: f64 = 1e-12;
+
+    fn at_rest(wish: Wish) -> Zoom {
+        let mut zoom = Zoom::default();
+        assert!(zoom.go(wish, &CAMERA), "{wish:?}");
+        let ticks = (0..10_000).take_while(|_| !zoom.step(0.01)).count();
+        assert!(ticks < 10_000, "{wish:?} never comes to rest");
+        zoom
+    }
+
+    #[test]
+    fn exact_every_way_of_asking_comes_to_the_focal_length_that_is_asked_for() {
+        // tan 45 deg is 1: the focal length is half the sensor's width, and twice as long sees 2 atan(1/2).
+        let field = 2.0 * math::atan2(1.0, 2.0);
+        for wish in [Wish::Level(0.5), Wish::FocalMm(SENSOR_MM), Wish::FieldOfView(field)] {
+            let zoom = at_rest(wish);
+            assert!((zoom.ratio(&CAMERA) - 2.0).abs() < NEAR, "{wish:?}");
+            assert!((CAMERA.zoomed(zoom.ratio(&CAMERA)).hfov_rad - field).abs() < NEAR);
+            assert!((CAMERA.zoomed(2.0).focal_px() / CAMERA.focal_px() - 2.0).abs() < NEAR);
+        }
+        assert!((at_rest(Wish::Step(1.0)).level() - 1.0 / STEPS).abs() < NEAR);
+        assert_eq!(at_rest(Wish::Rate(0.7)).level(), 1.0);
+    }
+
+    #[test]
+    fn exact_back_at_the_wide_end_the_camera_is_the_same_to_the_bit() {
+        let mut zoom = at_rest(Wish::Level(0.37));
+        assert!(zoom.go(Wish::Rate(-1.0), &CAMERA));
+        while !zoom.step(0.0025) {}
+        assert_eq!(CAMERA.zoomed(zoom.ratio(&CAMERA)), CAMERA);
+    }
+
+    #[test]
+    fn exact_what_lies_out_of_the_range_is_refused_and_a_fixed_lens_refuses_all() {
+        let fixed = Camera { zoom_max: 1.0, ..CAMERA };
+        for wish in [
+            Wish::Level(1.01),
+            Wish::Level(f64::NAN),
+            Wish::FocalMm(1.0),
+            Wish::FocalMm(20.0),
+            Wish::FieldOfView(0.0),
+            Wish::FieldOfView(3.0),
+            Wish::Step(f64::NAN),
+            Wish::Rate(f64::INFINITY),
+        ] {
+            assert!(!Zoom::default().go(wish, &CAMERA), "{wish:?}");
+        }
+        assert!(!Zoom::default().go(Wish::Level(0.0), &fixed));
+    }
+
+    #[test]
+    fn exact_the_whole_range_takes_its_time_and_a_stop_holds_where_it_is() {
+        let mut zoom = Zoom::default();
+        zoom.go(Wish::Rate(1.0), &CAMERA);
+        for _ in 0..100 {
+            assert!(!zoom.step(0.01));
+        }
+        assert!((zoom.level() - 1.0 / SWEEP_S).abs() < NEAR);
+        zoom.go(Wish::Rate(0.0), &CAMERA);
+        assert!(!zoom.step(1.0));
+        assert!((zoom.level() - 1.0 / SWEEP_S).abs() < NEAR);
+    }
+}

@@ -1,0 +1,110 @@
+//! The camera's settings over PARAM_EXT.
+
+use super::Endpoint;
+use super::arrival::Arrival;
+use super::camera::settings::{ALL, Setting};
+use super::streams::CAMERA;
+use mavlink::types::CharArray;
+use spandrel_mavlink::dialect::*;
+
+/// All settings are of this type.
+const TYPE: MavParamExtType = MavParamExtType::MAV_PARAM_EXT_TYPE_UINT32;
+
+/// Meant for the camera, or for everybody; the autopilot has no such parameters.
+fn is_for_camera(component: u8) -> bool {
+    matches!(component, 0 | CAMERA)
+}
+
+/// A value as it lies on the wire: its bytes first, little end first.
+fn bytes(value: u32) -> CharArray<128> {
+    let mut data = [0; 128];
+    data[..4].copy_from_slice(&value.to_le_bytes());
+    data.into()
+}
+
+fn value(e: &Endpoint, index: usize, setting: &Setting) -> MavMessage {
+    MavMessage::PARAM_EXT_VALUE(PARAM_EXT_VALUE_DATA {
+        param_count: ALL.len() as u16,
+        param_index: index as u16,
+        param_id: setting.name.into(),
+        param_value: bytes(setting.value(&e.payload.camera)),
+        param_type: TYPE,
+    })
+}
+
+pub(super) fn list(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_LIST_DATA, a: &mut Arrival) {
+    if is_for_camera(m.target_component) {
+        for (index, setting) in ALL.iter().enumerate() {
+            let message = value(e, index, setting);
+            e.answer_as(CAMERA, a.link, &message);
+        }
+    }
+}
+
+/// By its number, or with -1 by its name.
+pub(super) fn read(e: &mut Endpoint, m: &PARAM_EXT_REQUEST_READ_DATA, a: &mut Arrival) {
+    if !is_for_camera(m.target_component) {
+        return;
+    }
+    let name = m.param_id.to_str().unwrap_or_default();
+    let found = match usize::try_from(m.param_index) {
+        Ok(index) => ALL.get(index).map(|setting| (index, setting)),
+        Err(_) => Setting::named(name),
+    };
+    let message = match found {
+        Some((index, setting)) => value(e, index, setting),
+        None => MavMessage::PARAM_ERROR(PARAM_ERROR_DATA {
+            param_index: m.param_index,
+            target_system: a.from.0,
+            target_component: a.from.1,
+            param_id: name.into(),
+            error: MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST,
+        }),
+    };
+    e.answer_as(CAMERA, a.link, &message);
+}
+
+/// The acknowledgement tells the value that counts from now on; a change is told to every link.
+pub(super) fn set(e: &mut Endpoint, m: &PARAM_EXT_SET_DATA, a: &mut Arrival) {
+    if !is_for_camera(m.target_component) {
+        return;
+    }
+    let [first, second, third, fourth, ..] = *m.param_value;
+    let wanted = u32::from_le_bytes([first, second, third, fourth]);
+    let found = Setting::named(m.param_id.to_str().unwrap_or_default());
+    let done = match found {
+        Some((_, setting)) if m.param_type == TYPE => setting.change(&mut e.payload.camera, wanted).map_err(|refusal| {
+            refusal.text().map_or(ParamAck::PARAM_ACK_VALUE_UNSUPPORTED, |text| {
+                e.payload.news.warn(text);
+                ParamAck::PARAM_ACK_FAILED
+            })
+        }),
+        Some(_) => Err(ParamAck::PARAM_ACK_VALUE_UNSUPPORTED),
+        None => Err(ParamAck::PARAM_ACK_FAILED),
+    };
+    let now = found.map_or(0, |(_, setting)| setting.value(&e.payload.camera));
+    let acknowledgement = MavMessage::PARAM_EXT_ACK(PARAM_EXT_ACK_DATA {
+        param_id: m.param_id,
+        param_value: bytes(now),
+        param_type: TYPE,
+        param_result: done.err().unwrap_or(ParamAck::PARAM_ACK_ACCEPTED),
+    });
+    e.answer_as(CAMERA, a.link, &acknowledgement);
+    if let (Ok(()), Some((index, setting))) = (done, found) {
+        let message = value(e, index, setting);
+        e.broadcast(CAMERA, &message);
+    }
+}
+
+/// PARAM_EXT_SET of a type that MAVLink does not know.
+pub(super) fn unknown_type(e: &mut Endpoint, payload: &[u8], a: &Arrival) {
+    let mut param_id = [0; 16];
+    param_id.copy_from_slice(&payload[2..18]);
+    let refusal = MavMessage::PARAM_EXT_ACK(PARAM_EXT_ACK_DATA {
+        param_id: param_id.into(),
+        param_value: bytes(0),
+        param_type: TYPE,
+        param_result: ParamAck::PARAM_ACK_VALUE_UNSUPPORTED,
+    });
+    e.answer_as(CAMERA, a.link, &refusal);
+}

@@ -1,0 +1,153 @@
+//! Asking for messages and their rates, by the present commands and by the older ones that clients still send.
+#![allow(deprecated, reason = "clients still send the superseded commands")]
+
+use super::super::streams::{self, AUTOPILOT, CAMERA, STREAMS};
+use super::Command;
+use crate::endpoint::Context;
+use spandrel_mavlink::dialect::{AVAILABLE_MODES_DATA, MESSAGE_INTERVAL_DATA, MavCmd, MavMessage, MavModeProperty, MavResult};
+
+const AVAILABLE_MODES: u32 = 435;
+const IMAGE_CAPTURED: u32 = 263;
+const STREAM_INFORMATION: u32 = 269;
+const STREAM_STATUS: u32 = 270;
+/// Messages of which there is one for each card or stream, and that are asked for by its number.
+const COUNTED: [u32; 3] = [261, STREAM_INFORMATION, STREAM_STATUS];
+const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
+const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
+const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
+/// MAV_CMD_DO_SEND_BANNER of ArduPilot's dialect.
+const SEND_BANNER: u16 = 42_428;
+
+pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
+    use MavCmd as M;
+    let id = |k: usize| c.given(k).filter(|v| (0.0..16_777_216.0).contains(v)).map(|v| v as u32);
+    // Older commands that ask for one message each.
+    let legacy = match c.number {
+        n if n == M::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES as u16 => Some(148),
+        n if n == M::MAV_CMD_REQUEST_PROTOCOL_VERSION as u16 => Some(300),
+        n if n == M::MAV_CMD_REQUEST_CAMERA_INFORMATION as u16 => Some(259),
+        n if n == M::MAV_CMD_REQUEST_CAMERA_SETTINGS as u16 => Some(260),
+        n if n == M::MAV_CMD_REQUEST_STORAGE_INFORMATION as u16 => Some(261),
+        n if n == M::MAV_CMD_REQUEST_CAMERA_CAPTURE_STATUS as u16 => Some(262),
+        n if n == M::MAV_CMD_REQUEST_FLIGHT_INFORMATION as u16 => Some(264),
+        n if n == M::MAV_CMD_GET_HOME_POSITION as u16 => Some(242),
+        n if n == M::MAV_CMD_REQUEST_VIDEO_STREAM_INFORMATION as u16 => Some(STREAM_INFORMATION),
+        n if n == M::MAV_CMD_REQUEST_VIDEO_STREAM_STATUS as u16 => Some(STREAM_STATUS),
+        n if n == M::MAV_CMD_REQUEST_CAMERA_IMAGE_CAPTURE as u16 => Some(IMAGE_CAPTURED),
+        _ => None,
+    };
+    if let Some(message) = legacy {
+        // Of those with a number in it, it is their first parameter.
+        let index = if COUNTED.contains(&message) || message == IMAGE_CAPTURED { c.p[0] } else { 0.0 };
+        return Some(request(message, (index, 0.0), c.component, x));
+    }
+    match c.number {
+        SEND_BANNER if !x.view.flavour.banner.is_empty() => {
+            x.introduce();
+            Some(ACCEPTED)
+        }
+        n if n == M::MAV_CMD_REQUEST_MESSAGE as u16 => {
+            Some(id(0).map_or(DENIED, |m| request(m, (c.p[1], c.p[2]), c.component, x)))
+        }
+        n if n == M::MAV_CMD_SET_MESSAGE_INTERVAL as u16 => {
+            Some(id(0).map_or(DENIED, |m| set_interval(m, c.p[1], c.component, x)))
+        }
+        n if n == M::MAV_CMD_GET_MESSAGE_INTERVAL as u16 => Some(id(0).map_or(DENIED, |m| get_interval(m, c.component, x))),
+        _ => None,
+    }
+}
+
+/// Rows of a message that the addressed component speaks.
+fn addressed(id: u32, component: u8) -> impl Iterator<Item = usize> {
+    let mine =
+        move |row: &usize| component == 0 || STREAMS[*row].component == component || !matches!(component, AUTOPILOT | CAMERA);
+    streams::rows_of(id).map(|(row, _)| row).filter(mine)
+}
+
+/// Parameters 2 and 3 of the request are `index` and `last`; what they mean depends on the message.
+fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut Context) -> MavResult {
+    if id == AVAILABLE_MODES {
+        return modes(index, x);
+    }
+    if id == IMAGE_CAPTURED {
+        return pictures(index, last, x);
+    }
+    // One card, one stream: 0 is all of them.
+    if COUNTED.contains(&id) && index.is_finite() && !matches!(index, 0.0 | 1.0) {
+        return DENIED;
+    }
+    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_spoken(x.view.flavour)).collect();
+    let mut said = false;
+    for row in rows {
+        if let Some(message) = STREAMS[row].build(&x.view) {
+            x.answer(STREAMS[row].component, &message);
+            said = true;
+        }
+    }
+    if said { ACCEPTED } else { x.view.flavour.refusals.message }
+}
+
+/// Pictures again: from number `first` (-1: from 0 to the newest) to `last` (0: that one alone, -1: to the newest). The first at once, the
+/// others as the link has room.
+fn pictures(first: f64, last: f64, x: &mut Context) -> MavResult {
+    let count = x.view.camera.pictures;
+    let (first, last) = match (first, last) {
+        (-1.0, _) => (0.0, -1.0),
+        (first, last) => (first, if last.is_finite() { last } else { 0.0 }),
+    };
+    if !(first >= 0.0 && first < count as f64) || last < -1.0 {
+        return DENIED;
+    }
+    let first = first as usize;
+    let end = match last {
+        -1.0 => count,
+        0.0 => first + 1,
+        last => count.min(last as usize + 1),
+    };
+    let Some(message) = x.payload.camera.again(first) else { return DENIED };
+    if end > first + 1 {
+        x.link.pictures = first + 1..end;
+    }
+    x.answer(CAMERA, &message)
+}
+
+/// One mode, or with index 0 all of them.
+fn modes(index: f64, x: &mut Context) -> MavResult {
+    let modes = x.view.flavour.modes;
+    let count = modes.len();
+    let wanted = if index.is_finite() && index >= 0.0 { index as usize } else { return DENIED };
+    if wanted > count {
+        return DENIED;
+    }
+    for (k, row) in modes.iter().enumerate().filter(|(k, _)| wanted == 0 || wanted == k + 1) {
+        let mut properties = MavModeProperty::empty();
+        properties.set(MavModeProperty::MAV_MODE_PROPERTY_NOT_USER_SELECTABLE, !row.selectable);
+        properties.set(MavModeProperty::MAV_MODE_PROPERTY_AUTO_MODE, row.auto);
+        let message = MavMessage::AVAILABLE_MODES(AVAILABLE_MODES_DATA {
+            custom_mode: row.number,
+            properties,
+            number_modes: count as u8,
+            mode_index: (k + 1) as u8,
+            standard_mode: row.standard,
+            mode_name: row.name.into(),
+        });
+        x.answer(AUTOPILOT, &message);
+    }
+    ACCEPTED
+}
+
+fn set_interval(id: u32, us: f64, component: u8, x: &mut Context) -> MavResult {
+    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_spoken(x.view.flavour)).collect();
+    if rows.is_empty() {
+        return x.view.flavour.refusals.interval;
+    }
+    let now = x.view.now;
+    if rows.iter().all(|row| x.link.set_interval(*row, us, now)) { ACCEPTED } else { DENIED }
+}
+
+fn get_interval(id: u32, component: u8, x: &mut Context) -> MavResult {
+    let row = addressed(id, component).next();
+    let interval_us = row.map_or(0, |row| x.link.interval_us(row));
+    x.answer(AUTOPILOT, &MavMessage::MESSAGE_INTERVAL(MESSAGE_INTERVAL_DATA { interval_us, message_id: id as u16 }));
+    if row.is_some() { ACCEPTED } else { FAILED }
+}

@@ -1,0 +1,157 @@
+//! Commands: COMMAND_LONG and COMMAND_INT in one shape, one file for each family, every one answered at once.
+
+mod camera;
+mod flight;
+mod gimbal;
+mod lamp;
+mod messages;
+pub(super) mod payload;
+
+use super::Context;
+use super::streams::CAMERA;
+use crate::autopilot::{Outcome, Request};
+use spandrel_mavlink::codec::Received;
+use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavResult};
+
+/// Degrees E7 of a place that is not given: none of them is on the globe.
+const NOT_GIVEN: [i32; 3] = [i32::MAX, i32::MIN, 0x7ff8_0000];
+
+/// A command from either message.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Command {
+    /// MAV_CMD number.
+    pub number: u16,
+    /// Parameters 1 to 7; 5 and 6 in degrees or metres whichever message brought them.
+    pub p: [f64; 7],
+    /// MAV_FRAME number; COMMAND_LONG counts as global with altitude over the sea.
+    pub frame: u8,
+    /// Target component.
+    pub component: u8,
+    /// Target system.
+    pub system: u8,
+    /// Sender.
+    pub from: (u8, u8),
+    /// Parameters 5 and 6 came as whole numbers, scaled as places are.
+    pub whole: bool,
+    /// The vehicle's own order (an item of its mission): nobody keeps it from its gimbal.
+    pub own: bool,
+}
+
+const LONG: u32 = 76;
+const INT: u32 = 75;
+
+impl Command {
+    /// From a received frame; `None` when it is no command. Read from the bytes, so that unknown numbers are commands too.
+    #[must_use]
+    pub fn of(frame: &Received) -> Option<Self> {
+        let from = (frame.system_id, frame.component_id);
+        let b = match frame.message_id {
+            LONG => frame.payload(33),
+            INT => frame.payload(35),
+            _ => return None,
+        };
+        let four = |at: usize| [b[at], b[at + 1], b[at + 2], b[at + 3]];
+        let real = |at: usize| f64::from(f32::from_le_bytes(four(at)));
+        let number = u16::from_le_bytes([b[28], b[29]]);
+        let mut p = [real(0), real(4), real(8), real(12), real(16), real(20), real(24)];
+        if frame.message_id == LONG {
+            return Some(Self { number, p, frame: 0, component: b[31], system: b[30], from, whole: false, own: false });
+        }
+        let scaled = |at: usize| {
+            let whole = i32::from_le_bytes(four(at));
+            // INT32_MAX means "not given" (MAVLink: COMMAND_INT); the others are what clients make of a not-a-number.
+            if NOT_GIVEN.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
+        };
+        (p[4], p[5]) = (scaled(16), scaled(20));
+        Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from, whole: true, own: false })
+    }
+
+    /// From an item of a mission, as its vehicle gives it to itself.
+    #[must_use]
+    pub fn of_item(item: &MISSION_ITEM_INT_DATA, from: (u8, u8)) -> Self {
+        let [x, y] = [item.x, item.y].map(|scaled| if scaled == i32::MAX { f64::NAN } else { f64::from(scaled) * 1e-7 });
+        let p = [item.param1, item.param2, item.param3, item.param4].map(f64::from);
+        let p = [p[0], p[1], p[2], p[3], x, y, f64::from(item.z)];
+        let (number, frame, (system, component)) = (item.command as u16, item.frame as u8, from);
+        Self { number, p, frame, component, system, from, whole: true, own: true }
+    }
+
+    /// Whether its height counts from home; `None` for a frame that is no place over the ground.
+    #[must_use]
+    pub fn over_home(&self) -> Option<bool> {
+        match self.frame {
+            0 | 5 => Some(false),
+            3 | 6 | 10 | 11 => Some(true),
+            _ => None,
+        }
+    }
+
+    /// True when a parameter is 1.
+    #[must_use]
+    pub fn is_one(&self, k: usize) -> bool {
+        (self.p[k] - 1.0).abs() < 1e-6
+    }
+
+    /// A parameter when it is a number.
+    #[must_use]
+    pub fn given(&self, k: usize) -> Option<f64> {
+        Some(self.p[k]).filter(|v| v.is_finite())
+    }
+
+    /// A place of interest at 0 north, 0 east is none: clients end it so. An item of a mission may leave the place out besides.
+    #[must_use]
+    pub fn clears_interest(&self) -> bool {
+        [4, 5].iter().all(|k| self.p[*k] == 0.0 || (self.own && self.p[*k].is_nan()))
+    }
+
+    /// A small whole number that is no place, when it is given: as 5 and 6 of COMMAND_INT and of a mission's item it is not scaled, but some
+    /// stations scale it all the same.
+    #[must_use]
+    pub fn plain(&self, k: usize) -> Option<f64> {
+        let value = self.given(k)?;
+        if !(self.whole && matches!(k, 4 | 5)) || (value != 0.0 && value.fract() == 0.0) {
+            return Some(value);
+        }
+        Some((value * 1e7).round())
+    }
+}
+
+/// Does what a command asks and says how it went. The camera's component takes pictures and speaks of itself; it does not fly.
+pub fn handle(c: &Command, x: &mut Context) -> MavResult {
+    let done = messages::handle(c, x).or_else(|| {
+        if c.component == CAMERA {
+            return payload::camera(c, &x.view, x.payload);
+        }
+        flight::handle(c, x).or_else(|| look(c, x)).or_else(|| payload::handle(c, &x.view, x.payload))
+    });
+    done.unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED)
+}
+
+/// What the gimbal looks at the vehicle turns to.
+fn look(c: &Command, x: &mut Context) -> Option<MavResult> {
+    let place = payload::looked_at(c, &x.view)?;
+    let done = payload::handle(c, &x.view, x.payload);
+    let obeyed = done == Some(MavResult::MAV_RESULT_ACCEPTED);
+    if obeyed || place.is_none() {
+        x.autopilot.request(Request::LookAt(place), x.view.now);
+    }
+    if !obeyed && place.is_none() {
+        x.tell("The vehicle looks nowhere any more; the gimbal stays with who controls it");
+        return Some(MavResult::MAV_RESULT_ACCEPTED);
+    }
+    done
+}
+
+/// The autopilot's answer on the wire; its reason becomes a text.
+fn result(outcome: Outcome, context: &mut Context) -> MavResult {
+    let refusals = &context.view.flavour.refusals;
+    let (result, reason) = match outcome {
+        Outcome::Accepted => return MavResult::MAV_RESULT_ACCEPTED,
+        Outcome::TemporarilyRejected(reason) => (refusals.for_now, reason),
+        Outcome::Denied(reason) => (refusals.denied, reason),
+        Outcome::Failed(reason) => (MavResult::MAV_RESULT_FAILED, reason),
+        Outcome::Unsupported => return MavResult::MAV_RESULT_UNSUPPORTED,
+    };
+    context.tell(&reason);
+    result
+}

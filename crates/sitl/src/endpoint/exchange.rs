@@ -1,0 +1,337 @@
+//! Questions and answers: parameters, plans, streams by groups, clocks, logs.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use super::Endpoint;
+use super::arrival::Arrival;
+use super::homes;
+use super::mission::{Form, Reply, ack};
+use super::params::{HASH, Refusal, Told};
+use super::streams::{self, AUTOPILOT};
+use super::view::View;
+use crate::autopilot::Autopilot;
+use mavlink::MessageData;
+use spandrel_mavlink::dialect::*;
+
+const MISSION_ACK: u32 = 47;
+
+/// PARAM_VALUE of one parameter.
+pub(super) fn param_value(told: Told, index: usize, count: u16) -> MavMessage {
+    MavMessage::PARAM_VALUE(PARAM_VALUE_DATA {
+        param_value: told.wire,
+        param_count: count,
+        param_index: index as u16,
+        param_id: told.name.into(),
+        param_type: told.kind,
+    })
+}
+
+/// PARAM_VALUE by place or by name.
+fn param_at(e: &Endpoint, index: Option<usize>) -> Option<MavMessage> {
+    let index = index?;
+    Some(param_value(e.params.told(index)?, index, e.params.count() as u16))
+}
+
+/// PARAM_VALUE by name.
+pub(super) fn param_named(e: &Endpoint, name: &str) -> Option<MavMessage> {
+    param_at(e, place_of(e, name))
+}
+
+fn place_of(e: &Endpoint, name: &str) -> Option<usize> {
+    e.params.find(name).map(|(index, ..)| index)
+}
+
+/// The checksum over all parameters, outside the list (PX4: index -1).
+fn param_hash(e: &Endpoint) -> MavMessage {
+    MavMessage::PARAM_VALUE(PARAM_VALUE_DATA {
+        param_value: f32::from_bits(e.params.hash()),
+        param_count: e.params.count() as u16,
+        param_index: u16::MAX,
+        param_id: HASH.into(),
+        param_type: MavParamType::MAV_PARAM_TYPE_UINT32,
+    })
+}
+
+/// The whole list, a little each tick; before it the checksum, so that a station that knows all values stops the list, or who it is.
+pub(super) fn param_list(e: &mut Endpoint, _: &PARAM_REQUEST_LIST_DATA, a: &mut Arrival) {
+    if e.flavour.params.hash {
+        let hash = param_hash(e);
+        e.answer(a.link, &hash);
+    }
+    for line in e.flavour.banner {
+        e.tell(MavSeverity::MAV_SEVERITY_INFO, line);
+    }
+    e.param_lists.insert(a.link, (0..e.params.count()).collect());
+}
+
+pub(super) fn param_read(e: &mut Endpoint, r: &PARAM_REQUEST_READ_DATA, a: &mut Arrival) {
+    let name = r.param_id.to_str().unwrap_or_default();
+    let index = usize::try_from(r.param_index).ok().or_else(|| place_of(e, name));
+    let message = match param_at(e, index) {
+        Some(message) => message,
+        None if is_hash(e, name) => param_hash(e),
+        None => param_error(a.from, name, r.param_index, MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST),
+    };
+    e.answer(a.link, &message);
+}
+
+fn is_hash(e: &Endpoint, name: &str) -> bool {
+    e.flavour.params.hash && name == HASH
+}
+
+/// A change is told to every link; a refusal is named, and the old value is sent as older clients expect.
+pub(super) fn param_set(e: &mut Endpoint, set: &PARAM_SET_DATA, a: &mut Arrival) {
+    let name = set.param_id.to_str().unwrap_or_default();
+    if is_hash(e, name) {
+        e.param_lists.remove(&a.link);
+        return;
+    }
+    e.note_fence_switch(a.autopilot.tuning.fence_enabled);
+    match e.params.set(name, set.param_value, set.param_type) {
+        Err(refusal) => {
+            let error = match refusal {
+                Refusal::Unknown => MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST,
+                Refusal::OutOfRange => MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE,
+                Refusal::Type => MavParamError::MAV_PARAM_ERROR_TYPE_MISMATCH,
+                Refusal::ReadOnly => MavParamError::MAV_PARAM_ERROR_READ_ONLY,
+            };
+            refuse_param(e, name, error, a);
+        }
+        Ok(()) => {
+            e.apply_parameters(a.autopilot);
+            if let Some(message) = param_named(e, name) {
+                e.broadcast(AUTOPILOT, &message);
+            }
+        }
+    }
+}
+
+fn refuse_param(e: &mut Endpoint, name: &str, error: MavParamError, a: &Arrival) {
+    e.answer(a.link, &param_error(a.from, name, -1, error));
+    if let Some(message) = param_named(e, name) {
+        e.answer(a.link, &message);
+    }
+}
+
+/// PARAM_SET with a type that MAVLink does not know.
+pub(super) fn unknown_type(e: &mut Endpoint, name: &[u8], a: &Arrival) {
+    let name = name.split(|byte| *byte == 0).next().unwrap_or_default();
+    refuse_param(e, std::str::from_utf8(name).unwrap_or_default(), MavParamError::MAV_PARAM_ERROR_TYPE_UNSUPPORTED, a);
+}
+
+fn param_error(to: (u8, u8), name: &str, index: i16, error: MavParamError) -> MavMessage {
+    MavMessage::PARAM_ERROR(PARAM_ERROR_DATA {
+        param_index: index,
+        target_system: to.0,
+        target_component: to.1,
+        param_id: name.into(),
+        error,
+    })
+}
+
+pub(super) fn mission_list(e: &mut Endpoint, r: &MISSION_REQUEST_LIST_DATA, a: &mut Arrival) {
+    let message = e.plans.list(a.from, r.mission_type);
+    e.answer(a.link, &message);
+}
+
+pub(super) fn mission_item_int(e: &mut Endpoint, r: &MISSION_REQUEST_INT_DATA, a: &mut Arrival) {
+    let message = plan_item(e, r.mission_type, r.seq, a);
+    e.answer(a.link, &message);
+}
+
+/// The older request gets the same answer, as MAVLink asks, or one in the older form, as ArduPilot's clients expect.
+pub(super) fn mission_item(e: &mut Endpoint, r: &MISSION_REQUEST_DATA, a: &mut Arrival) {
+    let message = match plan_item(e, r.mission_type, r.seq, a) {
+        MavMessage::MISSION_ITEM_INT(item) if e.flavour.float_items => MavMessage::MISSION_ITEM(homes::in_degrees(&item)),
+        other => other,
+    };
+    e.answer(a.link, &message);
+}
+
+fn plan_item(e: &Endpoint, kind: MavMissionType, seq: u16, a: &Arrival) -> MavMessage {
+    if e.plans.is_home(kind, seq) { homes::item(a.view, a.from) } else { e.plans.item(a.from, kind, seq) }
+}
+
+pub(super) fn mission_count(e: &mut Endpoint, c: &MISSION_COUNT_DATA, a: &mut Arrival) {
+    let reply = e.plans.begin(a.from, c.mission_type, c.count, a.view.now);
+    carry_out(e, reply, a);
+}
+
+pub(super) fn mission_receive_int(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut Arrival) {
+    e.plans.note_form(a.from, Form::Int);
+    take_item(e, item, a);
+}
+
+fn take_item(e: &mut Endpoint, item: &MISSION_ITEM_INT_DATA, a: &mut Arrival) {
+    if e.flavour.errands.is_some() && homes::is_errand(item) {
+        let result = homes::go(e, item, a);
+        e.answer(a.link, &ack(a.from, item.mission_type, result));
+        return;
+    }
+    let reply = e.plans.receive(a.from, item, a.view.plane, a.view.now);
+    carry_out(e, reply, a);
+}
+
+/// Items in floating degrees, of clients older than MISSION_ITEM_INT.
+pub(super) fn mission_receive(e: &mut Endpoint, item: &MISSION_ITEM_DATA, a: &mut Arrival) {
+    let scaled = |degrees: f32| if degrees.is_finite() { (f64::from(degrees) * 1e7).round() as i32 } else { i32::MAX };
+    let whole = MISSION_ITEM_INT_DATA {
+        param1: item.param1,
+        param2: item.param2,
+        param3: item.param3,
+        param4: item.param4,
+        x: scaled(item.x),
+        y: scaled(item.y),
+        z: item.z,
+        seq: item.seq,
+        command: item.command,
+        target_system: item.target_system,
+        target_component: item.target_component,
+        frame: item.frame,
+        current: item.current,
+        autocontinue: item.autocontinue,
+        mission_type: item.mission_type,
+    };
+    e.plans.note_form(a.from, Form::Float);
+    take_item(e, &whole, a);
+}
+
+pub(super) fn mission_clear(e: &mut Endpoint, c: &MISSION_CLEAR_ALL_DATA, a: &mut Arrival) {
+    let reply = e.plans.clear(a.from, c.mission_type);
+    carry_out(e, reply, a);
+}
+
+/// An uploader that does not know the form in which it is asked says so, and is asked in the other one (as PX4 does).
+pub(super) fn mission_ack(e: &mut Endpoint, m: &MISSION_ACK_DATA, a: &mut Arrival) {
+    if m.mavtype != MavMissionResult::MAV_MISSION_UNSUPPORTED {
+        e.plans.acknowledged(a.from);
+    } else if let Some(question) = e.plans.ask_otherwise(a.from, a.view.now) {
+        e.answer(a.link, &question);
+    }
+}
+
+/// Answered by MISSION_CURRENT, after a refusal where there is no such item.
+pub(super) fn mission_set_current(e: &mut Endpoint, c: &MISSION_SET_CURRENT_DATA, a: &mut Arrival) {
+    if !a.autopilot.set_mission_current(usize::from(c.seq.saturating_sub(a.view.plans.lead)), false) {
+        let result = MavMissionResult::MAV_MISSION_INVALID_SEQUENCE;
+        let refusal = ack(a.from, MavMissionType::MAV_MISSION_TYPE_MISSION, result);
+        e.answer(a.link, &refusal);
+    }
+    let now = super::view::View { status: a.autopilot.status(), ..*a.view };
+    for (_, row) in streams::rows_of(MISSION_CURRENT_DATA::ID) {
+        if let Some(message) = row.build(&now) {
+            e.broadcast(AUTOPILOT, &message);
+        }
+    }
+}
+
+/// MAVLink does not say how a part would be answered, and no autopilot does.
+pub(super) fn mission_request_partial(e: &mut Endpoint, r: &MISSION_REQUEST_PARTIAL_LIST_DATA, a: &mut Arrival) {
+    let refusal = ack(a.from, r.mission_type, MavMissionResult::MAV_MISSION_UNSUPPORTED);
+    e.answer(a.link, &refusal);
+}
+
+pub(super) fn mission_write_partial(e: &mut Endpoint, w: &MISSION_WRITE_PARTIAL_LIST_DATA, a: &mut Arrival) {
+    let reply = e.plans.begin_part(a.from, w.mission_type, (w.start_index, w.end_index), a.view.now);
+    carry_out(e, reply, a);
+}
+
+/// An item with a command, frame or plan type that MAVLink does not know ends the upload.
+pub(super) fn unknown_item(e: &mut Endpoint, mission_type: u8, a: &mut Arrival) {
+    match e.plans.receive_unknown(a.from) {
+        Reply::Nothing => unknown_plan(e, mission_type, a),
+        reply => carry_out(e, reply, a),
+    }
+}
+
+/// A request about a plan of an unknown type is refused with that type.
+pub(super) fn unknown_plan(e: &mut Endpoint, mission_type: u8, a: &Arrival) {
+    let refusal = [a.from.0, a.from.1, MavMissionResult::MAV_MISSION_UNSUPPORTED as u8, mission_type];
+    if let Some(link) = e.links.get_mut(&a.link) {
+        link.send_payload(AUTOPILOT, MISSION_ACK, &refusal);
+    }
+}
+
+fn carry_out(e: &mut Endpoint, reply: Reply, a: &mut Arrival) {
+    match reply {
+        Reply::Say(message) => e.answer(a.link, &message),
+        Reply::New(kind, message) => {
+            hand_over(e, kind, a.view, a.autopilot);
+            e.answer(a.link, &message);
+            if kind == MavMissionType::MAV_MISSION_TYPE_FENCE && e.plans.has_fence_return() {
+                e.tell(MavSeverity::MAV_SEVERITY_INFO, "Fence return point not used: a breach returns to home or a rally point");
+            }
+        }
+        Reply::Nothing => {}
+    }
+}
+
+/// The autopilot gets what has changed.
+pub(super) fn hand_over(e: &mut Endpoint, kind: MavMissionType, view: &View, autopilot: &mut Autopilot) {
+    let is = |one| kind == one || kind == MavMissionType::MAV_MISSION_TYPE_ALL;
+    let home_up = view.status.home_m.map_or(0.0, |h| -h.down());
+    if is(MavMissionType::MAV_MISSION_TYPE_MISSION) {
+        autopilot.set_mission(e.plans.steps(view.plane, view.status.home_m));
+        autopilot.leave_mission_open(e.plans.unnamed());
+        autopilot.hang_mission_on_home(e.plans.over_home());
+    }
+    if is(MavMissionType::MAV_MISSION_TYPE_FENCE) {
+        autopilot.set_fence(e.plans.zones(view.plane));
+    }
+    if is(MavMissionType::MAV_MISSION_TYPE_RALLY) {
+        autopilot.set_refuges(e.plans.refuges(view.plane, home_up));
+    }
+}
+
+pub(super) fn timesync(e: &mut Endpoint, sync: &TIMESYNC_DATA, a: &mut Arrival) {
+    // An answer to somebody's question, not one.
+    if sync.tc1 != 0 {
+        return;
+    }
+    let (target_system, target_component) = a.from;
+    let Some(link) = e.links.get(&a.link) else { return };
+    // The same clock as the times of our messages, so that a client can convert them.
+    let tc1 = a.view.towards(link.kind).since_boot(a.view.now).ns().max(1);
+    e.answer(a.link, &MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: sync.ts1, target_system, target_component }));
+}
+
+/// A ping to nobody is a request; one with a target answers one.
+pub(super) fn ping(e: &mut Endpoint, ping: &PING_DATA, a: &mut Arrival) {
+    if ping.target_system == 0 {
+        let (target_system, target_component) = a.from;
+        e.answer(a.link, &MavMessage::PING(PING_DATA { target_system, target_component, ..ping.clone() }));
+    }
+}
+
+/// The legacy way of asking for rates: groups of messages (Mission Planner, MAVProxy).
+pub(super) fn data_stream(e: &mut Endpoint, r: &REQUEST_DATA_STREAM_DATA, a: &mut Arrival) {
+    let Some(link) = e.links.get_mut(&a.link) else { return };
+    let wanted = r.req_stream_id as u8;
+    let stop = r.start_stop == 0 || r.req_message_rate == 0;
+    let us = if stop { -1.0 } else { 1e6 / f64::from(r.req_message_rate) };
+    for (_, ids) in e.flavour.groups.iter().filter(|(group, _)| wanted == 0 || *group == wanted) {
+        for (row, _) in ids.iter().flat_map(|id| streams::rows_of(*id)) {
+            link.set_interval(row, us, a.view.now);
+        }
+    }
+}
+
+pub(super) fn log_list(e: &mut Endpoint, r: &LOG_REQUEST_LIST_DATA, a: &mut Arrival) {
+    e.logs.list(a.link, r.start, r.end);
+}
+
+pub(super) fn log_data(e: &mut Endpoint, r: &LOG_REQUEST_DATA_DATA, a: &mut Arrival) {
+    e.logs.read(a.link, r.id, r.ofs, r.count);
+}
+
+pub(super) fn log_end(e: &mut Endpoint, _: &LOG_REQUEST_END_DATA, a: &mut Arrival) {
+    e.logs.stop(a.link);
+}
+
+/// Not in flight: the log of now is among them.
+pub(super) fn log_erase(e: &mut Endpoint, _: &LOG_ERASE_DATA, a: &mut Arrival) {
+    if a.view.status.armed {
+        e.tell(MavSeverity::MAV_SEVERITY_WARNING, "Logs are not erased while armed");
+    } else {
+        e.logs.erase();
+    }
+}

@@ -1,0 +1,79 @@
+//! No autopilot's interface, the standard alone: modes are offered where MAVLink has a standard mode for them. Their custom numbers say
+//! nothing by the standard; they are PX4's, because SDKs and recorders that do not ask read them so.
+
+use super::px4::{self, row};
+use super::{COMMON, Flavour, ModeRow, plain};
+use crate::autopilot::Mode;
+use crate::endpoint::calibration;
+use crate::endpoint::params::face;
+use spandrel_mavlink::dialect::{MavAutopilot, MavProtocolCapability, MavStandardMode as S, MavVtolState};
+
+const MODES: &[ModeRow] = &[
+    row(Mode::Position, (3, 0), "Position hold", S::MAV_STANDARD_MODE_POSITION_HOLD, false, true),
+    row(Mode::Altitude, (2, 0), "Altitude hold", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, false, true),
+    row(Mode::Takeoff, (4, 2), "Take-off", S::MAV_STANDARD_MODE_TAKEOFF, true, true),
+    row(Mode::Mission, (4, 4), "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
+    row(Mode::Return, (4, 5), "Safe recovery", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true).covering(&[Mode::SmartReturn]),
+    row(Mode::Land, (4, 6), "Land", S::MAV_STANDARD_MODE_LAND, true, true),
+    row(Mode::Orbit, (3, 1), "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
+    row(Mode::Hold, (4, 3), "Hold", S::MAV_STANDARD_MODE_NON_STANDARD, true, false).covering(&[Mode::Follow]),
+    row(Mode::Stabilized, (7, 0), "Stabilized", S::MAV_STANDARD_MODE_NON_STANDARD, false, false).covering(&[Mode::Acro]),
+    row(Mode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
+];
+
+/// The standard alone.
+pub static FLAVOUR: Flavour = Flavour {
+    name: "generic",
+    autopilot: MavAutopilot::MAV_AUTOPILOT_GENERIC,
+    software_version: VERSION,
+    capabilities: COMMON.union(MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE),
+    modes: MODES,
+    mode_bits: px4::MODE_BITS,
+    custom_mode,
+    custom_flag: false,
+    state: px4::state,
+    errands: None,
+    take_off: px4::over_sea,
+    force: &[px4::FORCE],
+    looks_over_sea: false,
+    refusals: px4::REFUSALS,
+    arm_words: None,
+    check_words: "Preflight Fail: ",
+    sensor_words: |_| None,
+    mode_words: plain,
+    banner: &[],
+    asks_first: false,
+    groups: px4::GROUPS,
+    dialect_of_ardupilot: false,
+    calibration: calibration::Words::Px4,
+    shell: false,
+    events: false,
+    loiters: None,
+    offsets: false,
+    thrust_climbs: false,
+    pauses: false,
+    vtol_state: MavVtolState::MAV_VTOL_STATE_UNDEFINED,
+    splines: false,
+    zero_is_here: false,
+    home_item: false,
+    float_items: false,
+    params: &face::GENERIC,
+    tune: |_| {},
+};
+
+/// Our own version: major and minor.
+const VERSION: u32 = digits(env!("CARGO_PKG_VERSION_MAJOR")) << 24 | digits(env!("CARGO_PKG_VERSION_MINOR")) << 16;
+
+const fn digits(text: &str) -> u32 {
+    let (bytes, mut at, mut value) = (text.as_bytes(), 0, 0);
+    while at < bytes.len() {
+        value = 10 * value + (bytes[at] - b'0') as u32;
+        at += 1;
+    }
+    value
+}
+
+/// Parameter 2 is a whole custom mode by the standard; SDKs that take every vehicle for PX4 send main and sub mode.
+fn custom_mode(main: f64, sub: f64) -> u32 {
+    if (256.0..4_294_967_296.0).contains(&main) { main as u32 } else { px4::main_and_sub(main, sub) }
+}

@@ -1,0 +1,170 @@
+//! PX4's interface: custom_mode is main mode in bits 16 to 23, sub mode in bits 24 to 31 (mavlink.md; read off a real PX4).
+
+use super::{COMMON, Flavour, ModeRow, Refusals, plain};
+use crate::autopilot::senses::{Sensor, SensorChange, SensorFault};
+use crate::autopilot::{Mode, Request};
+use crate::endpoint::Context;
+use crate::endpoint::calibration;
+use crate::endpoint::commands::Command;
+use crate::endpoint::params::face;
+use crate::endpoint::view::View;
+use spandrel_mavlink::dialect::{
+    MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode as S, MavState, MavVtolState,
+};
+
+const BASE: F = F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STABILIZE_ENABLED);
+const BY_HAND: F = BASE.union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
+const BY_ITSELF: F = BASE.union(F::MAV_MODE_FLAG_AUTO_ENABLED).union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
+
+/// A mode by its main and sub mode.
+pub(super) const fn row(
+    mode: Mode,
+    (main, sub): (u8, u8),
+    name: &'static str,
+    standard: S,
+    auto: bool,
+    selectable: bool,
+) -> ModeRow {
+    ModeRow {
+        number: (main as u32) << 16 | (sub as u32) << 24,
+        mode,
+        request: Request::SetMode(mode),
+        unattended: None,
+        only_chosen: false,
+        covers: &[],
+        name,
+        standard,
+        base: if auto { BY_ITSELF } else { BY_HAND },
+        auto,
+        selectable,
+        armable: true,
+    }
+}
+
+const MODES: &[ModeRow] = &[
+    row(Mode::Position, (3, 0), "Position", S::MAV_STANDARD_MODE_POSITION_HOLD, false, true),
+    row(Mode::Altitude, (2, 0), "Altitude", S::MAV_STANDARD_MODE_ALTITUDE_HOLD, false, true),
+    row(Mode::Stabilized, (7, 0), "Stabilized", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
+    row(Mode::Hold, (4, 3), "Hold", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
+    row(Mode::Takeoff, (4, 2), "Takeoff", S::MAV_STANDARD_MODE_TAKEOFF, true, true),
+    row(Mode::Mission, (4, 4), "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
+    row(Mode::Return, (4, 5), "Return", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true).covering(&[Mode::SmartReturn]),
+    row(Mode::Land, (4, 6), "Land", S::MAV_STANDARD_MODE_LAND, true, true),
+    row(Mode::Orbit, (3, 1), "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
+    row(Mode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
+    row(Mode::Follow, (4, 8), "Follow Me", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
+    row(Mode::Acro, (5, 0), "Acro", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
+];
+/// Bits of main and sub mode.
+pub(super) const MODE_BITS: u32 = 0xFFFF_0000;
+
+/// PX4's interface (mavlink.md R1); the version is a development one, so that no ground station looks for a newer release.
+pub static FLAVOUR: Flavour = Flavour {
+    name: "px4",
+    autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
+    software_version: 1 << 24 | 16 << 16,
+    capabilities: COMMON.union(MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE),
+    modes: MODES,
+    mode_bits: MODE_BITS,
+    custom_mode: main_and_sub,
+    custom_flag: false,
+    state,
+    errands: None,
+    take_off: over_sea,
+    force: &[FORCE],
+    // PX4's navigator takes the height without looking at the frame; MAVSDK's gimbal plugin counts on it: it sends heights over the sea in
+    // a frame over home.
+    looks_over_sea: true,
+    refusals: REFUSALS,
+    arm_words: None,
+    check_words: "Preflight Fail: ",
+    sensor_words,
+    mode_words: plain,
+    banner: &[],
+    asks_first: false,
+    groups: GROUPS,
+    dialect_of_ardupilot: false,
+    calibration: calibration::Words::Px4,
+    shell: true,
+    events: true,
+    loiters: None,
+    offsets: false,
+    thrust_climbs: false,
+    pauses: false,
+    vtol_state: MavVtolState::MAV_VTOL_STATE_UNDEFINED,
+    splines: false,
+    zero_is_here: false,
+    home_item: false,
+    float_items: false,
+    params: &face::PX4,
+    tune: |_| {},
+};
+
+/// The number that forces arming and disarming (MAVLink common, COMPONENT_ARM_DISARM param2).
+pub(super) const FORCE: f64 = 21196.0;
+/// PX4's answers.
+pub(super) const REFUSALS: Refusals = Refusals {
+    for_now: MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
+    denied: MavResult::MAV_RESULT_DENIED,
+    no_mode: MavResult::MAV_RESULT_DENIED,
+    message: MavResult::MAV_RESULT_DENIED,
+    interval: MavResult::MAV_RESULT_FAILED,
+};
+/// The older groups of messages, for clients that ask by them.
+pub(super) const GROUPS: &[(u8, &[u32])] = &[
+    (1, &[24, 29, 105]),
+    (2, &[1, 147, 230, 42, 24]),
+    (3, &[65, 36]),
+    (6, &[33, 32]),
+    (10, &[30, 31]),
+    (11, &[74]),
+    (12, &[2, 242, 231]),
+];
+
+/// Main and sub mode as DO_SET_MODE has them; what is no small whole number is no mode.
+pub(super) fn main_and_sub(main: f64, sub: f64) -> u32 {
+    let byte = |value: f64| if (0.0..256.0).contains(&value) { Some(value as u32) } else { None };
+    match (byte(main), byte(sub)) {
+        (Some(main), Some(sub)) => main << 16 | sub << 24,
+        _ => u32::MAX,
+    }
+}
+
+pub(super) fn state(v: &View) -> MavState {
+    match (&v.status.failsafe, v.status.armed) {
+        (Some(_), _) => MavState::MAV_STATE_CRITICAL,
+        (None, true) => MavState::MAV_STATE_ACTIVE,
+        (None, false) => MavState::MAV_STATE_STANDBY,
+    }
+}
+
+/// Parameter 7 is over the sea, in COMMAND_INT by its frame; not given or too near the ground, the parameter's height.
+pub(super) fn over_sea(c: &Command, x: &mut Context) -> Result<Option<f64>, MavResult> {
+    const LOWEST_M: f64 = 0.5;
+    const HIGHEST_M: f64 = 500.0;
+    const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
+    let home_up = x.view.status.home_m.map_or(0.0, |h| -h.down());
+    let relative = c.over_home().ok_or(DENIED)?;
+    let Some(z) = c.given(6) else { return Ok(None) };
+    let height_m = if relative { z } else { z - x.view.plane.origin().altitude_m - home_up };
+    if height_m > HIGHEST_M {
+        Err(x.deny("Take-off height: at most 500 m over home"))
+    } else {
+        Ok(Some(height_m).filter(|h| *h >= LOWEST_M))
+    }
+}
+
+/// PX4 announces a failed sensor with its kind and reason ("BARO #0 failed: STALE!"); a lost one is announced in our own words.
+fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
+    let reason = match change.fault? {
+        SensorFault::Silent => return None,
+        SensorFault::Stuck => "STALE",
+        SensorFault::Inconsistent => "INCONSISTENT",
+    };
+    let kind = match change.sensor {
+        Sensor::Compass => "MAG",
+        Sensor::Barometer => "BARO",
+        Sensor::Gnss => "GPS",
+    };
+    Some((MavSeverity::MAV_SEVERITY_EMERGENCY, format!("{kind} #0 failed: {reason}!")))
+}

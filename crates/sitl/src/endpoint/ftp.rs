@@ -1,0 +1,48 @@
+//! Files over MAVLink: the message around the packets of the file server.
+
+use super::arrival::Arrival;
+use super::params::packed;
+use super::streams::{AUTOPILOT, CAMERA};
+use super::{Endpoint, LinkId};
+use spandrel_mavlink::dialect::{FILE_TRANSFER_PROTOCOL_DATA, MavMessage};
+use spandrel_mavlink::ftp::{Opcode, Packet};
+
+pub(super) fn request(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &mut Arrival) {
+    let (client, packet) = ((a.link, a.from), Packet::read(&request.payload));
+    match packed_parameters(e, &packet) {
+        Some(content) => e.files.open_made(client, &packet, content, a.view.now),
+        None => e.files.receive(client, &packet, a.view.now),
+    }
+}
+
+/// The parameters as a file, where the flavour has it and this opens it.
+fn packed_parameters(e: &Endpoint, packet: &Packet) -> Option<Vec<u8>> {
+    let opens = e.flavour.params.packed && packet.opcode == Opcode::OpenFileRo as u8;
+    packed::file(packet.sized().filter(|_| opens)?, &e.params, e.storage.defaults())
+}
+
+/// The camera's component has its own files.
+pub(super) fn request_of_camera(e: &mut Endpoint, request: &FILE_TRANSFER_PROTOCOL_DATA, a: &Arrival) {
+    e.camera_files.receive((a.link, a.from), &Packet::read(&request.payload), a.view.now);
+}
+
+/// What the servers have to say goes out.
+pub(super) fn speak(e: &mut Endpoint) {
+    for component in [AUTOPILOT, CAMERA] {
+        let links = &e.links;
+        let ready = |link: &LinkId| links.get(link).is_none_or(|link| !link.is_busy());
+        let server = if component == CAMERA { &mut e.camera_files } else { &mut e.files };
+        for ((link, to), packet) in server.poll(ready) {
+            e.answer_as(component, link, &message(to, &packet));
+        }
+    }
+}
+
+fn message(to: (u8, u8), packet: &Packet) -> MavMessage {
+    MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
+        target_network: 0,
+        target_system: to.0,
+        target_component: to.1,
+        payload: packet.write(),
+    })
+}

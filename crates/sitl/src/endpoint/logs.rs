@@ -1,0 +1,379 @@
+//! Flight logs by the messages of MAVLink's log protocol: listed, downloaded piece by piece, erased. Like the file server it touches no
+//! file; the same shell does its jobs.
+
+use super::LinkId;
+use super::files::job::{Action, Done, Entry, FileError, Job};
+use super::files::path::FilePath;
+use spandrel_mavlink::dialect::{LOG_DATA_DATA, LOG_ENTRY_DATA, MavMessage};
+use std::collections::{BTreeMap, VecDeque};
+
+/// Tickets of our jobs begin here, so that they never meet the file server's.
+const FIRST_TICKET: u64 = 1 << 63;
+/// Where the logs lie, in a folder for each day.
+const FOLDER: &str = "log";
+const ENDING: &str = ".ulg";
+/// Recordings beside the logs, which are erased with them.
+const BESIDE: &str = ".mcap";
+/// Bytes of one LOG_DATA.
+const PIECE: usize = 90;
+/// Bytes read at once.
+const CHUNK: u32 = 64 * PIECE as u32;
+/// Pieces a tick of each download: at 1000 ticks a second some 180 kB/s.
+const PIECES_A_TICK: usize = 2;
+/// Entries a tick of a listing.
+const ENTRIES_A_TICK: usize = 4;
+/// Listings that may wait for their turn.
+const LISTINGS_MAX: usize = 64;
+
+/// A log.
+#[derive(Debug, Clone, PartialEq)]
+struct Log {
+    path: FilePath,
+    size: u64,
+}
+
+/// What a finished listing is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    /// Entries first to last go to a link.
+    Tell(LinkId, u16, u16),
+    /// All are removed.
+    Erase,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Listing {
+    purpose: Purpose,
+    folders: Vec<FilePath>,
+    found: Vec<Log>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Download {
+    id: u16,
+    path: FilePath,
+    at: u32,
+    end: u32,
+    pieces: VecDeque<MavMessage>,
+    reading: Option<u64>,
+}
+
+/// Listings and downloads that are under way.
+#[derive(Debug, Clone, Default)]
+pub struct Logs {
+    /// Somebody does the jobs.
+    pub stored: bool,
+    known: Vec<Log>,
+    listings: VecDeque<Listing>,
+    ticket: Option<u64>,
+    entries: BTreeMap<LinkId, VecDeque<MavMessage>>,
+    downloads: BTreeMap<LinkId, Download>,
+    jobs: VecDeque<Job>,
+    tickets: u64,
+}
+
+impl Logs {
+    /// A link asks for the entries `first` to `last`.
+    pub fn list(&mut self, link: LinkId, first: u16, last: u16) {
+        if !self.stored {
+            self.entries.insert(link, [MavMessage::LOG_ENTRY(LOG_ENTRY_DATA::default())].into());
+            return;
+        }
+        self.begin(Purpose::Tell(link, first, last));
+    }
+
+    /// Somebody wants all logs gone.
+    pub fn erase(&mut self) {
+        if self.stored {
+            self.begin(Purpose::Erase);
+        }
+    }
+
+    fn begin(&mut self, purpose: Purpose) {
+        let again = self.listings.iter().any(|listing| listing.purpose == purpose);
+        if !again && self.listings.len() < LISTINGS_MAX {
+            let folders = FilePath::of(FOLDER.as_bytes()).into_iter().collect();
+            self.listings.push_back(Listing { purpose, folders, found: Vec::new() });
+            self.go_on();
+        }
+    }
+
+    /// A link asks for `count` bytes of a log from `at`.
+    pub fn read(&mut self, link: LinkId, id: u16, at: u32, count: u32) {
+        let Some(log) = self.known.get(usize::from(id)) else {
+            // Nothing where there is no such log: the client stops waiting.
+            let end = LOG_DATA_DATA { id, ofs: at, ..LOG_DATA_DATA::default() };
+            self.entries.entry(link).or_default().push_back(MavMessage::LOG_DATA(end));
+            return;
+        };
+        let end = at.saturating_add(count);
+        let download = Download { id, path: log.path.clone(), at, end, pieces: VecDeque::new(), reading: None };
+        self.downloads.insert(link, download);
+    }
+
+    /// A link wants no more.
+    pub fn stop(&mut self, link: LinkId) {
+        self.downloads.remove(&link);
+    }
+
+    /// A link is gone.
+    pub fn forget(&mut self, link: LinkId) {
+        self.stop(link);
+        self.entries.remove(&link);
+        self.listings.retain(|listing| !matches!(listing.purpose, Purpose::Tell(to, ..) if to == link));
+        self.go_on();
+    }
+
+    /// The action of the next job.
+    #[must_use]
+    pub fn next_action(&self) -> Option<&Action> {
+        self.jobs.front().map(|job| &job.action)
+    }
+
+    /// The next job.
+    pub fn poll_job(&mut self) -> Option<Job> {
+        self.jobs.pop_front()
+    }
+
+    /// True for a ticket of ours.
+    #[must_use]
+    pub fn owns(ticket: u64) -> bool {
+        ticket >= FIRST_TICKET
+    }
+
+    fn ask(&mut self, action: Action) -> u64 {
+        let ticket = FIRST_TICKET + self.tickets;
+        self.tickets += 1;
+        self.jobs.push_back(Job { ticket, action });
+        ticket
+    }
+
+    /// The listing in turn looks into its next folder, or is finished.
+    fn go_on(&mut self) {
+        while self.ticket.is_none() {
+            let Some(listing) = self.listings.front_mut() else { return };
+            match listing.folders.last().cloned() {
+                Some(folder) => self.ticket = Some(self.ask(Action::List(folder))),
+                None => self.finish(),
+            }
+        }
+    }
+
+    fn finish(&mut self) {
+        let Some(mut listing) = self.listings.pop_front() else { return };
+        listing.found.sort_by(|a, b| a.path.cmp(&b.path));
+        listing.found.truncate(usize::from(u16::MAX));
+        match listing.purpose {
+            Purpose::Tell(link, first, last) => {
+                self.entries.insert(link, entries(&listing.found, first, last));
+                self.known = listing.found;
+            }
+            Purpose::Erase => {
+                for log in listing.found {
+                    self.ask(Action::Remove(log.path));
+                }
+                self.known.clear();
+            }
+        }
+    }
+
+    /// A job is done.
+    pub fn done(&mut self, ticket: u64, outcome: Result<Done, FileError>) {
+        if self.ticket == Some(ticket) {
+            self.ticket = None;
+            self.looked(outcome);
+            self.go_on();
+            return;
+        }
+        let download = self.downloads.iter_mut().find(|(_, download)| download.reading == Some(ticket));
+        let Some((link, download)) = download else { return };
+        download.reading = None;
+        let bytes = if let Ok(Done::Bytes(bytes)) = outcome { bytes } else { Vec::new() };
+        if bytes.is_empty() {
+            let end = LOG_DATA_DATA { id: download.id, ofs: download.at, ..LOG_DATA_DATA::default() };
+            let link = *link;
+            self.downloads.remove(&link);
+            self.entries.entry(link).or_default().push_back(MavMessage::LOG_DATA(end));
+            return;
+        }
+        for piece in bytes.chunks(PIECE) {
+            let mut data =
+                LOG_DATA_DATA { id: download.id, ofs: download.at, count: piece.len() as u8, ..LOG_DATA_DATA::default() };
+            data.data[..piece.len()].copy_from_slice(piece);
+            download.at += piece.len() as u32;
+            download.pieces.push_back(MavMessage::LOG_DATA(data));
+        }
+        // A short read is the log's end.
+        if bytes.len() < CHUNK as usize {
+            download.end = download.at;
+        }
+    }
+
+    fn looked(&mut self, outcome: Result<Done, FileError>) {
+        let Some(listing) = self.listings.front_mut() else { return };
+        let Some(folder) = listing.folders.pop() else { return };
+        let Ok(Done::Entries(entries)) = outcome else { return };
+        let inside = |name: &str| FilePath::of(format!("{}/{name}", folder.as_str()).as_bytes());
+        for entry in entries {
+            match entry {
+                Entry::Directory(name) => listing.folders.extend(inside(&name)),
+                Entry::File(name, size)
+                    if name.ends_with(ENDING) || (listing.purpose == Purpose::Erase && name.ends_with(BESIDE)) =>
+                {
+                    listing.found.extend(inside(&name).map(|path| Log { path, size }));
+                }
+                Entry::File(..) => {}
+            }
+        }
+    }
+
+    /// What may go out in this tick on links that are ready.
+    pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(LinkId, MavMessage)> {
+        let mut out = Vec::new();
+        for (link, entries) in self.entries.iter_mut().filter(|(link, _)| ready(link)) {
+            let few = entries.len().min(ENTRIES_A_TICK);
+            out.extend(entries.drain(..few).map(|entry| (*link, entry)));
+        }
+        self.entries.retain(|_, entries| !entries.is_empty());
+        let mut reads = Vec::new();
+        for (link, download) in self.downloads.iter_mut().filter(|(link, _)| ready(link)) {
+            let few = download.pieces.len().min(PIECES_A_TICK);
+            out.extend(download.pieces.drain(..few).map(|piece| (*link, piece)));
+            if download.pieces.is_empty() && download.reading.is_none() && download.at < download.end {
+                reads.push((*link, Action::Read(download.path.clone(), download.at, CHUNK.min(download.end - download.at))));
+            }
+        }
+        for (link, action) in reads {
+            let ticket = self.ask(action);
+            if let Some(download) = self.downloads.get_mut(&link) {
+                download.reading = Some(ticket);
+            }
+        }
+        self.downloads.retain(|_, d| d.reading.is_some() || !d.pieces.is_empty() || d.at < d.end);
+        out
+    }
+}
+
+fn entries(logs: &[Log], first: u16, last: u16) -> VecDeque<MavMessage> {
+    let count = logs.len() as u16;
+    if count == 0 {
+        return [MavMessage::LOG_ENTRY(LOG_ENTRY_DATA::default())].into();
+    }
+    let wanted = logs.iter().enumerate().filter(|(id, _)| (first..=last).contains(&(*id as u16)));
+    wanted
+        .map(|(id, log)| {
+            MavMessage::LOG_ENTRY(LOG_ENTRY_DATA {
+                time_utc: utc_s(log.path.as_str()).unwrap_or(0),
+                size: u32::try_from(log.size).unwrap_or(u32::MAX),
+                id: id as u16,
+                num_logs: count,
+                last_log_num: count - 1,
+            })
+        })
+        .collect()
+}
+
+/// The start of a log from its name, `log/<date>/<hours>_<minutes>_<seconds>...`: seconds since the Unix epoch.
+fn utc_s(path: &str) -> Option<u32> {
+    let mut parts = path.rsplit('/');
+    let (time, date) = (parts.next()?, parts.next()?);
+    let date: jiff::civil::Date = date.parse().ok()?;
+    let field = |at: usize| time.get(at..at + 2)?.parse::<i8>().ok();
+    let time = jiff::civil::Time::new(field(0)?, field(3)?, field(6)?, 0).ok()?;
+    let start = date.to_datetime(time).to_zoned(jiff::tz::TimeZone::UTC).ok()?;
+    u32::try_from(start.timestamp().as_second()).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LINK: LinkId = LinkId(4);
+
+    fn logs() -> Logs {
+        Logs { stored: true, ..Logs::default() }
+    }
+
+    /// Does jobs as a folder with two days and three logs of some bytes would.
+    fn work(logs: &mut Logs, removed: &mut Vec<String>) {
+        while let Some(job) = logs.poll_job() {
+            let outcome = match &job.action {
+                Action::List(path) => Ok(Done::Entries(match path.as_str() {
+                    "log" => vec![Entry::Directory("2026-11-21".into()), Entry::Directory("2026-11-20".into())],
+                    "log/2026-11-20" => vec![Entry::File("15_08_00.ulg".into(), 200), Entry::File("notes.txt".into(), 5)],
+                    _ => vec![Entry::File("09_00_00.ulg".into(), 7_000), Entry::File("10_00_00.ulg".into(), 0)],
+                })),
+                Action::Read(_, at, most) => Ok(Done::Bytes((*at..7_000.min(at + most)).map(|k| k as u8).collect())),
+                Action::Remove(path) => {
+                    removed.push(path.as_str().to_owned());
+                    Ok(Done::Nothing)
+                }
+                other => panic!("{other:?}"),
+            };
+            logs.done(job.ticket, outcome);
+        }
+    }
+
+    fn run(logs: &mut Logs) -> Vec<MavMessage> {
+        let mut out = Vec::new();
+        for _ in 0..200 {
+            work(logs, &mut Vec::new());
+            out.extend(logs.poll(|_| true).into_iter().map(|(_, message)| message));
+        }
+        out
+    }
+
+    #[test]
+    fn exact_logs_of_all_days_are_listed_in_order_with_their_time() {
+        let mut logs = logs();
+        logs.list(LINK, 0, u16::MAX);
+        let entries: Vec<(u16, u16, u32, u32)> = run(&mut logs)
+            .iter()
+            .filter_map(|m| if let MavMessage::LOG_ENTRY(e) = m { Some((e.id, e.num_logs, e.size, e.time_utc)) } else { None })
+            .collect();
+        // 2026-11-20T15:08:00Z and the next day's nine and ten o'clock.
+        let at = 1_795_187_280;
+        assert_eq!(entries, [(0, 3, 200, at), (1, 3, 7_000, at + 64_320), (2, 3, 0, at + 67_920)]);
+        logs.list(LINK, 1, 1);
+        assert_eq!(run(&mut logs).len(), 1, "only what was asked for");
+    }
+
+    #[test]
+    fn exact_a_log_comes_whole_and_in_order_and_a_part_as_asked() {
+        let mut logs = logs();
+        logs.list(LINK, 0, u16::MAX);
+        run(&mut logs);
+        for (at, count, expected) in [(0, u32::MAX, 7_000), (90, 180, 180), (6_990, 90, 10), (7_000, 90, 0)] {
+            logs.read(LINK, 1, at, count);
+            let mut next = at;
+            for message in run(&mut logs) {
+                let MavMessage::LOG_DATA(data) = message else { continue };
+                assert_eq!((data.id, data.ofs), (1, next));
+                assert!(
+                    data.data[..usize::from(data.count)].iter().enumerate().all(|(k, byte)| *byte == (next as usize + k) as u8)
+                );
+                next += u32::from(data.count);
+            }
+            assert_eq!(next - at, expected, "from {at}");
+        }
+        assert!(logs.downloads.is_empty());
+    }
+
+    #[test]
+    fn exact_erasing_removes_the_logs_alone() {
+        let (mut logs, mut removed) = (logs(), Vec::new());
+        logs.erase();
+        work(&mut logs, &mut removed);
+        assert_eq!(removed, ["log/2026-11-20/15_08_00.ulg", "log/2026-11-21/09_00_00.ulg", "log/2026-11-21/10_00_00.ulg"]);
+    }
+
+    #[test]
+    fn exact_without_a_folder_there_are_no_logs_and_no_silence() {
+        let mut logs = Logs::default();
+        logs.list(LINK, 0, u16::MAX);
+        logs.read(LINK, 3, 0, 90);
+        let out = run(&mut logs);
+        assert!(matches!(&out[0], MavMessage::LOG_ENTRY(e) if e.num_logs == 0));
+        assert!(matches!(&out[1], MavMessage::LOG_DATA(d) if d.count == 0));
+    }
+}

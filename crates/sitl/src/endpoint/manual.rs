@@ -1,0 +1,240 @@
+//! Manual control: MANUAL_CONTROL and RC_CHANNELS_OVERRIDE as stick intents, and who of several senders has the sticks. Every change of
+//! hands is told.
+
+use super::LinkId;
+use super::buttons::Presses;
+use super::params::Policy;
+use crate::autopilot::Sticks;
+use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, RC_CHANNELS_OVERRIDE_DATA};
+use spandrel_model::time::SimTime;
+use std::collections::VecDeque;
+
+/// The field's "not used".
+const UNUSED: i16 = i16::MAX;
+/// Somebody whose sticks are ignored is told so this often, s.
+const TELL_EVERY_S: f64 = 5.0;
+/// Pulse lengths of a transmitter's channel, microseconds; what lies outside is no stick (ArduPilot passes it on; we do not).
+pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
+const MIDDLE_US: u16 = 1500;
+/// Channels beside the sticks.
+pub const AUX: usize = 12;
+/// Channels 5 to 16 that nobody overrides, microseconds (ArduPilot's SITL: SIM RC defaults).
+const AUX_US: [u16; AUX] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
+/// Value that releases channels 9 and up; 0 releases those before (MAVLink common).
+const RELEASE_HIGH: u16 = 65_534;
+/// Senders with a throttle from -1000 that are remembered; a flood of names must not fill the memory.
+const FULL_RANGE_MAX: usize = 64;
+/// The gimbal's axis acts when it has moved by more than this share of its way.
+const GIMBAL_STEP: f64 = 0.01;
+/// Bits of `enabled_extensions`.
+const HAS_PITCH: u8 = 1;
+
+/// Who sends: over which link, system, component.
+type Sender = (LinkId, (u8, u8));
+
+/// Who holds the sticks, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Manual {
+    /// A sender that is silent this long has let go of the sticks, s.
+    pub let_go_s: f64,
+    /// Among several senders.
+    pub policy: Policy,
+    holder: Option<Sender>,
+    heard: SimTime,
+    sticks: Sticks,
+    pulses_us: [u16; 4],
+    aux_us: [u16; AUX],
+    /// Senders whose throttle counts from -1000 to 1000.
+    full_range: Vec<Sender>,
+    gimbal: Option<f64>,
+    told: Option<(Sender, SimTime)>,
+    texts: VecDeque<String>,
+    /// Buttons of the holder.
+    pub presses: Presses,
+}
+
+impl Default for Manual {
+    fn default() -> Self {
+        Self {
+            let_go_s: crate::autopilot::Tuning::default().manual_patience_s(),
+            policy: Policy::FirstKeeps,
+            holder: None,
+            heard: SimTime::ZERO,
+            sticks: Sticks::default(),
+            pulses_us: [MIDDLE_US; 4],
+            aux_us: AUX_US,
+            full_range: Vec::new(),
+            gimbal: None,
+            told: None,
+            texts: VecDeque::new(),
+            presses: Presses::default(),
+        }
+    }
+}
+
+impl Manual {
+    /// The sticks, while they are fresh.
+    #[must_use]
+    pub fn fresh(&self, now: SimTime) -> Option<Sticks> {
+        self.holds(now).then_some(self.sticks)
+    }
+
+    /// The sticks as channels of a transmitter, microseconds, while they are fresh.
+    #[must_use]
+    pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
+        self.holds(now).then_some(self.pulses_us)
+    }
+
+    /// Channels 5 to 16, microseconds.
+    #[must_use]
+    pub fn aux_us(&self) -> [u16; AUX] {
+        self.aux_us
+    }
+
+    /// Channels 5 to 16 of an override, from whoever may have the sticks.
+    pub fn take_aux(&mut self, from: Sender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
+        if self.policy == Policy::FirstKeeps && self.holder.is_some_and(|holder| holder != from) && self.holds(now) {
+            return;
+        }
+        let low = [c.chan5_raw, c.chan6_raw, c.chan7_raw, c.chan8_raw];
+        let high =
+            [c.chan9_raw, c.chan10_raw, c.chan11_raw, c.chan12_raw, c.chan13_raw, c.chan14_raw, c.chan15_raw, c.chan16_raw];
+        for (k, us) in low.into_iter().chain(high).enumerate() {
+            let released = if k < low.len() { us == 0 } else { us == RELEASE_HIGH };
+            if released {
+                self.aux_us[k] = AUX_US[k];
+            } else if PULSES_US.contains(&us) {
+                self.aux_us[k] = us;
+            }
+        }
+    }
+
+    /// A link is gone: another sender may get its number.
+    pub fn forget(&mut self, link: LinkId) {
+        self.full_range.retain(|(known, _)| *known != link);
+    }
+
+    fn holds(&self, now: SimTime) -> bool {
+        self.holder.is_some() && (now - self.heard).s() <= self.let_go_s
+    }
+
+    /// The next thing to tell everybody.
+    pub fn poll_text(&mut self) -> Option<String> {
+        self.texts.pop_front()
+    }
+
+    fn take(&mut self, from: Sender, sticks: Sticks, pulses_us: [u16; 4], now: SimTime) -> Option<Sticks> {
+        let another = self.holder.filter(|holder| *holder != from && self.holds(now));
+        if let Some(holder) = another {
+            let moved = [sticks.forward, sticks.right, sticks.up, sticks.yaw].iter().any(|axis| axis.abs() > 0.1);
+            if self.policy == Policy::FirstKeeps || !moved {
+                self.tell_ignored(from, holder, now);
+                return None;
+            }
+        }
+        if self.holder != Some(from) {
+            if self.holder.is_some() {
+                self.texts.push_back(format!("Sticks: {} now has them", name(from)));
+            }
+            self.presses = Presses::default();
+            self.gimbal = None;
+        }
+        (self.holder, self.heard, self.sticks, self.pulses_us) = (Some(from), now, sticks, pulses_us);
+        Some(sticks)
+    }
+
+    fn tell_ignored(&mut self, from: Sender, holder: Sender, now: SimTime) {
+        if self.told.is_none_or(|(known, at)| known != from || (now - at).s() >= TELL_EVERY_S) {
+            self.told = Some((from, now));
+            self.texts.push_back(format!("Sticks of {} ignored: {} has them", name(from), name(holder)));
+        }
+    }
+
+    /// MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its middle, or in -1000..1000
+    /// of a sender that has ever sent a negative one. Anything out of range or not used counts as centred.
+    pub fn manual_control(&mut self, from: Sender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
+        let zero = |value: Option<f64>| value.unwrap_or(0.0);
+        let up = match axis(m.z) {
+            Some(z) if self.counts_from_below(from, z) => z,
+            Some(z) if z >= 0.0 => 2.0 * z - 1.0,
+            _ => 0.0,
+        };
+        let sticks = Sticks { forward: zero(axis(m.x)), right: zero(axis(m.y)), up, yaw: zero(axis(m.r)) };
+        self.take(from, sticks, pulses_of(&sticks), now)
+    }
+
+    /// Whether the middle of a sender's throttle is 0; told once when it shows.
+    fn counts_from_below(&mut self, from: Sender, z: f64) -> bool {
+        let known = self.full_range.contains(&from);
+        if !known && z < 0.0 && self.full_range.len() < FULL_RANGE_MAX {
+            self.full_range.push(from);
+            self.texts.push_back(format!("{}: throttle is -1000 to 1000", name(from)));
+            return true;
+        }
+        known
+    }
+
+    /// The gimbal's axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the holder has moved it. The extension `t` (roll by MAVLink, yaw by
+    /// QGroundControl) moves nothing: the gimbal has neither axis.
+    pub fn gimbal(&mut self, from: Sender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
+        let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
+        let before = self.gimbal.replace(pitch);
+        // Where the axis stands at first is no wish: the gimbal may have been pointed by a command.
+        before.is_some_and(|before| (before - pitch).abs() > GIMBAL_STEP).then_some(pitch)
+    }
+
+    /// Whether a sender has the sticks.
+    #[must_use]
+    pub fn is_holder(&self, from: Sender) -> bool {
+        self.holder == Some(from)
+    }
+
+    /// RC_CHANNELS_OVERRIDE: channels 1 to 4 roll, pitch, throttle, yaw in microseconds. 65535, and what no transmitter sends, leaves a channel as it was, 0 releases it to
+    /// its middle; all four released let go of the sticks. Pitch is reversed as on a transmitter: stick forward is below the middle.
+    pub fn channels(&mut self, from: Sender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
+        let all = [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw];
+        if all.iter().all(|us| *us == 0) {
+            if self.holder == Some(from) {
+                self.holder = None;
+            }
+            return None;
+        }
+        // Nothing in it that a transmitter could send: nobody's sticks.
+        if !all.iter().any(|us| PULSES_US.contains(us)) {
+            return None;
+        }
+        let own = self.holder == Some(from) && self.holds(now);
+        let (before, pulses) = if own { (self.sticks, self.pulses_us) } else { (Sticks::default(), [MIDDLE_US; 4]) };
+        let axis = |us: u16, before: f64| match us {
+            0 => 0.0,
+            us if PULSES_US.contains(&us) => ((f64::from(us) - 1500.0) / 500.0).clamp(-1.0, 1.0),
+            _ => before,
+        };
+        let sticks = Sticks {
+            right: axis(all[0], before.right),
+            forward: -axis(all[1], -before.forward),
+            up: axis(all[2], before.up),
+            yaw: axis(all[3], before.yaw),
+        };
+        let pulse = |k: usize| match all[k] {
+            0 => MIDDLE_US,
+            us if PULSES_US.contains(&us) => us,
+            _ => pulses[k],
+        };
+        self.take(from, sticks, [pulse(0), pulse(1), pulse(2), pulse(3)], now)
+    }
+}
+
+/// Sticks as a transmitter's channels: roll, pitch, throttle, yaw, stick forward below the middle.
+fn pulses_of(s: &Sticks) -> [u16; 4] {
+    [s.right, -s.forward, s.up, s.yaw].map(|axis| (1500.0 + 500.0 * axis).round() as u16)
+}
+
+fn axis(value: i16) -> Option<f64> {
+    (value != UNUSED && (-1000..=1000).contains(&value)).then(|| f64::from(value) / 1000.0)
+}
+
+/// As short as a text's 50 bytes ask: system/component@link.
+fn name((link, (system, component)): Sender) -> String {
+    format!("{system}/{component}@{}", link.0)
+}

@@ -1,0 +1,590 @@
+//! Plans: upload, whole or in part, and download of missions, fences and rally points.
+#![allow(deprecated, reason = "clients still know MISSION_REQUEST alone")]
+
+use super::places::relative;
+use super::view::PlanSummary;
+use super::{areas, items, unnamed};
+use crate::autopilot::MissionStep;
+use crate::autopilot::fence::{Refuge, Zone};
+use crate::autopilot::mission::Unnamed;
+use spandrel_mavlink::dialect::{
+    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MavCmd,
+    MavMessage, MavMissionResult, MavMissionType,
+};
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::time::SimTime;
+
+/// Items that a plan may have.
+const MOST_ITEMS: u16 = 2_000;
+/// A stalled upload is given up after this long, s (clients retry for less).
+const STALL_S: f64 = 10.0;
+/// One in so many requests for a first item that does not come goes out in the other form (estimate: a second at the usual patience).
+const OTHER_FORM_EVERY: u8 = 4;
+/// A silent uploader is asked again after this long, s, as PX4 does it.
+const ASK_AGAIN_S: f64 = 0.25;
+/// One whose answers come sooner is asked again sooner: after so many times its usual delay, but not before this, s. MAVSDK gives an item up
+/// after five half-seconds without a request; at 0.25 s only one repetition fits into each.
+const OVERDUE: f64 = 4.0;
+const ASK_AGAIN_SOONEST_S: f64 = 0.12;
+/// Weight of the newest delay in the usual one.
+const DELAY_WEIGHT: f64 = 0.25;
+/// So often the acknowledgement of an upload that has lost something is sent again.
+const ACKNOWLEDGED_AGAIN: u8 = 4;
+
+/// Who speaks: system and component.
+pub type Peer = (u8, u8);
+
+/// Plans and a running upload.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plans {
+    kept: [Vec<MISSION_ITEM_INT_DATA>; 3],
+    ids: [u32; 3],
+    upload: Option<Upload>,
+    /// Who finished an upload last, with which item: the acknowledgement may have been lost.
+    done: Option<(Peer, MavMissionType, u16)>,
+    echo: Option<Echo>,
+    /// Seconds of simulation time in a second of the uploader's.
+    pace: f64,
+    /// Items of the wire's mission before the first that is flown.
+    lead: u16,
+    /// Items that ArduPilot alone has are taken: splines, delays until a time of day.
+    splines: bool,
+    /// What is 0 in an item is where the vehicle is then.
+    zero_is_here: bool,
+    /// In which form items are asked for first.
+    form: Form,
+}
+
+/// The two messages by which an item of an upload is asked for. Clients know both, or one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Form {
+    /// MISSION_REQUEST_INT.
+    #[default]
+    Int,
+    /// MISSION_REQUEST.
+    Float,
+}
+
+impl Form {
+    fn other(self) -> Self {
+        match self {
+            Self::Int => Self::Float,
+            Self::Float => Self::Int,
+        }
+    }
+}
+
+impl Default for Plans {
+    fn default() -> Self {
+        Self {
+            kept: Default::default(),
+            ids: [0; 3],
+            upload: None,
+            done: None,
+            echo: None,
+            pace: 1.0,
+            lead: 0,
+            splines: false,
+            zero_is_here: false,
+            form: Form::Int,
+        }
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Upload {
+    from: Peer,
+    kind: MavMissionType,
+    items: Vec<MISSION_ITEM_INT_DATA>,
+    /// The items replace a part of the plan, from this place on.
+    part: bool,
+    first: u16,
+    count: u16,
+    heard: SimTime,
+    asked: SimTime,
+    /// Something had to be asked for again: the link loses datagrams.
+    loses: bool,
+    form: Form,
+    /// So it is for the item that is waited for: its delay tells nothing.
+    asked_again: bool,
+    /// Requests since the last item without an answer.
+    unanswered: u8,
+    /// Usual time from a request to its item, s.
+    delay_s: Option<f64>,
+}
+
+impl Upload {
+    fn begin(from: Peer, kind: MavMissionType, form: Form, now: SimTime) -> Self {
+        Self {
+            from,
+            kind,
+            items: Vec::new(),
+            part: false,
+            first: 0,
+            count: 0,
+            heard: now,
+            asked: now,
+            loses: false,
+            form,
+            asked_again: false,
+            unanswered: 0,
+            delay_s: None,
+        }
+    }
+
+    /// An answer is overdue this long after the request, s.
+    fn patience_s(&self, pace: f64) -> f64 {
+        let usual_s = self.delay_s.map_or(ASK_AGAIN_S * pace, |delay_s| OVERDUE * delay_s);
+        usual_s.clamp(ASK_AGAIN_SOONEST_S * pace, ASK_AGAIN_S * pace)
+    }
+
+    /// The item that was waited for has come.
+    fn answered(&mut self, now: SimTime) {
+        self.unanswered = 0;
+        if !std::mem::take(&mut self.asked_again) {
+            let delay_s = (now - self.asked).s();
+            self.delay_s = Some(self.delay_s.map_or(delay_s, |usual_s| usual_s + DELAY_WEIGHT * (delay_s - usual_s)));
+        }
+        self.asked = now;
+    }
+}
+
+/// The acknowledgement of an upload over a link that loses datagrams. It is sent again: clients only wait for it (MAVSDK), so that a lost
+/// one would undo an upload that was complete.
+#[derive(Debug, Clone, PartialEq)]
+struct Echo {
+    to: Peer,
+    message: MavMessage,
+    sent: SimTime,
+    left: u8,
+}
+
+/// What came of a message.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reply {
+    /// Answer the sender.
+    Say(MavMessage),
+    /// A plan is complete or gone: answer, and let the autopilot have it.
+    New(MavMissionType, MavMessage),
+    /// Nothing.
+    Nothing,
+}
+
+fn slot(kind: MavMissionType) -> Option<usize> {
+    match kind {
+        MavMissionType::MAV_MISSION_TYPE_MISSION => Some(0),
+        MavMissionType::MAV_MISSION_TYPE_FENCE => Some(1),
+        MavMissionType::MAV_MISSION_TYPE_RALLY => Some(2),
+        MavMissionType::MAV_MISSION_TYPE_ALL => None,
+    }
+}
+
+/// An acknowledgement to a peer.
+#[must_use]
+pub fn ack(to: Peer, kind: MavMissionType, result: MavMissionResult) -> MavMessage {
+    ack_with(to, kind, result, 0)
+}
+
+/// An acknowledgement with the id of the plan that is accepted.
+fn ack_with(to: Peer, kind: MavMissionType, result: MavMissionResult, opaque_id: u32) -> MavMessage {
+    MavMessage::MISSION_ACK(MISSION_ACK_DATA {
+        target_system: to.0,
+        target_component: to.1,
+        mavtype: result,
+        mission_type: kind,
+        opaque_id,
+    })
+}
+
+/// A plan's id: the checksum of its items, never 0 for a plan that has some.
+fn id_of(items: &[MISSION_ITEM_INT_DATA]) -> u32 {
+    if items.is_empty() {
+        return 0;
+    }
+    let mut crc = crc32fast::Hasher::new();
+    for item in items {
+        let whole = [item.x, item.y, item.command as i32, item.frame as i32];
+        let real = [item.param1, item.param2, item.param3, item.param4, item.z];
+        whole.iter().for_each(|value| crc.update(&value.to_le_bytes()));
+        real.iter().for_each(|value| crc.update(&value.to_bits().to_le_bytes()));
+    }
+    crc.finalize().max(1)
+}
+
+impl Plans {
+    /// No plans yet; so many items of the wire's missions (home) are not flown. What is kept is
+    /// numbered without them.
+    #[must_use]
+    pub fn led_by(lead: u16) -> Self {
+        Self { lead, ..Self::default() }
+    }
+
+    /// Whether splines and delays until a time of day are taken in missions.
+    #[must_use]
+    pub fn with_splines(self, splines: bool) -> Self {
+        Self { splines, ..self }
+    }
+
+    /// Whether 0 in an item is where the vehicle is then.
+    #[must_use]
+    pub fn with_zero_as_here(self, zero_is_here: bool) -> Self {
+        Self { zero_is_here, ..self }
+    }
+
+    /// The form in which items are asked for first.
+    #[must_use]
+    pub fn asking_by(self, form: Form) -> Self {
+        Self { form, ..self }
+    }
+
+    /// The item as it is judged and flown: with a place in the stead of one that is left open.
+    fn filled(&self, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSION_ITEM_INT_DATA {
+        if self.zero_is_here { unnamed::filled(item, plane) } else { item.clone() }
+    }
+
+    /// What each item of the mission leaves open.
+    #[must_use]
+    pub fn unnamed(&self) -> Vec<Unnamed> {
+        if self.zero_is_here { self.kept[0].iter().map(unnamed::of).collect() } else { Vec::new() }
+    }
+
+    /// An uploader has sent an item in a form: it is asked in the same one, unless the autopilot knows only one.
+    pub fn note_form(&mut self, from: Peer, form: Form) {
+        if let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && self.form == Form::Int) {
+            upload.form = form;
+        }
+    }
+
+    /// An uploader does not know the form in which it was asked: the question in the other one.
+    pub fn ask_otherwise(&mut self, from: Peer, now: SimTime) -> Option<MavMessage> {
+        let upload = self.upload.as_mut().filter(|u| u.from == from)?;
+        upload.form = upload.form.other();
+        upload.asked = now;
+        Some(upload.question())
+    }
+
+    /// The fence names a place to return to.
+    #[must_use]
+    pub fn has_fence_return(&self) -> bool {
+        self.kept[1].iter().any(areas::is_return)
+    }
+
+    /// Items of a plan as the wire counts them.
+    fn count(&self, kind: MavMissionType, slot: usize) -> u16 {
+        let kept = self.kept[slot].len() as u16;
+        if kept == 0 { 0 } else { kept + self.lead(kind) }
+    }
+
+    /// Items of a plan of this kind that are not kept.
+    fn lead(&self, kind: MavMissionType) -> u16 {
+        if kind == MavMissionType::MAV_MISSION_TYPE_MISSION { self.lead } else { 0 }
+    }
+
+    /// Whether this is home's item of a mission that is there.
+    #[must_use]
+    pub fn is_home(&self, kind: MavMissionType, seq: u16) -> bool {
+        seq < self.lead(kind) && !self.kept[0].is_empty()
+    }
+
+    /// Uploaders that are not kept in step take longer by this factor.
+    pub fn set_pace(&mut self, pace: f64) {
+        self.pace = pace;
+    }
+
+    /// Items of mission, fence and rally points, as parameters show them.
+    #[must_use]
+    pub fn totals(&self) -> [u16; 3] {
+        [self.count(MavMissionType::MAV_MISSION_TYPE_MISSION, 0), self.kept[1].len() as u16, self.kept[2].len() as u16]
+    }
+
+    /// What stations see of the plans.
+    #[must_use]
+    pub fn summary(&self) -> PlanSummary {
+        PlanSummary { mission_items: self.kept[0].len() as u16, ids: self.ids, lead: self.lead }
+    }
+
+    /// The fence's areas.
+    #[must_use]
+    pub fn zones(&self, plane: &LocalPlane) -> Vec<Zone> {
+        areas::zones(&self.kept[1], plane)
+    }
+
+    /// The rally points.
+    #[must_use]
+    pub fn refuges(&self, plane: &LocalPlane, home_up_m: f64) -> Vec<Refuge> {
+        areas::refuges(&self.kept[2], plane, home_up_m)
+    }
+
+    /// Items of the mission.
+    #[must_use]
+    pub fn mission(&self) -> &[MISSION_ITEM_INT_DATA] {
+        &self.kept[0]
+    }
+
+    /// Somebody wants the list.
+    #[must_use]
+    pub fn list(&mut self, from: Peer, kind: MavMissionType) -> MavMessage {
+        self.goes_on(from);
+        let Some(slot) = slot(kind) else { return ack(from, kind, MavMissionResult::MAV_MISSION_UNSUPPORTED) };
+        MavMessage::MISSION_COUNT(MISSION_COUNT_DATA {
+            count: self.count(kind, slot),
+            target_system: from.0,
+            target_component: from.1,
+            mission_type: kind,
+            opaque_id: self.ids[slot],
+        })
+    }
+
+    /// Somebody wants one item.
+    #[must_use]
+    pub fn item(&self, from: Peer, kind: MavMissionType, seq: u16) -> MavMessage {
+        let index = seq.checked_sub(self.lead(kind)).map(usize::from);
+        let item = slot(kind).zip(index).and_then(|(slot, index)| self.kept[slot].get(index));
+        match item {
+            Some(item) => {
+                let mut item = renumbered(item.clone(), i32::from(self.lead(kind)));
+                (item.target_system, item.target_component) = from;
+                MavMessage::MISSION_ITEM_INT(item)
+            }
+            None => ack(from, kind, MavMissionResult::MAV_MISSION_INVALID_SEQUENCE),
+        }
+    }
+
+    /// A peer says something new about plans: it has its acknowledgement, or waits for it no more.
+    fn goes_on(&mut self, from: Peer) {
+        self.echo.take_if(|echo| echo.to == from);
+    }
+
+    /// Somebody begins an upload. A second station in the middle of one is refused.
+    pub fn begin(&mut self, from: Peer, kind: MavMissionType, count: u16, now: SimTime) -> Reply {
+        self.goes_on(from);
+        let refuse = |result| Reply::Say(ack(from, kind, result));
+        if self.is_busy(from, now) {
+            return refuse(MavMissionResult::MAV_MISSION_DENIED);
+        }
+        let Some(slot) = slot(kind) else { return refuse(MavMissionResult::MAV_MISSION_UNSUPPORTED) };
+        if count > MOST_ITEMS {
+            return refuse(MavMissionResult::MAV_MISSION_NO_SPACE);
+        }
+        self.done = None;
+        if count == 0 {
+            self.upload = None;
+            self.kept[slot].clear();
+            self.ids[slot] = 0;
+            let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
+            return Reply::New(kind, done);
+        }
+        let upload = Upload { count, ..Upload::begin(from, kind, self.form, now) };
+        Reply::Say(self.upload.insert(upload).question())
+    }
+
+    /// Somebody replaces the items from `first` to `last`, which are there.
+    pub fn begin_part(&mut self, from: Peer, kind: MavMissionType, (first, last): (i16, i16), now: SimTime) -> Reply {
+        self.goes_on(from);
+        let refuse = |result| Reply::Say(ack(from, kind, result));
+        if self.is_busy(from, now) {
+            return refuse(MavMissionResult::MAV_MISSION_DENIED);
+        }
+        let Some(slot) = slot(kind) else { return refuse(MavMissionResult::MAV_MISSION_UNSUPPORTED) };
+        let known = self.count(kind, slot);
+        let (Ok(first), Ok(last)) = (u16::try_from(first), u16::try_from(last)) else {
+            return refuse(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE);
+        };
+        if first > last || last >= known {
+            return refuse(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE);
+        }
+        self.done = None;
+        let upload = Upload { part: true, first, count: last - first + 1, ..Upload::begin(from, kind, self.form, now) };
+        Reply::Say(self.upload.insert(upload).question())
+    }
+
+    /// Somebody else is in the middle of an upload.
+    fn is_busy(&self, from: Peer, now: SimTime) -> bool {
+        self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.heard).s() < STALL_S * self.pace)
+    }
+
+    /// An item of an upload.
+    pub fn receive(&mut self, from: Peer, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, now: SimTime) -> Reply {
+        let lead = self.lead(item.mission_type);
+        let judged = self.filled(item, plane);
+        let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && u.kind == item.mission_type) else {
+            let result = if self.is_last_again(from, item) {
+                MavMissionResult::MAV_MISSION_ACCEPTED
+            } else {
+                MavMissionResult::MAV_MISSION_ERROR
+            };
+            return Reply::Say(ack(from, item.mission_type, result));
+        };
+        upload.heard = now;
+        let wanted = upload.first + upload.items.len() as u16;
+        if item.seq != wanted {
+            // Heard before or out of turn. The one that is missing has been asked for; asking at every echo would double all that follows,
+            // and clients that count repetitions give up. Its time comes in `remind`.
+            return Reply::Nothing;
+        }
+        upload.answered(now);
+        let kept = slot(upload.kind).map_or(0, |slot| self.kept[slot].len());
+        let total = if upload.part { kept as u16 + lead } else { upload.count };
+        // Home is the vehicle's own, whatever is sent for it.
+        let spline = item.command == MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT && !self.splines;
+        let day = item.command == MavCmd::MAV_CMD_NAV_DELAY && item.param1 < 0.0 && !self.splines;
+        let unknown = spline.then_some(MavMissionResult::MAV_MISSION_UNSUPPORTED);
+        let unknown = unknown.or(day.then_some(MavMissionResult::MAV_MISSION_INVALID_PARAM1));
+        let refusal = if wanted < lead { None } else { unknown.or_else(|| items::legal(&judged, lead..total, plane).err()) };
+        if let Some(result) = refusal {
+            let kind = upload.kind;
+            self.upload = None;
+            return Reply::Say(ack(from, kind, result));
+        }
+        let mut item = item.clone();
+        item.current = 0;
+        upload.items.push(item);
+        if (upload.items.len() as u16) < upload.count {
+            return Reply::Say(upload.question());
+        }
+        self.upload.take().map_or(Reply::Nothing, |upload| self.complete(upload, now))
+    }
+
+    /// All items have come.
+    fn complete(&mut self, upload: Upload, now: SimTime) -> Reply {
+        let Upload { from, kind, items, first, part, loses, .. } = upload;
+        let Some(slot) = slot(kind) else { return Reply::Nothing };
+        let lead = self.lead(kind);
+        let mut whole = if part { self.kept[slot].clone() } else { Vec::new() };
+        let last = first + items.len().saturating_sub(1) as u16;
+        let flown = items.into_iter().skip(usize::from(lead.saturating_sub(first)));
+        let items: Vec<_> = flown.map(|item| renumbered(item, -i32::from(lead))).collect();
+        let first = usize::from(first.saturating_sub(lead));
+        let until = (first + items.len()).min(whole.len());
+        whole.splice(first.min(until)..until, items);
+        if let Err(result) = areas::whole(&whole).and_then(|()| items::whole(&whole)) {
+            return Reply::Say(ack(from, kind, result));
+        }
+        self.ids[slot] = id_of(&whole);
+        self.kept[slot] = whole;
+        self.done = Some((from, kind, last));
+        let done = ack_with(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED, self.ids[slot]);
+        self.echo = loses.then(|| Echo { to: from, message: done.clone(), sent: now, left: ACKNOWLEDGED_AGAIN });
+        Reply::New(kind, done)
+    }
+
+    /// The last item of a finished upload once more: its sender has not heard the acknowledgement.
+    fn is_last_again(&self, from: Peer, item: &MISSION_ITEM_INT_DATA) -> bool {
+        let lead = self.lead(item.mission_type);
+        let index = item.seq.checked_sub(lead).map(usize::from);
+        let kept = slot(item.mission_type).zip(index).and_then(|(slot, index)| self.kept[slot].get(index));
+        // Not-a-number fields differ from themselves: the place and the command tell.
+        let same = |last: &MISSION_ITEM_INT_DATA| {
+            (last.seq + lead, last.command, last.frame, last.x, last.y) == (item.seq, item.command, item.frame, item.x, item.y)
+        };
+        // Home is not kept: whatever is sent for it is the same.
+        self.done == Some((from, item.mission_type, item.seq)) && (item.seq < lead || kept.is_some_and(same))
+    }
+
+    /// An item that the dialect cannot hold (unknown command or frame) ends the upload.
+    pub fn receive_unknown(&mut self, from: Peer) -> Reply {
+        match self.upload.take_if(|u| u.from == from) {
+            Some(upload) => Reply::Say(ack(from, upload.kind, MavMissionResult::MAV_MISSION_UNSUPPORTED)),
+            None => Reply::Nothing,
+        }
+    }
+
+    /// Empties plans.
+    pub fn clear(&mut self, from: Peer, kind: MavMissionType) -> Reply {
+        self.goes_on(from);
+        self.upload.take_if(|u| u.from == from);
+        self.done = None;
+        match slot(kind) {
+            Some(slot) => {
+                self.kept[slot].clear();
+                self.ids[slot] = 0;
+            }
+            None => {
+                self.kept.iter_mut().for_each(Vec::clear);
+                self.ids = [0; 3];
+            }
+        }
+        let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
+        Reply::New(kind, done)
+    }
+
+    /// The uploader has given up or finished.
+    pub fn acknowledged(&mut self, from: Peer) {
+        self.upload.take_if(|u| u.from == from);
+    }
+
+    /// Asks a silent uploader again, gives up a stalled upload, or acknowledges one again; returns whom to send what.
+    pub fn remind(&mut self, now: SimTime) -> Option<(Peer, MavMessage)> {
+        let Some(upload) = self.upload.as_mut() else { return self.acknowledge_again(now) };
+        let (from, kind) = (upload.from, upload.kind);
+        if (now - upload.heard).s() > STALL_S * self.pace {
+            self.upload = None;
+            return Some((from, ack(from, kind, MavMissionResult::MAV_MISSION_OPERATION_CANCELLED)));
+        }
+        if (now - upload.asked).s() > upload.patience_s(self.pace) {
+            upload.asked = now;
+            (upload.loses, upload.asked_again) = (true, true);
+            upload.unanswered = upload.unanswered.saturating_add(1);
+            // A client that has sent none yet may know only the other form. On a link that loses datagrams most know the first.
+            if upload.items.is_empty() && self.form == Form::Int {
+                upload.form = if upload.unanswered.is_multiple_of(OTHER_FORM_EVERY) { Form::Float } else { Form::Int };
+            }
+            return Some((from, upload.question()));
+        }
+        None
+    }
+
+    fn acknowledge_again(&mut self, now: SimTime) -> Option<(Peer, MavMessage)> {
+        let echo = self.echo.as_mut()?;
+        if (now - echo.sent).s() <= ASK_AGAIN_S * self.pace {
+            return None;
+        }
+        (echo.sent, echo.left) = (now, echo.left - 1);
+        let again = (echo.to, echo.message.clone());
+        self.echo.take_if(|echo| echo.left == 0);
+        Some(again)
+    }
+
+    /// The mission as the autopilot flies it. `home_m` is home about the origin.
+    #[must_use]
+    pub fn steps(&self, plane: &LocalPlane, home_m: Option<Vec3<Ned>>) -> Vec<MissionStep> {
+        let all = &self.kept[0];
+        let home_up_m = home_m.map_or(0.0, |home| -home.down());
+        let step = |k| Some(items::step(&self.filled(&items::aimed(all, k)?, plane), plane, home_up_m));
+        let mut steps: Vec<MissionStep> = (0..all.len()).filter_map(step).collect();
+        unnamed::expect(&mut steps, &self.unnamed(), home_m);
+        steps
+    }
+
+    /// Which items of the mission give their height over home.
+    #[must_use]
+    pub fn over_home(&self) -> Vec<bool> {
+        self.kept[0].iter().map(|item| relative(item.frame) == Some(true)).collect()
+    }
+}
+
+/// An item with its number, and that of a jump's aim, moved by so much.
+fn renumbered(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA {
+    item.seq = (i32::from(item.seq) + by).max(0) as u16;
+    if item.command == MavCmd::MAV_CMD_DO_JUMP {
+        item.param1 = (item.param1 + by as f32).max(0.0);
+    }
+    item
+}
+
+impl Upload {
+    /// What asks for the next item.
+    fn question(&self) -> MavMessage {
+        let seq = self.first + self.items.len() as u16;
+        let ((target_system, target_component), mission_type) = (self.from, self.kind);
+        match self.form {
+            Form::Int => {
+                MavMessage::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA { seq, target_system, target_component, mission_type })
+            }
+            Form::Float => {
+                MavMessage::MISSION_REQUEST(MISSION_REQUEST_DATA { seq, target_system, target_component, mission_type })
+            }
+        }
+    }
+}

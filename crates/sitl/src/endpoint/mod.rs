@@ -1,0 +1,424 @@
+//! The vehicle's MAVLink face, in one of three flavours. Datagrams of every link come in, what is due goes out; nothing here reads a clock.
+
+mod areas;
+mod arrival;
+pub mod budget;
+pub mod buttons;
+pub mod calibration;
+pub mod camera;
+mod camera_params;
+pub mod commands;
+mod context;
+mod control;
+pub mod events;
+mod exchange;
+pub mod files;
+pub mod flavour;
+mod ftp;
+pub mod gimbal;
+pub mod guard;
+mod homes;
+mod items;
+pub mod lamp;
+pub mod link;
+pub mod logs;
+pub mod manual;
+pub mod mission;
+mod offboard;
+pub mod params;
+pub mod payload;
+mod persistence;
+mod places;
+mod receive;
+mod scoring;
+mod shell;
+mod speak;
+mod storage;
+pub mod streams;
+mod texts;
+mod unnamed;
+pub mod view;
+
+use crate::autopilot::Autopilot;
+pub use context::{Context, Injection};
+use flavour::Flavour;
+use guard::Guard;
+use link::Link;
+pub use link::Step;
+use manual::Manual;
+use mission::{Form, Plans};
+use params::{Pack, Params};
+pub use payload::Payload;
+pub use receive::HANDLED;
+use scoring::TruthRates;
+use spandrel_mavlink::dialect::{MavMessage, MavMissionType, MavSeverity, TIMESYNC_DATA};
+use spandrel_mavlink::router::Router;
+use spandrel_model::time::SimTime;
+use std::collections::{BTreeMap, VecDeque};
+use storage::Storage;
+pub use storage::Wish;
+use streams::AUTOPILOT;
+use view::{Scoring, View};
+
+/// A link's name, chosen by the shell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct LinkId(pub u32);
+
+/// What stands behind a link; decides the usual rates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LinkKind {
+    /// A ground station over UDP.
+    GroundStation,
+    /// An SDK or companion computer.
+    Sdk,
+    /// A sidecar such as the monitor.
+    Payload,
+    /// A ground station over TCP.
+    Tcp,
+    /// A radio or a cable on a serial port.
+    Serial,
+}
+
+/// A datagram to be sent.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Transmit {
+    /// Over which link.
+    pub link: LinkId,
+    /// Whole frames.
+    pub bytes: Vec<u8>,
+}
+
+/// The endpoint's state.
+#[derive(Debug, Clone)]
+pub struct Endpoint {
+    system_id: u8,
+    flavour: &'static Flavour,
+    /// The flavour's number of the mode that was asked for last: several may mean the same to us.
+    chosen: u32,
+    links: BTreeMap<LinkId, Link>,
+    router: Router<LinkId>,
+    guard: Option<Guard>,
+    /// The file server.
+    pub files: files::Server,
+    /// What the camera's component has to be fetched.
+    camera_files: files::Server,
+    /// The flight logs.
+    pub logs: logs::Logs,
+    params: Params,
+    storage: Storage,
+    restart: bool,
+    injections: VecDeque<Injection>,
+    /// Manual control gets through.
+    pub sticks_pass: bool,
+    plans: Plans,
+    manual: Manual,
+    /// Camera, gimbal, lamp.
+    pub payload: Payload,
+    texts: Vec<(MavSeverity, String)>,
+    text_id: u16,
+    param_lists: BTreeMap<LinkId, VecDeque<usize>>,
+    pace: f64,
+    told_pace: f64,
+    complained: SimTime,
+    truth_rates: TruthRates,
+    sent: Scoring,
+    bad_bytes: u64,
+    gone_dropped: u64,
+    row_buffer: Vec<usize>,
+    flight: view::Flight,
+    was_armed: bool,
+    fence_took: u16,
+    /// What has acted on the vehicle and is not in the digest yet.
+    acted: Vec<u8>,
+    /// The last position of the mode switch, from 0.
+    mode_switch: Option<usize>,
+    /// The calibration that runs.
+    calibration: Option<calibration::Calibration>,
+    /// Events sent to ground stations.
+    events: events::Events,
+    /// The console.
+    shell: shell::Shell,
+}
+
+/// Texts that wait for the next tick; a flood of refusals says no more than these.
+const MOST_TEXTS: usize = 32;
+/// Set-points come many times a second: what is wrong with them is told this often.
+const COMPLAIN_EVERY: SimTime = SimTime::from_ms(1_000);
+
+impl Endpoint {
+    /// An endpoint without links.
+    #[must_use]
+    pub fn new(system_id: u8, pack: Pack, flavour: &'static Flavour) -> Self {
+        let params = Params::new(system_id, pack, flavour.params);
+        Self {
+            system_id,
+            flavour,
+            chosen: 0,
+            links: BTreeMap::new(),
+            router: Router::new(),
+            guard: None,
+            files: metadata_server(flavour),
+            camera_files: camera_server(),
+            logs: logs::Logs::default(),
+            storage: Storage::new(params.clone()),
+            restart: false,
+            injections: VecDeque::new(),
+            sticks_pass: true,
+            params,
+            plans: Plans::led_by(u16::from(flavour.home_item))
+                .with_splines(flavour.splines)
+                .with_zero_as_here(flavour.zero_is_here)
+                .asking_by(if flavour.float_items { Form::Float } else { Form::Int }),
+            manual: Manual::default(),
+            payload: Payload::new(),
+            texts: Vec::new(),
+            text_id: 0,
+            param_lists: BTreeMap::new(),
+            pace: 1.0,
+            told_pace: 1.0,
+            complained: SimTime::ZERO.saturating_sub(COMPLAIN_EVERY),
+            truth_rates: TruthRates::new(),
+            sent: Scoring::default(),
+            bad_bytes: 0,
+            gone_dropped: 0,
+            row_buffer: Vec::new(),
+            flight: view::Flight::default(),
+            was_armed: false,
+            fence_took: 0,
+            acted: Vec::new(),
+            mode_switch: None,
+            calibration: None,
+            events: events::Events::default(),
+            shell: shell::Shell::default(),
+        }
+    }
+
+    /// A peer is there from now on.
+    pub fn open(&mut self, id: LinkId, kind: LinkKind, lockstep: bool, now: SimTime) {
+        let mut link = Link::new(kind, lockstep, self.system_id, self.flavour.must_ask(kind), now);
+        link.sign_with(self.guard.as_ref().map(|guard| guard.signer(id.0 as u8)));
+        self.links.insert(id, link);
+    }
+
+    /// Nothing but answers goes out on a link until a heartbeat has come over it: its sender's address may be forged, and streams would
+    /// make a flood of every datagram.
+    pub fn await_heartbeat(&mut self, id: LinkId) {
+        if let Some(link) = self.links.get_mut(&id) {
+            link.quiet = true;
+        }
+    }
+
+    /// The links that get what nobody has asked for.
+    fn listeners(&mut self) -> impl Iterator<Item = &mut Link> {
+        self.links.values_mut().filter(|link| !link.quiet)
+    }
+
+    /// A link carries no more than so many bytes a second: streams slow down, lists wait, the values for the scoring are left out.
+    pub fn limit(&mut self, id: LinkId, bytes_s: f64, now: SimTime) {
+        if let Some(link) = self.links.get_mut(&id) {
+            link.limit(bytes_s, now);
+        }
+    }
+
+    /// Frames that found no room on a link, or were more than a peer may send to the others.
+    #[must_use]
+    pub fn dropped(&self) -> u64 {
+        self.gone_dropped + self.links.values().map(Link::dropped).sum::<u64>()
+    }
+
+    /// A peer is gone.
+    pub fn close(&mut self, id: LinkId) {
+        self.gone_dropped += self.links.remove(&id).map_or(0, |link| link.dropped());
+        self.router.close(id);
+        self.param_lists.remove(&id);
+        self.files.forget(id);
+        self.camera_files.forget(id);
+        self.logs.forget(id);
+        self.manual.forget(id);
+        self.shell.forget(id);
+    }
+
+    /// Names and present values of all parameters, in the order of their names.
+    pub fn parameters(&self) -> impl Iterator<Item = (&'static str, params::Value)> {
+        (0..self.params.count()).filter_map(|index| self.params.at(index))
+    }
+
+    /// Whose interface is spoken.
+    #[must_use]
+    pub fn flavour(&self) -> &'static Flavour {
+        self.flavour
+    }
+
+    /// The flavour's number of the mode that was asked for last.
+    #[must_use]
+    pub fn chosen(&self) -> u32 {
+        self.chosen
+    }
+
+    /// MAVLink system id.
+    #[must_use]
+    pub fn system_id(&self) -> u8 {
+        self.system_id
+    }
+
+    /// The flight of now, or the last.
+    #[must_use]
+    pub fn flight(&self) -> view::Flight {
+        self.flight
+    }
+
+    /// A fresh autopilot gets what its flavour has otherwise than it.
+    pub fn prepare(&mut self, autopilot: &mut Autopilot) {
+        if !self.flavour.params.defaults.is_empty() {
+            self.apply_parameters(autopilot);
+        }
+    }
+
+    /// True once after somebody has asked for a restart of the autopilot's software.
+    pub fn take_restart(&mut self) -> bool {
+        std::mem::take(&mut self.restart)
+    }
+
+    /// The next fault to put in.
+    pub fn poll_injection(&mut self) -> Option<Injection> {
+        self.injections.pop_front()
+    }
+
+    /// What the parameters say of the world: wind and radio.
+    #[must_use]
+    pub fn world(&self) -> params::World {
+        self.params.world()
+    }
+
+    /// What is behind a link.
+    #[must_use]
+    pub fn kind(&self, id: LinkId) -> Option<(LinkKind, bool)> {
+        self.links.get(&id).map(|link| (link.kind, link.lockstep))
+    }
+
+    /// A fresh autopilot gets parameters and plans; links get their usual rates.
+    pub fn boot(&mut self, view: &View, autopilot: &mut Autopilot) {
+        self.apply_parameters(autopilot);
+        exchange::hand_over(self, MavMissionType::MAV_MISSION_TYPE_ALL, view, autopilot);
+        for link in self.links.values_mut() {
+            link.usual_rates(view.now);
+        }
+        self.tell(MavSeverity::MAV_SEVERITY_INFO, "Autopilot restarted");
+    }
+
+    /// Links that time waits for.
+    pub fn in_step(&self) -> impl Iterator<Item = LinkId> {
+        self.links.iter().filter(|(_, link)| link.is_waited_for()).map(|(id, _)| *id)
+    }
+
+    /// Links that are kept in step, or will be from their first answer on: how far each is, and whether anything has come from it.
+    pub fn stepped(&self) -> impl Iterator<Item = (LinkId, Step, bool)> {
+        self.links.iter().filter(|(_, link)| link.lockstep).map(|(id, link)| (*id, link.step, link.heard))
+    }
+
+    /// A peer has answered: time waits for it from now on.
+    pub fn join(&mut self, id: LinkId) {
+        if let Some(link) = self.links.get_mut(&id) {
+            link.step = Step::Joined;
+        }
+    }
+
+    /// Time does not wait for a peer's first answer any longer.
+    pub fn serve_in_real_time(&mut self, id: LinkId) {
+        if let Some(link) = self.links.get_mut(&id).filter(|link| link.step == Step::Awaited) {
+            link.step = Step::Late;
+        }
+    }
+
+    /// Something has come from a peer.
+    pub fn note_heard(&mut self, id: LinkId) {
+        if let Some(link) = self.links.get_mut(&id) {
+            link.heard = true;
+        }
+    }
+
+    /// Bytes that belonged to no frame, all links together.
+    #[must_use]
+    pub fn bad_bytes(&self) -> u64 {
+        self.bad_bytes
+    }
+
+    /// What stations see of the plans.
+    #[must_use]
+    pub fn plans(&self) -> view::PlanSummary {
+        self.plans.summary()
+    }
+
+    /// The sticks, while they are fresh.
+    #[must_use]
+    pub fn sticks(&self, now: SimTime) -> Option<crate::autopilot::Sticks> {
+        self.manual.fresh(now)
+    }
+
+    /// The same as channels of a transmitter, microseconds.
+    #[must_use]
+    pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
+        self.manual.pulses_us(now)
+    }
+
+    /// Channels 5 to 16 of a transmitter, microseconds.
+    #[must_use]
+    pub fn aux_us(&self) -> [u16; manual::AUX] {
+        self.manual.aux_us()
+    }
+
+    /// Seconds of simulation time in a second of the clients' time. The limits of clients that are not kept in step grow by it, and every
+    /// log says so: a text now, and NAMED_VALUE_FLOAT `pace` beside the other slow values.
+    pub fn set_pace(&mut self, pace: f64, autopilot: &mut Autopilot) {
+        self.pace = pace;
+        self.plans.set_pace(pace);
+        autopilot.tuning.client_pace = pace;
+        self.manual.let_go_s = autopilot.tuning.manual_patience_s();
+    }
+
+    /// Says what is wrong with a stream of messages, at most once a second.
+    fn complain(&mut self, text: &str, now: SimTime) {
+        if now - self.complained >= COMPLAIN_EVERY {
+            self.complained = now;
+            self.tell(MavSeverity::MAV_SEVERITY_CRITICAL, text);
+        }
+    }
+
+    /// Asks every peer in step for its answer.
+    pub fn ask_step(&mut self, now: SimTime) {
+        let message = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 0, ts1: now.ns(), target_system: 0, target_component: 0 });
+        for link in self.links.values_mut().filter(|l| l.lockstep) {
+            link.asked = Some(now.ns());
+            link.send(AUTOPILOT, &message);
+        }
+    }
+
+    /// The next datagram.
+    pub fn poll(&mut self) -> Option<Transmit> {
+        self.links.iter_mut().find_map(|(id, link)| link.poll().map(|bytes| Transmit { link: *id, bytes }))
+    }
+
+    /// Says something to everybody.
+    pub fn tell(&mut self, severity: MavSeverity, text: &str) {
+        if self.texts.len() < MOST_TEXTS {
+            self.texts.push((severity, text.to_string()));
+        }
+    }
+}
+
+/// A file server with nothing but what describes the vehicle.
+fn metadata_server(flavour: &Flavour) -> files::Server {
+    let mut server = files::Server::default();
+    let params::metadata::Files { general, parameter, events } = params::metadata::files(flavour.params);
+    for file in [general, parameter].into_iter().chain(events) {
+        server.make_up(file.path, file.bytes.clone());
+    }
+    server
+}
+
+/// The camera's own, with nothing but its description.
+fn camera_server() -> files::Server {
+    let mut server = files::Server::default();
+    server.make_up(camera::settings::FILE, camera::settings::definition().into_bytes());
+    server
+}

@@ -1,0 +1,295 @@
+//! The names that clients look for in an ArduCopter (mavlink.md 1.4, QGroundControl's and MAVProxy's sources), with ArduPilot's units and
+//! numbers. Where one of ours is behind a name, it acts; what this vehicle has no use for tells how it is and cannot be set.
+
+use super::Value::{self, Int, Real};
+use super::table::{self, Behind, ROWS, Row, row};
+use super::{copter_behavior, stored};
+use spandrel_mavlink::dialect::MavParamType;
+use std::sync::LazyLock;
+
+pub(super) const INT8: MavParamType = MavParamType::MAV_PARAM_TYPE_INT8;
+pub(super) const INT16: MavParamType = MavParamType::MAV_PARAM_TYPE_INT16;
+pub(super) const INT32: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
+pub(super) const REAL32: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
+
+/// Where ArduPilot's patience differs from ours: overrides lapse after 3 s, guided set-points too, a ground station after 5 s.
+pub const DEFAULTS: &[(&str, Value)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_OF_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
+
+const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
+/// ArduPilot's numbers of what a loss leads to, and ours.
+const LOSSES: &[(i32, i32)] = &[(0, 0), (1, 2), (5, 3), (7, 1)];
+const STICK_LOSS: &[(i32, &str)] = &[(1, "Return"), (3, "Land"), (7, "Brake")];
+const STICK_LOSSES: &[(i32, i32)] = &[(1, 2), (3, 3), (7, 1)];
+const FENCE_ACT: &[(i32, &str)] = &[(0, "Report only"), (1, "Return"), (2, "Land"), (4, "Brake")];
+/// A breach that ours terminates, or only warns of, has no number there.
+const FENCE_ACTS: &[(i32, i32)] = &[(0, 1), (1, 3), (2, 5), (4, 2)];
+const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
+const ONE: &[(i32, &str)] = &[(1, "As it is")];
+
+/// Rows, in the order of their names.
+#[must_use]
+pub fn rows() -> &'static [Row] {
+    static ALL: LazyLock<Vec<Row>> = LazyLock::new(|| {
+        let shared = ROWS.iter().filter(|row| matches!(row.group, "Simulation" | "Joystick") || OURS.contains(&row.name));
+        let mut all: Vec<Row> =
+            [acting(), copter_behavior::rows(), fixed(), radio(), circling_and_following(), mode_switch()].concat();
+        all.extend(shared.copied());
+        stored::complete(all, stored::COPTER)
+    });
+    &ALL
+}
+
+/// Our own, under our own names.
+const OURS: [&str; 3] = ["SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
+
+fn ours(name: &str) -> &'static Row {
+    // The names below are the table's: a test looks.
+    table::rows().iter().find(|row| row.name == name).unwrap_or(&ROWS[0])
+}
+
+/// A row that shows one of ours times a factor.
+pub(super) fn scaled(
+    name: &'static str,
+    other: &'static str,
+    factor: f64,
+    wire: MavParamType,
+    unit: &'static str,
+    group: &'static str,
+) -> Row {
+    let behind = ours(other);
+    let default = if wire == REAL32 { Real(0.0) } else { Int(0) };
+    let range = (behind.low * factor, behind.high * factor);
+    let mut out = row(name, default.alike(behind.default.number() * factor), range, unit, group, behind.short);
+    (out.wire, out.behind, out.read_only) = (wire, Behind::Scaled(other, factor), behind.read_only);
+    out
+}
+
+/// A row whose numbers stand for other numbers of one of ours.
+pub(super) fn mapped(
+    name: &'static str,
+    other: &'static str,
+    pairs: &'static [(i32, i32)],
+    values: &'static [(i32, &'static str)],
+    group: &'static str,
+) -> Row {
+    let (low, high) = (pairs[0].0, pairs[pairs.len() - 1].0);
+    let behind = ours(other);
+    let default = pairs.iter().find(|(_, theirs)| Int(*theirs) == behind.default).map_or(low, |(own, _)| *own);
+    let mut out = row(name, Int(default), (f64::from(low), f64::from(high)), "", group, behind.short).values(values);
+    (out.wire, out.behind) = (INT8, Behind::Mapped(other, pairs));
+    out
+}
+
+/// A row that tells how it is.
+fn told(name: &'static str, value: Value, wire: MavParamType, group: &'static str, short: &'static str) -> Row {
+    let number = value.number();
+    let mut out = row(name, value, (number.min(0.0), number.max(0.0)), "", group, short).read_only().token();
+    out.wire = wire;
+    out
+}
+
+/// What acts.
+fn acting() -> Vec<Row> {
+    let of_capacity = |name, other, short| {
+        let mut out = row(name, Real(0.0), (0.0, 0.0), "mAh", "BATT", short);
+        out.behind = Behind::Capacity(other);
+        out
+    };
+    let enable = |name, group, short| {
+        let mut out = row(name, Int(1), (0.0, 1.0), "", group, short).values(OFF_ON);
+        out.wire = INT8;
+        out
+    };
+    vec![
+        of_capacity("BATT_CRT_MAH", "BAT_CRIT_THR", "Charge left that counts as critical"),
+        of_capacity("BATT_LOW_MAH", "BAT_LOW_THR", "Charge left that counts as low"),
+        scaled("DISARM_DELAY", "COM_DISARM_PRFLT", 1.0, REAL32, "s", "ARMING"),
+        mapped("FENCE_ACTION", "GF_ACTION", FENCE_ACTS, FENCE_ACT, "FENCE"),
+        enable("FENCE_ENABLE", "FENCE", "The geofence acts"),
+        scaled("FENCE_ALT_MAX", "GF_MAX_VER_DIST", 1.0, REAL32, "m", "FENCE"),
+        scaled("FENCE_RADIUS", "GF_MAX_HOR_DIST", 1.0, REAL32, "m", "FENCE"),
+        mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSSES, LOSS, "FS"),
+        scaled("FS_GCS_TIMEOUT", "COM_DL_LOSS_T", 1.0, REAL32, "s", "FS"),
+        mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSSES, STICK_LOSS, "FS"),
+        scaled("GUID_TIMEOUT", "COM_OF_LOSS_T", 1.0, REAL32, "s", "GUID"),
+        scaled("LAND_SPEED", "MPC_LAND_SPEED", 100.0, INT16, "cm/s", "LAND"),
+        scaled("MAV_SYSID", "MAV_SYS_ID", 1.0, INT16, "", "MAV"),
+        scaled("PILOT_TKOFF_ALT", "MIS_TAKEOFF_ALT", 100.0, REAL32, "cm", "PILOT"),
+        scaled("RC_OVERRIDE_TIME", "COM_RC_LOSS_T", 1.0, REAL32, "s", "RC"),
+        scaled("RTL_ALT", "RTL_RETURN_ALT", 100.0, INT32, "cm", "RTL"),
+        scaled("SYSID_THISMAV", "MAV_SYS_ID", 1.0, INT16, "", "SYSID"),
+        scaled("WPNAV_RADIUS", "NAV_ACC_RAD", 100.0, REAL32, "cm", "WPNAV"),
+        scaled("WPNAV_SPEED", "MPC_XY_CRUISE", 100.0, REAL32, "cm/s", "WPNAV"),
+        scaled("WPNAV_SPEED_DN", "MPC_Z_VEL_MAX_DN", 100.0, REAL32, "cm/s", "WPNAV"),
+        scaled("WPNAV_SPEED_UP", "MPC_Z_VEL_MAX_UP", 100.0, REAL32, "cm/s", "WPNAV"),
+    ]
+}
+
+/// What tells how it is.
+fn fixed() -> Vec<Row> {
+    // Clients take zero for a sensor that was never calibrated; a simulated one has nothing to calibrate.
+    let nominal = Real(0.001);
+    let offset = |name| told(name, nominal, REAL32, "INS", "Offset of the accelerometer: nominal").unit("m/s^2");
+    let none = |name, wire, group| {
+        let zero = if wire == REAL32 { Real(0.0) } else { Int(0) };
+        let row = told(name, zero, wire, group, "There is only one");
+        if wire == REAL32 {
+            row.unit("mGauss")
+        } else if wire == INT8 {
+            row.values(OFF_ON)
+        } else {
+            row
+        }
+    };
+    let compass = |name| told(name, nominal, REAL32, "COMPASS", "Offset of the compass: nominal").unit("mGauss");
+    vec![
+        row("ARMING_CHECK", Int(1), (0.0, 1_048_575.0), "", "ARMING", "Checks before arming; all are made")
+            .bits(&[(0, "All")])
+            .token(),
+        told("ARMING_REQUIRE", Int(1), INT8, "ARMING", "Motors must be armed").values(ONE),
+        row("BATT_CAPACITY", Int(0), (0.0, 1e6), "mAh", "BATT", "Capacity of the battery").read_only(),
+        told("BATT_MONITOR", Int(4), INT8, "BATT", "Battery is measured by voltage and current")
+            .values(&[(4, "Voltage and current")]),
+        told("COMPASS_DEV_ID", Int(97_539), INT32, "COMPASS", "Number of the compass"),
+        told("COMPASS_ENABLE", Int(1), INT8, "COMPASS", "There is a compass").values(ONE),
+        told("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "The compass is on the board"),
+        none("COMPASS_DEV_ID2", INT32, "COMPASS"),
+        none("COMPASS_DEV_ID3", INT32, "COMPASS"),
+        none("COMPASS_OFS2_X", REAL32, "COMPASS"),
+        none("COMPASS_OFS2_Y", REAL32, "COMPASS"),
+        none("COMPASS_OFS2_Z", REAL32, "COMPASS"),
+        none("COMPASS_OFS3_X", REAL32, "COMPASS"),
+        none("COMPASS_OFS3_Y", REAL32, "COMPASS"),
+        none("COMPASS_OFS3_Z", REAL32, "COMPASS"),
+        none("COMPASS_USE2", INT8, "COMPASS"),
+        none("COMPASS_USE3", INT8, "COMPASS"),
+        none("INS_USE2", INT8, "INS"),
+        none("INS_USE3", INT8, "INS"),
+        compass("COMPASS_OFS_X"),
+        compass("COMPASS_OFS_Y"),
+        compass("COMPASS_OFS_Z"),
+        told("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "Number of the first compass"),
+        told("COMPASS_USE", Int(1), INT8, "COMPASS", "The compass is used").values(ONE),
+        told("FORMAT_VERSION", Int(120), INT16, "FORMAT", "Layout of the parameters"),
+        told("FRAME_CLASS", Int(1), INT8, "FRAME", "Kind of frame").values(&[(1, "Quad")]),
+        told("FRAME_TYPE", Int(1), INT8, "FRAME", "Shape of the frame").values(&[(1, "X")]),
+        offset("INS_ACCOFFS_X"),
+        offset("INS_ACCOFFS_Y"),
+        offset("INS_ACCOFFS_Z"),
+        told("INS_USE", Int(1), INT8, "INS", "The inertial sensor is used").values(ONE),
+        told("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "The first relay is the lamp").values(&[(1, "Relay")]),
+    ]
+}
+
+/// Modes of a switch position, by ArduCopter's numbers.
+const SWITCHED: &[(i32, &str)] = &[
+    (0, "Stabilize"),
+    (1, "Acro"),
+    (2, "Altitude Hold"),
+    (3, "Auto"),
+    (4, "Guided"),
+    (5, "Loiter"),
+    (6, "RTL"),
+    (7, "Circle"),
+    (9, "Land"),
+    (16, "Position Hold"),
+    (17, "Brake"),
+    (21, "Smart RTL"),
+    (23, "Follow"),
+    (27, "Auto RTL"),
+];
+
+/// Channels that can switch modes: those that are no stick.
+const SWITCH_CHANNELS: &[(i32, &str)] = &[
+    (0, "Disabled"),
+    (5, "Channel 5"),
+    (6, "Channel 6"),
+    (7, "Channel 7"),
+    (8, "Channel 8"),
+    (9, "Channel 9"),
+    (10, "Channel 10"),
+    (11, "Channel 11"),
+    (12, "Channel 12"),
+    (13, "Channel 13"),
+    (14, "Channel 14"),
+    (15, "Channel 15"),
+    (16, "Channel 16"),
+];
+
+/// The mode switch of RC_CHANNELS_OVERRIDE.
+fn mode_switch() -> Vec<Row> {
+    let small = |mut row: Row| {
+        row.wire = INT8;
+        row
+    };
+    let position = |name| small(row(name, Int(5), (0.0, 27.0), "", "FLTMODE", "Mode of this switch position").values(SWITCHED));
+    let channel = row("FLTMODE_CH", Int(5), (0.0, 16.0), "", "FLTMODE", "Channel that switches modes").values(SWITCH_CHANNELS);
+    let mut out = vec![small(channel)];
+    out.extend(["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"].map(position));
+    out
+}
+
+/// Modes CIRCLE and FOLLOW, with ArduCopter's defaults.
+fn circling_and_following() -> Vec<Row> {
+    let whole = |name, default, high, wire, short| {
+        let mut out = row(name, Int(default), (0.0, high), "", "FOLL", short);
+        out.wire = wire;
+        out
+    };
+    let offset = |name, short| row(name, Real(0.0), (-100.0, 100.0), "m", "FOLL", short);
+    vec![
+        row("CIRCLE_RADIUS", Real(1_000.0), (0.0, 200_000.0), "cm", "CIRCLE", "Radius of the circle in mode Circle"),
+        row("CIRCLE_RATE", Real(20.0), (-90.0, 90.0), "deg/s", "CIRCLE", "Rate around the circle; positive: clockwise"),
+        whole("FOLL_ENABLE", 0, 1.0, INT8, "Mode Follow may be entered").values(OFF_ON),
+        whole("FOLL_SYSID", 0, 255.0, INT16, "System id of the target; 0: the first that reports its position"),
+        row("FOLL_DIST_MAX", Real(100.0), (1.0, 1_000.0), "m", "FOLL", "Targets farther away are not followed"),
+        whole("FOLL_OFS_TYPE", 0, 1.0, INT8, "Axes of the offset")
+            .values(&[(0, "North-East-Down"), (1, "Relative to lead vehicle heading")]),
+        offset("FOLL_OFS_X", "Offset to the north or forward; all zero: the offset at the start"),
+        offset("FOLL_OFS_Y", "Offset to the east or right"),
+        offset("FOLL_OFS_Z", "Offset down"),
+    ]
+}
+
+/// How RC_CHANNELS_OVERRIDE is read.
+fn radio() -> Vec<Row> {
+    const CHANNELS: [[&str; 4]; 4] = [
+        ["RC1_MIN", "RC1_MAX", "RC1_TRIM", "RC1_REVERSED"],
+        ["RC2_MIN", "RC2_MAX", "RC2_TRIM", "RC2_REVERSED"],
+        ["RC3_MIN", "RC3_MAX", "RC3_TRIM", "RC3_REVERSED"],
+        ["RC4_MIN", "RC4_MAX", "RC4_TRIM", "RC4_REVERSED"],
+    ];
+    let map = |name, channel| told(name, Int(channel), INT8, "RCMAP", "Channel of this stick");
+    let mut out = vec![map("RCMAP_PITCH", 2), map("RCMAP_ROLL", 1), map("RCMAP_THROTTLE", 3), map("RCMAP_YAW", 4)];
+    for [low, high, middle, reversed] in CHANNELS {
+        out.push(told(low, Int(1_000), INT16, "RC", "Pulse at the lower end").unit("us"));
+        out.push(told(high, Int(2_000), INT16, "RC", "Pulse at the upper end").unit("us"));
+        out.push(told(middle, Int(1_500), INT16, "RC", "Pulse in the middle").unit("us"));
+        out.push(told(reversed, Int(0), INT8, "RC", "The channel is not reversed").values(&[(0, "Normal"), (1, "Reversed")]));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_names_are_distinct_fit_the_wire_and_stand_for_rows_that_are_there() {
+        for pair in rows().windows(2) {
+            assert!(pair[0].name < pair[1].name, "{} twice", pair[0].name);
+        }
+        for row in rows() {
+            assert!(row.name.len() <= 16, "{}", row.name);
+            let other = match row.behind {
+                Behind::Own => continue,
+                Behind::Scaled(other, _) | Behind::Capacity(other) | Behind::Mapped(other, _) => other,
+            };
+            assert_eq!(super::super::find(other).map(|row| row.name), Some(other), "behind {}", row.name);
+            if let Behind::Mapped(_, pairs) = row.behind {
+                let other = ours(other);
+                assert!(pairs.iter().all(|(_, theirs)| (other.low..=other.high).contains(&f64::from(*theirs))), "{}", row.name);
+            }
+        }
+    }
+}

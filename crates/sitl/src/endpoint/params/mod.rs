@@ -1,0 +1,463 @@
+//! Parameters: the names that ground stations look for, our own group, ranges, and how each flavour shows them. The values are kept under
+//! one set of names; another flavour's names show them in its own units.
+
+mod behavior;
+mod copter;
+mod copter_behavior;
+pub mod face;
+mod following;
+pub mod metadata;
+pub mod packed;
+mod rules;
+mod stored;
+mod table;
+pub mod text;
+
+use crate::autopilot::operator_rules::Envelope;
+use crate::autopilot::{FenceAction, LinkLoss, Tuning};
+use Value::{Int, Real};
+pub use face::Face;
+use spandrel_mavlink::dialect::MavParamType;
+use spandrel_model::time::SimTime;
+use std::collections::BTreeMap;
+use table::{Behind, Row};
+
+/// A value with its type.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// INT32.
+    Int(i32),
+    /// REAL32.
+    Real(f32),
+}
+
+impl Value {
+    /// Byte-wise into the wire's float field.
+    #[must_use]
+    pub fn to_wire(self) -> f32 {
+        match self {
+            Self::Int(i) => f32::from_bits(i.cast_unsigned()),
+            Self::Real(r) => r,
+        }
+    }
+
+    /// Cast into the wire's float field, as C does.
+    #[must_use]
+    pub fn cast(self) -> f32 {
+        self.number() as f32
+    }
+
+    /// A number as this one's kind.
+    fn alike(self, number: f64) -> Self {
+        match self {
+            Self::Int(_) => Self::Int(number.round() as i32),
+            Self::Real(_) => Self::Real(number as f32),
+        }
+    }
+
+    fn number(self) -> f64 {
+        match self {
+            Self::Int(i) => f64::from(i),
+            Self::Real(r) => f64::from(r),
+        }
+    }
+}
+
+/// PX4's name for the checksum over all parameters.
+pub const HASH: &str = "_HASH_CHECK";
+/// The parameter that switches the geofence, where a flavour has one.
+pub const FENCE_SWITCH: &str = "FENCE_ENABLE";
+/// Why a parameter was not set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// No such name.
+    Unknown,
+    /// Outside its range, or not a number.
+    OutOfRange,
+    /// Another type than the parameter's.
+    Type,
+    /// Cannot be changed.
+    ReadOnly,
+}
+
+/// When the battery counts as low and as critical; the job's rules say so until an operator does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thresholds {
+    /// Low, %.
+    pub low_pct: f64,
+    /// Critical, %.
+    pub critical_pct: f64,
+}
+
+/// What of the aircraft the parameters show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pack {
+    /// Cells in series.
+    pub cells: u32,
+    /// Capacity, mAh.
+    pub capacity_mah: f64,
+    /// When it counts as low.
+    pub thresholds: Thresholds,
+    /// The job brings the vehicle back when the battery is low.
+    pub returns_when_low: bool,
+    /// The limits of the airframe.
+    pub frame: Envelope,
+}
+
+/// A parameter as it goes out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Told {
+    /// Name.
+    pub name: &'static str,
+    /// The wire's float field.
+    pub wire: f32,
+    /// Its type.
+    pub kind: MavParamType,
+}
+
+/// What an instructor can make of the world by parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct World {
+    /// Mean wind at 20 ft, m/s, and where it comes from, degrees; `None`: the scenario's.
+    pub wind: Option<(f64, f64)>,
+    /// Share of datagrams that is lost, each way.
+    pub loss: f64,
+    /// How late the others are, each way.
+    pub delay: SimTime,
+    /// The bridges are open to traffic.
+    pub open: bool,
+}
+
+/// What happens when a second sender moves sticks while the first is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Policy {
+    /// Who has the sticks keeps them until he falls silent or lets go.
+    FirstKeeps,
+    /// Who moves a stick off its middle takes them.
+    LatestTakes,
+}
+
+/// The parameter table: present values by name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Params {
+    values: BTreeMap<&'static str, Value>,
+    changes: u64,
+    face: &'static Face,
+    capacity_mah: f64,
+    /// Defaults that follow from the airframe.
+    frame: BTreeMap<&'static str, Value>,
+}
+
+impl Params {
+    /// Defaults for a vehicle, as one flavour shows them.
+    #[must_use]
+    pub fn new(system_id: u8, pack: Pack, face: &'static Face) -> Self {
+        let own = face.rows().iter().filter(|row| row.behind == Behind::Own);
+        // Names that two flavors share may differ in type and default: the flavor's own row counts.
+        let mut values: BTreeMap<&'static str, Value> =
+            table::rows().iter().chain(own).map(|row| (row.name, row.default)).collect();
+        values.extend(face.defaults.iter().copied());
+        values.insert("SPAN_FLAVOUR", Int(face.number));
+        values.insert("MAV_SYS_ID", Int(i32::from(system_id)));
+        values.insert("BAT1_N_CELLS", Int(pack.cells.cast_signed()));
+        values.insert("BAT_LOW_THR", Real((pack.thresholds.low_pct / 100.0) as f32));
+        values.insert("BAT_CRIT_THR", Real((pack.thresholds.critical_pct / 100.0) as f32));
+        let frame: BTreeMap<_, _> =
+            behavior::frame_defaults(&pack.frame).into_iter().filter(|(name, _)| values.contains_key(name)).collect();
+        values.extend(frame.iter().map(|(name, value)| (*name, *value)));
+        if pack.returns_when_low {
+            values.insert("COM_LOW_BAT_ACT", Int(1));
+        }
+        if face.cast {
+            if pack.returns_when_low {
+                values.extend([("BATT_FS_LOW_ACT", Int(2)), ("BATT_FS_CRT_ACT", Int(1))]);
+            }
+            values.insert("BATT_CAPACITY", Int(pack.capacity_mah.round() as i32));
+        }
+        Self { values, changes: 0, face, capacity_mah: pack.capacity_mah, frame }
+    }
+
+    /// Back to the defaults of the vehicle.
+    pub fn reset(&mut self, defaults: &Self) {
+        if self.values != defaults.values {
+            self.values.clone_from(&defaults.values);
+            self.changes += 1;
+        }
+    }
+
+    /// Changes so far.
+    #[must_use]
+    pub fn changes(&self) -> u64 {
+        self.changes
+    }
+
+    /// How clients see them.
+    #[must_use]
+    pub fn face(&self) -> &'static Face {
+        self.face
+    }
+
+    /// Allowed range of a parameter.
+    #[must_use]
+    pub fn range(&self, name: &str) -> Option<(f64, f64)> {
+        self.row(name).map(|(_, row)| self.span(row))
+    }
+
+    /// How many clients see.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.face.rows().len()
+    }
+
+    /// PX4's checksum: CRC-32 without pre- and post-inversion over name and value of each, in the order of their names.
+    #[must_use]
+    pub fn hash(&self) -> u32 {
+        // The crate inverts the register at both ends: inverting around it leaves the plain polynomial.
+        let mut crc = crc32fast::Hasher::new_with_initial(u32::MAX);
+        for row in self.face.rows().iter().filter(|row| !row.volatile) {
+            crc.update(row.name.as_bytes());
+            crc.update(&self.shown(row).to_wire().to_bits().to_le_bytes());
+        }
+        !crc.finalize()
+    }
+
+    /// By place in the list.
+    #[must_use]
+    pub fn at(&self, index: usize) -> Option<(&'static str, Value)> {
+        self.face.rows().get(index).map(|row| (row.name, self.shown(row)))
+    }
+
+    /// By name, with its place.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<(usize, &'static str, Value)> {
+        self.row(name).map(|(index, row)| (index, row.name, self.shown(row)))
+    }
+
+    /// By place in the list, as it goes out.
+    #[must_use]
+    pub fn told(&self, index: usize) -> Option<Told> {
+        let row = self.face.rows().get(index)?;
+        let value = self.shown(row);
+        Some(Told { name: row.name, wire: if self.face.cast { value.cast() } else { value.to_wire() }, kind: row.wire })
+    }
+
+    fn row(&self, name: &str) -> Option<(usize, &'static Row)> {
+        let rows = self.face.rows();
+        let index = rows.binary_search_by(|row| row.name.cmp(name)).ok()?;
+        Some((index, &rows[index]))
+    }
+
+    /// The factor by which a row shows what is behind it, and whose value that is.
+    fn behind(&self, row: &Row) -> Option<(&'static str, f64)> {
+        match row.behind {
+            Behind::Own | Behind::Mapped(..) => None,
+            Behind::Scaled(name, factor) => Some((name, factor)),
+            Behind::Capacity(name) => Some((name, self.capacity_mah)),
+        }
+    }
+
+    fn span(&self, row: &Row) -> (f64, f64) {
+        match self.behind(row).and_then(|(name, factor)| Some((find(name)?, factor))) {
+            Some((other, factor)) => (other.low * factor, other.high * factor),
+            None => (row.low, row.high),
+        }
+    }
+
+    fn shown(&self, row: &Row) -> Value {
+        if let Some((name, factor)) = self.behind(row) {
+            return row.default.alike(self.number(name) * factor);
+        }
+        let Behind::Mapped(name, pairs) = row.behind else {
+            return self.values.get(row.name).copied().unwrap_or(row.default);
+        };
+        let other = self.whole(name);
+        pairs.iter().find(|(_, theirs)| Some(*theirs) == other).map_or(row.default, |(own, _)| Int(*own))
+    }
+
+    /// Sets a value from the wire: byte-wise, where the bits are an integer for integer parameters, or cast, where the type does not count.
+    ///
+    /// # Errors
+    /// [`Refusal`], and nothing is changed.
+    pub fn set(&mut self, name: &str, wire: f32, kind: MavParamType) -> Result<(), Refusal> {
+        let (_, row) = self.row(name).ok_or(Refusal::Unknown)?;
+        let real = kind == MavParamType::MAV_PARAM_TYPE_REAL32;
+        let value = match row.default {
+            Int(_) if self.face.cast && wire.is_nan() => return Err(Refusal::OutOfRange),
+            // ArduPilot cuts off what lies behind the point.
+            Int(_) if self.face.cast => Int(wire as i32),
+            Int(_) if !real => Int(wire.to_bits().cast_signed()),
+            Real(_) if real || self.face.cast => Real(wire),
+            Int(_) | Real(_) => return Err(Refusal::Type),
+        };
+        self.put(row, value)
+    }
+
+    /// Sets a value by the name that clients know.
+    ///
+    /// # Errors
+    /// [`Refusal`], and nothing is changed.
+    pub fn set_value(&mut self, name: &str, value: Value) -> Result<(), Refusal> {
+        let (_, row) = self.row(name).ok_or(Refusal::Unknown)?;
+        match (row.default, value) {
+            (Int(_), Int(_)) | (Real(_), Real(_)) => self.put(row, value),
+            _ => Err(Refusal::Type),
+        }
+    }
+
+    fn put(&mut self, row: &'static Row, value: Value) -> Result<(), Refusal> {
+        if row.read_only {
+            return Err(Refusal::ReadOnly);
+        }
+        let (number, (low, high)) = (value.number(), self.span(row));
+        // The last place of the wire's numbers, so that a bound that is shown can be set.
+        let whole = row.behind == Behind::Own && matches!(value, Int(_));
+        let slack = if whole { 0.0 } else { f64::from(f32::EPSILON) * high.abs().max(low.abs()) };
+        if number.is_nan() || number < low - slack || number > high + slack {
+            return Err(Refusal::OutOfRange);
+        }
+        let (name, value) = match row.behind {
+            Behind::Own => (row.name, value),
+            Behind::Mapped(name, pairs) => {
+                let (_, theirs) = pairs.iter().find(|(own, _)| Int(*own) == value).ok_or(Refusal::OutOfRange)?;
+                (name, Int(*theirs))
+            }
+            Behind::Scaled(..) | Behind::Capacity(_) => {
+                let (name, factor) = self.behind(row).ok_or(Refusal::Unknown)?;
+                let other = find(name).ok_or(Refusal::Unknown)?;
+                (name, other.default.alike((number / factor).clamp(other.low, other.high)))
+            }
+        };
+        if self.values.insert(name, value) != Some(value) {
+            self.changes += 1;
+        }
+        Ok(())
+    }
+
+    /// The value of a whole-number parameter.
+    #[must_use]
+    pub fn whole(&self, name: &str) -> Option<i32> {
+        self.values.get(name).and_then(|value| if let Int(whole) = value { Some(*whole) } else { None })
+    }
+
+    /// Who of several senders has the sticks.
+    #[must_use]
+    pub fn stick_policy(&self) -> Policy {
+        if self.whole("SPAN_STICKS") == Some(1) { Policy::LatestTakes } else { Policy::FirstKeeps }
+    }
+
+    /// Whether the camera's component says heartbeats.
+    #[must_use]
+    pub fn camera_announced(&self) -> bool {
+        self.whole("SPAN_CAMERA") != Some(0)
+    }
+
+    /// Speed of missions, returns and go-to, m/s.
+    #[must_use]
+    pub fn cruise_m_s(&self) -> f64 {
+        self.number("MPC_XY_CRUISE")
+    }
+
+    /// What an instructor has made of the world.
+    #[must_use]
+    pub fn world(&self) -> World {
+        let wind_m_s = Some(self.number("SIM_WIND_SPD")).filter(|speed| *speed >= 0.0);
+        World {
+            wind: wind_m_s.map(|speed| (speed, self.number("SIM_WIND_DIR"))),
+            loss: self.number("SIM_LINK_LOSS") / 100.0,
+            delay: SimTime::from_ms(self.number("SIM_LINK_DELAY") as i64),
+            open: self.whole("SIM_TRAFFIC") != Some(0),
+        }
+    }
+
+    /// Whether the geofence acts, where a parameter says so.
+    #[must_use]
+    pub fn fence_enabled(&self) -> Option<bool> {
+        self.whole(FENCE_SWITCH).map(|value| value != 0)
+    }
+
+    /// The system id that may send sticks and counts as ground station; `None`: any.
+    #[must_use]
+    pub fn ground_station(&self) -> Option<u8> {
+        self.whole("SYSID_MYGCS").and_then(|id| u8::try_from(id).ok()).filter(|id| *id > 0)
+    }
+
+    /// A throttle pulse below this means that the transmitter has lost the vehicle, microseconds.
+    #[must_use]
+    pub fn throttle_loss_us(&self) -> Option<u16> {
+        self.whole("FS_THR_VALUE").and_then(|us| u16::try_from(us).ok())
+    }
+
+    /// Whether AUTO may be armed.
+    #[must_use]
+    pub fn arms_in_auto(&self) -> bool {
+        self.whole("AUTO_OPTIONS").is_some_and(|bits| bits & 1 != 0)
+    }
+
+    /// Shows how many items the plans have: mission, fence, rally points.
+    pub fn note_plans(&mut self, items: [u16; 3]) {
+        for (name, count) in ["MIS_TOTAL", "FENCE_TOTAL", "RALLY_TOTAL"].into_iter().zip(items) {
+            if let Some(value) = self.values.get_mut(name) {
+                *value = Int(i32::from(count));
+            }
+        }
+    }
+
+    /// A value that only some flavours have.
+    fn real(&self, name: &str) -> Option<f64> {
+        self.values.get(name).map(|value| value.number())
+    }
+
+    fn number(&self, name: &str) -> f64 {
+        self.values.get(name).map_or(0.0, |v| v.number())
+    }
+
+    /// Carries the values into the autopilot's settings.
+    pub fn apply(&self, tuning: &mut Tuning) {
+        tuning.takeoff_height_m = self.number("MIS_TAKEOFF_ALT");
+        tuning.takeoff_speed_m_s = self.number("MPC_TKO_SPEED");
+        tuning.land_speed_m_s = self.number("MPC_LAND_SPEED");
+        tuning.cruise_m_s = self.number("MPC_XY_CRUISE");
+        tuning.horizontal_speed_max_m_s = self.number("MPC_XY_VEL_MAX");
+        tuning.climb_m_s = self.number("MPC_Z_VEL_MAX_UP");
+        tuning.descend_m_s = self.number("MPC_Z_VEL_MAX_DN");
+        if !self.face.cast {
+            tuning.climb_m_s = tuning.climb_m_s.min(self.number("MPC_Z_V_AUTO_UP"));
+            tuning.descend_m_s = tuning.descend_m_s.min(self.number("MPC_Z_V_AUTO_DN"));
+        }
+        tuning.land_slow_below_m = self.number("MPC_LAND_ALT2");
+        tuning.failsafe_delay_s = self.number("COM_FAIL_ACT_T");
+        tuning.stick_takeover = self.whole("COM_RC_OVERRIDE").is_none_or(|bits| bits & 1 != 0);
+        self.apply_rules(&mut tuning.rules);
+        tuning.return_height_m = self.number("RTL_RETURN_ALT");
+        tuning.accept_radius_m = self.number("NAV_ACC_RAD");
+        tuning.manual_loss_s = self.number("COM_RC_LOSS_T");
+        tuning.data_link_loss_s = self.number("COM_DL_LOSS_T");
+        tuning.offboard_loss_s = self.number("COM_OF_LOSS_T");
+        tuning.battery_low_pct = 100.0 * self.number("BAT_LOW_THR");
+        tuning.battery_critical_pct = 100.0 * self.number("BAT_CRIT_THR");
+        tuning.disarm_after_landing_s = self.number("COM_DISARM_LAND");
+        tuning.disarm_before_flight_s = self.number("COM_DISARM_PRFLT");
+        tuning.fence_action = FenceAction::from_number(self.number("GF_ACTION") as i32).unwrap_or(FenceAction::Hold);
+        tuning.fence_enabled = self.fence_enabled().unwrap_or(tuning.fence_enabled);
+        tuning.fence_distance_m = self.number("GF_MAX_HOR_DIST");
+        tuning.fence_height_m = self.number("GF_MAX_VER_DIST");
+        tuning.manual_loss = LinkLoss::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLoss::Hold);
+        tuning.follow = following::rule(self);
+        if let Some(radius_cm) = self.real("CIRCLE_RADIUS") {
+            tuning.circle_radius_m = 0.01 * radius_cm;
+        }
+        if let Some(rate_deg_s) = self.real("CIRCLE_RATE") {
+            tuning.circle_rate_rad_s = rate_deg_s.to_radians();
+        }
+        tuning.data_link_loss = LinkLoss::from_number(self.number("NAV_DLL_ACT") as i32).unwrap_or(LinkLoss::Ignore);
+    }
+}
+
+fn find(name: &str) -> Option<&'static Row> {
+    let rows = table::rows();
+    let found = |rows: &'static [Row]| rows.binary_search_by(|row| row.name.cmp(name)).ok().map(|index| &rows[index]);
+    found(rows).or_else(|| found(copter::rows()))
+}
+
+#[cfg(test)]
+pub(super) mod tests;

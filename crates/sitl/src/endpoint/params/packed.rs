@@ -1,0 +1,143 @@
+//! ArduPilot's packed parameter file, `@PARAM/param.pck` over MAVLink FTP: a header of three 16-bit numbers (which format, how many are
+//! in it, how many there are), then each as type and flags, lengths, the part of its name in which it differs from the one before it,
+//! its value and, where asked for and different, its default.
+
+use super::table::Row;
+use super::{Params, Value};
+use spandrel_mavlink::dialect::MavParamType;
+
+/// Where it lies.
+const PATH: &str = "@PARAM/param.pck";
+const PLAIN: u16 = 0x671b;
+const WITH_DEFAULTS: u16 = 0x671c;
+/// A default follows the value.
+const HAS_DEFAULT: u8 = 0x10;
+/// The longest part of a name that can be taken from the one before.
+const COMMON_MAX: usize = 15;
+
+/// Which part of it is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Wish {
+    first: usize,
+    most: usize,
+    defaults: bool,
+}
+
+/// The file, when this is its path; options behind a question mark are `start`, `count` and `withdefaults`.
+#[must_use]
+pub fn file(path: &[u8], params: &Params, defaults: &Params) -> Option<Vec<u8>> {
+    let end = path.iter().position(|byte| *byte == 0).unwrap_or(path.len());
+    let text = std::str::from_utf8(&path[..end]).ok()?;
+    let options = text.strip_prefix('/').unwrap_or(text).strip_prefix(PATH)?;
+    Some(pack(wish(options)?, params, defaults))
+}
+
+fn wish(options: &str) -> Option<Wish> {
+    let mut wish = Wish { first: 0, most: usize::MAX, defaults: false };
+    if options.is_empty() {
+        return Some(wish);
+    }
+    for option in options.strip_prefix('?')?.split('&') {
+        let (name, value) = option.split_once('=')?;
+        let number: usize = value.parse().ok()?;
+        match name {
+            "start" => wish.first = number,
+            "count" => wish.most = number,
+            "withdefaults" => wish.defaults = number != 0,
+            _ => return None,
+        }
+    }
+    Some(wish)
+}
+
+fn pack(wish: Wish, params: &Params, defaults: &Params) -> Vec<u8> {
+    let rows: Vec<&Row> = params.face.rows().iter().skip(wish.first).take(wish.most).collect();
+    let mut out = Vec::new();
+    for number in [if wish.defaults { WITH_DEFAULTS } else { PLAIN }, rows.len() as u16, params.count() as u16] {
+        out.extend(number.to_le_bytes());
+    }
+    let mut last = "";
+    for row in rows {
+        let (value, default) = (params.shown(row), defaults.shown(row));
+        let differs = wish.defaults && value != default;
+        let common = last.bytes().zip(row.name.bytes()).take_while(|(a, b)| a == b).count().min(COMMON_MAX);
+        let rest = &row.name.as_bytes()[common..];
+        out.push(kind(row.wire) | if differs { HAS_DEFAULT } else { 0 });
+        out.push(((rest.len() - 1) as u8) << 4 | common as u8);
+        out.extend(rest);
+        put(&mut out, row.wire, value);
+        if differs {
+            put(&mut out, row.wire, default);
+        }
+        last = row.name;
+    }
+    out
+}
+
+/// ArduPilot's number of a type.
+fn kind(wire: MavParamType) -> u8 {
+    match wire {
+        MavParamType::MAV_PARAM_TYPE_INT8 => 1,
+        MavParamType::MAV_PARAM_TYPE_INT16 => 2,
+        MavParamType::MAV_PARAM_TYPE_INT32 => 3,
+        _ => 4,
+    }
+}
+
+fn put(out: &mut Vec<u8>, wire: MavParamType, value: Value) {
+    match (wire, value) {
+        (MavParamType::MAV_PARAM_TYPE_INT8, Value::Int(whole)) => out.extend((whole as i8).to_le_bytes()),
+        (MavParamType::MAV_PARAM_TYPE_INT16, Value::Int(whole)) => out.extend((whole as i16).to_le_bytes()),
+        (MavParamType::MAV_PARAM_TYPE_INT32, Value::Int(whole)) => out.extend(whole.to_le_bytes()),
+        (_, value) => out.extend(value.cast().to_le_bytes()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::face;
+    use super::super::tests::of;
+    use super::*;
+
+    #[test]
+    fn exact_the_first_entries_byte_by_byte() {
+        let (params, defaults) = (of(&face::COPTER), of(&face::COPTER));
+        let rows = face::COPTER.rows();
+        let first = rows.iter().position(|row| row.name == "AUTOTUNE_AXES").unwrap();
+        assert_eq!(rows[first + 1].name, "AUTO_OPTIONS");
+        let path = format!("@PARAM/param.pck?start={first}&count=2\0");
+        let bytes = file(path.as_bytes(), &params, &defaults).unwrap();
+        let mut expected = vec![0x1b, 0x67, 2, 0];
+        expected.extend((rows.len() as u16).to_le_bytes());
+        // An INT8 of thirteen new letters, 7; an INT32 that shares four letters and has eight new ones, 0.
+        expected.extend([1, 12 << 4]);
+        expected.extend(b"AUTOTUNE_AXES\x07");
+        expected.extend([3, 7 << 4 | 4]);
+        expected.extend(b"_OPTIONS\0\0\0\0");
+        assert_eq!(bytes, expected);
+    }
+
+    #[test]
+    fn exact_a_default_stands_beside_what_differs_from_it() {
+        let (mut params, defaults) = (of(&face::COPTER), of(&face::COPTER));
+        let plain = file(b"/@PARAM/param.pck?withdefaults=1", &params, &defaults).unwrap();
+        assert_eq!(plain[..2], [0x1c, 0x67]);
+        params.set_value("WPNAV_SPEED", Value::Real(300.0)).unwrap();
+        let changed = file(b"/@PARAM/param.pck?withdefaults=1", &params, &defaults).unwrap();
+        assert_eq!(changed.len(), plain.len() + 4);
+        let value_and_default = [300f32.to_le_bytes(), 500f32.to_le_bytes()].concat();
+        assert!(changed.windows(8).any(|window| window == value_and_default));
+    }
+
+    #[test]
+    fn exact_other_paths_and_options_are_no_such_file() {
+        let params = of(&face::COPTER);
+        for path in
+            ["param.pck", "@PARAM/param.pck.bak", "@PARAM/param.pck?start", "@PARAM/param.pck?start=-1", "@PARAM/param.pck?x=1"]
+        {
+            assert_eq!(file(path.as_bytes(), &params, &params), None, "{path}");
+        }
+        assert_eq!(file(b"@PARAM/param.pck?start=60000&count=9", &params, &params).unwrap().len(), 6);
+        assert_eq!(file(&[0xff, 0xfe], &params, &params), None);
+    }
+}

@@ -1,0 +1,179 @@
+//! How parameters become the autopilot's rules.
+
+use super::Params;
+use crate::autopilot::operator_rules::{
+    BatteryResponses, Envelope, Exceptions, FenceParts, Heading, JOB_BATTERY, MissionNeeds, OffboardLoss, OperatorRules,
+    Response, ReturnPlaces, ReturnRules,
+};
+
+/// Bits of ArduPilot's `FS_OPTIONS`.
+const AUTO_WITHOUT_STICKS: i32 = 1;
+const AUTO_WITHOUT_STATION: i32 = 1 << 1;
+const GUIDED_WITHOUT_STICKS: i32 = 1 << 2;
+const PILOT_WITHOUT_STATION: i32 = 1 << 4;
+
+/// A reaction, by the numbers of `COM_ACT_FAIL_ACT`.
+fn actuator_response(number: i32) -> Response {
+    match number {
+        1 => Response::Hold,
+        2 => Response::Land,
+        3 => Response::Return,
+        4 => Response::Terminate,
+        _ => Response::Warn,
+    }
+}
+
+/// A reaction, by the numbers of `BATT_FS_LOW_ACT`.
+fn battery_response(number: i32) -> Option<Response> {
+    match number {
+        1 => Some(Response::Land),
+        2 | 3 => Some(Response::Return),
+        4 => Some(Response::Land),
+        5 => Some(Response::Terminate),
+        6 => Some(Response::Return),
+        7 => Some(Response::Hold),
+        _ => None,
+    }
+}
+
+impl Params {
+    /// Carries the values into the rules.
+    pub(super) fn apply_rules(&self, rules: &mut OperatorRules) {
+        let copter = self.face.cast;
+        self.apply_responses(rules);
+        rules.homeward = if copter { self.copter_return() } else { self.px4_return() };
+        rules.envelope = self.envelope();
+        rules.heading = self.heading();
+        rules.mission_needs = MissionNeeds::from_number(self.integer("MIS_TKO_LAND_REQ")).unwrap_or_default();
+        rules.no_aid_s = f64::from(self.integer("EKF2_NOAID_TOUT")) * 1e-6;
+        rules.first_waypoint_m = self.number("MIS_DIST_1WP");
+        if copter {
+            rules.mission_restarts = self.integer("MIS_RESTART") == 1;
+            rules.mission_starts_armed = self.integer("AUTO_OPTIONS") & 1 << 1 != 0;
+            rules.orbit_radius_m = self.number("CIRCLE_RADIUS") / 100.0;
+            rules.fence = self.fence_parts();
+        }
+    }
+
+    fn integer(&self, name: &str) -> i32 {
+        self.whole(name).unwrap_or_default()
+    }
+
+    fn apply_responses(&self, rules: &mut OperatorRules) {
+        let out = &mut rules.responses;
+        out.manual_loss_except = Exceptions::from_bits(self.integer("COM_RCL_EXCEPT"));
+        out.data_link_loss_except = Exceptions::from_bits(self.integer("COM_DLL_EXCEPT"));
+        if let Some(loss) = OffboardLoss::from_number(self.integer("COM_OBL_RC_ACT")) {
+            out.offboard_loss = loss;
+        }
+        let detected = self.integer("FD_ACT_EN") != 0;
+        out.motor_failure = if detected { actuator_response(self.integer("COM_ACT_FAIL_ACT")) } else { Response::Warn };
+        out.battery = self.battery_responses();
+        out.battery_emergency_pct = 100.0 * self.number("BAT_EMERGEN_THR");
+        out.blind_lands = self.integer("COM_POSCTL_NAVL") == 1;
+        out.takeover_share = self.number("COM_RC_STICK_OV") / 100.0;
+        out.takeover_offboard = self.integer("COM_RC_OVERRIDE") & 1 << 1 != 0;
+        out.arm_charge_pct = 100.0 * self.number("COM_ARM_BAT_MIN").max(0.0);
+        out.arm_needs_mission = self.integer("COM_ARM_MIS_REQ") == 1;
+        if self.face.cast {
+            let options = self.integer("FS_OPTIONS");
+            let has = |bit: i32| options & bit != 0;
+            out.manual_loss_except = Exceptions {
+                mission: has(AUTO_WITHOUT_STICKS),
+                hold: has(GUIDED_WITHOUT_STICKS),
+                offboard: has(GUIDED_WITHOUT_STICKS),
+                manual: false,
+            };
+            out.data_link_loss_except =
+                Exceptions { mission: has(AUTO_WITHOUT_STATION), manual: has(PILOT_WITHOUT_STATION), ..Exceptions::default() };
+            out.battery_low_v = [self.number("BATT_LOW_VOLT"), self.number("BATT_CRT_VOLT")];
+            out.battery_low_s = self.number("BATT_LOW_TIMER");
+            out.blind_lands = self.integer("FS_EKF_ACTION") != 2;
+            out.crash_check = self.integer("FS_CRASH_CHECK") != 0;
+            out.arm_voltage_v = self.number("BATT_ARM_VOLT");
+        }
+    }
+
+    fn battery_responses(&self) -> BatteryResponses {
+        if self.face.cast {
+            let action = |name| battery_response(self.integer(name));
+            return [action("BATT_FS_LOW_ACT"), action("BATT_FS_CRT_ACT"), None];
+        }
+        match self.integer("COM_LOW_BAT_ACT") {
+            1 => JOB_BATTERY,
+            2 => [None, Some(Response::Land), Some(Response::Land)],
+            3 => [None, Some(Response::Return), Some(Response::Land)],
+            _ => [None; 3],
+        }
+    }
+
+    fn px4_return(&self) -> ReturnRules {
+        let angle_rad = self.number("RTL_CONE_ANG").to_radians();
+        ReturnRules {
+            places: ReturnPlaces::from_number(self.integer("RTL_TYPE")).unwrap_or_default(),
+            speed_m_s: None,
+            climb_min_m: 0.0,
+            cone_slope: if angle_rad > 0.0 { 1.0 / spandrel_model::math::tan(angle_rad) } else { 0.0 },
+            near_m: self.number("RTL_MIN_DIST"),
+            wait_height_m: Some(self.number("RTL_DESCEND_ALT")),
+            wait_s: self.number("RTL_LAND_DELAY"),
+            final_height_m: 0.0,
+        }
+    }
+
+    fn copter_return(&self) -> ReturnRules {
+        ReturnRules {
+            places: ReturnPlaces { home: self.integer("RALLY_INCL_HOME") != 0, rally: true, mission_landing: false },
+            speed_m_s: Some(self.number("RTL_SPEED") / 100.0).filter(|speed| *speed > 0.0),
+            climb_min_m: self.number("RTL_CLIMB_MIN") / 100.0,
+            cone_slope: self.number("RTL_CONE_SLOPE"),
+            near_m: OperatorRules::default().homeward.near_m,
+            wait_height_m: None,
+            wait_s: self.number("RTL_LOIT_TIME") / 1000.0,
+            final_height_m: self.number("RTL_ALT_FINAL") / 100.0,
+        }
+    }
+
+    fn heading(&self) -> Heading {
+        if !self.face.cast {
+            return Heading::from_number(self.integer("MPC_YAW_MODE")).unwrap_or(Heading::Target);
+        }
+        match self.integer("WP_YAW_BEHAVIOR") {
+            0 => Heading::Fixed,
+            1 => Heading::Target,
+            3 => Heading::Path,
+            _ => Heading::TargetExceptReturn,
+        }
+    }
+
+    /// A limit that an operator has changed; at its default the airframe alone limits.
+    fn limit(&self, name: &str) -> f64 {
+        let value = self.values.get(name);
+        if value == self.frame.get(name) { f64::INFINITY } else { self.number(name) }
+    }
+
+    fn envelope(&self) -> Envelope {
+        let centimeters = |name: &str| Some(self.number(name) / 100.0).filter(|value| *value > 0.0).unwrap_or(f64::INFINITY);
+        let mut out = Envelope {
+            manual_m_s: self.limit("MPC_VEL_MANUAL"),
+            manual_yaw_rad_s: self.limit("MPC_MAN_Y_MAX").to_radians(),
+            manual_tilt_rad: self.limit("MPC_MAN_TILT_MAX").to_radians(),
+            acceleration_m_s2: self.limit("MPC_ACC_HOR"),
+            climb_acceleration_m_s2: self.limit("MPC_ACC_UP_MAX").min(self.limit("MPC_ACC_DOWN_MAX")),
+            ..Envelope::OPEN
+        };
+        if self.face.cast {
+            out.manual_up_m_s = self.limit("PILOT_SPEED_UP") / 100.0;
+            out.manual_down_m_s =
+                Some(centimeters("PILOT_SPEED_DN")).filter(|value| value.is_finite()).unwrap_or(out.manual_up_m_s);
+            out.landing_m_s = centimeters("LAND_SPEED_HIGH");
+        }
+        out
+    }
+
+    fn fence_parts(&self) -> FenceParts {
+        let parts = self.integer("FENCE_TYPE");
+        let has = |bit: i32| parts & 1 << bit != 0;
+        FenceParts { height: has(0), distance: has(1), areas: has(2), floor_m: has(3).then(|| self.number("FENCE_ALT_MIN")) }
+    }
+}

@@ -1,0 +1,279 @@
+//! What comes in: routing first, then what is meant for us, by one table of messages.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use super::arrival::Arrival;
+use super::camera::stream;
+use super::commands::{self, Command};
+use super::guard::Admitted;
+use super::link::Link;
+use super::streams::{AUTOPILOT, CAMERA};
+use super::view::View;
+use super::{Context, Endpoint, LinkId, camera_params, control, events, exchange, ftp, shell};
+use crate::autopilot::Autopilot;
+use mavlink::MessageData;
+use spandrel_mavlink::codec::{Decoder, Received};
+use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::router;
+use spandrel_model::time::SimTime;
+
+const COMMAND_ACK: u32 = 77;
+
+macro_rules! handlers {
+    ($($name:ident $data:ident $handler:path),* $(,)?) => {
+        /// Numbers of all messages that the vehicle acts on; the fuzzing mutates each of them.
+        pub const HANDLED: &[u32] = &[COMMAND_LONG_DATA::ID, COMMAND_INT_DATA::ID, $($data::ID),*];
+
+        fn dispatch(endpoint: &mut Endpoint, message: &MavMessage, arrival: &mut Arrival) {
+            match message {
+                $(MavMessage::$name(body) => $handler(endpoint, body, arrival),)*
+                _ => {}
+            }
+        }
+    };
+}
+
+handlers! {
+    HEARTBEAT HEARTBEAT_DATA control::heartbeat,
+    MANUAL_CONTROL MANUAL_CONTROL_DATA control::manual_control,
+    RC_CHANNELS_OVERRIDE RC_CHANNELS_OVERRIDE_DATA control::channels,
+    SET_MODE SET_MODE_DATA control::set_mode,
+    SET_POSITION_TARGET_LOCAL_NED SET_POSITION_TARGET_LOCAL_NED_DATA control::local_target,
+    SET_POSITION_TARGET_GLOBAL_INT SET_POSITION_TARGET_GLOBAL_INT_DATA control::global_target,
+    SET_ATTITUDE_TARGET SET_ATTITUDE_TARGET_DATA control::attitude_target,
+    GIMBAL_MANAGER_SET_ATTITUDE GIMBAL_MANAGER_SET_ATTITUDE_DATA control::gimbal_attitude,
+    GIMBAL_MANAGER_SET_PITCHYAW GIMBAL_MANAGER_SET_PITCHYAW_DATA control::gimbal_pitch_yaw,
+    GIMBAL_DEVICE_SET_ATTITUDE GIMBAL_DEVICE_SET_ATTITUDE_DATA control::gimbal_device,
+    GIMBAL_MANAGER_SET_MANUAL_CONTROL GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA control::gimbal_manual,
+    FOLLOW_TARGET FOLLOW_TARGET_DATA control::follow_target,
+    GLOBAL_POSITION_INT GLOBAL_POSITION_INT_DATA control::other_position,
+    REQUEST_EVENT REQUEST_EVENT_DATA events::request,
+    SERIAL_CONTROL SERIAL_CONTROL_DATA shell::bytes,
+    TIMESYNC TIMESYNC_DATA exchange::timesync,
+    PING PING_DATA exchange::ping,
+    REQUEST_DATA_STREAM REQUEST_DATA_STREAM_DATA exchange::data_stream,
+    FILE_TRANSFER_PROTOCOL FILE_TRANSFER_PROTOCOL_DATA ftp::request,
+    PARAM_REQUEST_LIST PARAM_REQUEST_LIST_DATA exchange::param_list,
+    PARAM_REQUEST_READ PARAM_REQUEST_READ_DATA exchange::param_read,
+    PARAM_SET PARAM_SET_DATA exchange::param_set,
+    PARAM_EXT_REQUEST_LIST PARAM_EXT_REQUEST_LIST_DATA camera_params::list,
+    PARAM_EXT_REQUEST_READ PARAM_EXT_REQUEST_READ_DATA camera_params::read,
+    PARAM_EXT_SET PARAM_EXT_SET_DATA camera_params::set,
+    MISSION_REQUEST_LIST MISSION_REQUEST_LIST_DATA exchange::mission_list,
+    MISSION_REQUEST_INT MISSION_REQUEST_INT_DATA exchange::mission_item_int,
+    MISSION_REQUEST MISSION_REQUEST_DATA exchange::mission_item,
+    MISSION_COUNT MISSION_COUNT_DATA exchange::mission_count,
+    MISSION_ITEM_INT MISSION_ITEM_INT_DATA exchange::mission_receive_int,
+    MISSION_ITEM MISSION_ITEM_DATA exchange::mission_receive,
+    MISSION_CLEAR_ALL MISSION_CLEAR_ALL_DATA exchange::mission_clear,
+    MISSION_ACK MISSION_ACK_DATA exchange::mission_ack,
+    MISSION_SET_CURRENT MISSION_SET_CURRENT_DATA exchange::mission_set_current,
+    MISSION_REQUEST_PARTIAL_LIST MISSION_REQUEST_PARTIAL_LIST_DATA exchange::mission_request_partial,
+    MISSION_WRITE_PARTIAL_LIST MISSION_WRITE_PARTIAL_LIST_DATA exchange::mission_write_partial,
+    VIDEO_STREAM_STATUS VIDEO_STREAM_STATUS_DATA stream::status,
+    LOG_REQUEST_LIST LOG_REQUEST_LIST_DATA exchange::log_list,
+    LOG_REQUEST_DATA LOG_REQUEST_DATA_DATA exchange::log_data,
+    LOG_REQUEST_END LOG_REQUEST_END_DATA exchange::log_end,
+    LOG_ERASE LOG_ERASE_DATA exchange::log_erase,
+}
+
+impl Endpoint {
+    /// The tokens of lockstep answers to us in a datagram, of those who may speak. It acts later, by `receive`.
+    #[must_use]
+    pub fn answers(&self, id: LinkId, bytes: &[u8]) -> Vec<i64> {
+        let Some(link) = self.links.get(&id) else { return Vec::new() };
+        // A copy judges: what it remembers of the frame must not make it a repetition when it acts.
+        let mut guard = self.guard.clone();
+        let mut admitted = |frame: &Received| guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(frame, link.kind));
+        let frames = Decoder::new().datagram(bytes);
+        frames
+            .iter()
+            .filter_map(|frame| Some((frame, self.step_token(link, frame)?)))
+            .filter(|(frame, _)| admitted(frame) == Admitted::Acts)
+            .map(|(_, token)| token)
+            .collect()
+    }
+
+    /// The token of a frame that answers our question on a link in step; answers to others go their way.
+    fn step_token(&self, link: &Link, frame: &Received) -> Option<i64> {
+        let Some(MavMessage::TIMESYNC(sync)) = &frame.message else { return None };
+        let (system, component) = router::target(frame);
+        let ours = system == 0 || (system == self.system_id && matches!(component, 0 | AUTOPILOT));
+        Some(sync.ts1).filter(|token| ours && sync.tc1 != 0 && link.is_answer(*token))
+    }
+
+    /// Reads a datagram of a link.
+    pub fn receive(&mut self, id: LinkId, bytes: &[u8], view: &View, autopilot: &mut Autopilot) {
+        let Some(link) = self.links.get_mut(&id) else { return };
+        let before = link.decoder.bad_bytes();
+        let kind = link.kind;
+        let frames = link.decoder.datagram(bytes);
+        self.bad_bytes += link.decoder.bad_bytes() - before;
+        for frame in frames {
+            let admitted = self.guard.as_mut().map_or(Admitted::Acts, |guard| guard.admit(&frame, kind));
+            if admitted == Admitted::Acts && self.links.get(&id).is_some_and(|link| self.step_token(link, &frame).is_some()) {
+                self.join(id);
+                continue;
+            }
+            if admitted != Admitted::No {
+                self.wake(id, &frame, view.now);
+                self.route(id, &frame, view.now);
+            }
+            if admitted == Admitted::Acts {
+                self.act(id, &frame, view, autopilot);
+            }
+        }
+    }
+
+    /// A heartbeat that comes in lets the streams out.
+    fn wake(&mut self, from: LinkId, frame: &Received, now: SimTime) {
+        if frame.message_id == HEARTBEAT_DATA::ID
+            && let Some(link) = self.links.get_mut(&from)
+        {
+            link.wake(now);
+        }
+    }
+
+    fn route(&mut self, from: LinkId, frame: &Received, now: SimTime) {
+        // Nobody may speak in our own components' names.
+        if frame.system_id == self.system_id && matches!(frame.component_id, AUTOPILOT | CAMERA) {
+            return;
+        }
+        self.router.note(from, frame);
+        let all: Vec<LinkId> = self.links.keys().copied().collect();
+        let onward = self.router.onward(from, frame, &all);
+        if onward.is_empty() || !self.links.get_mut(&from).is_some_and(|link| link.may_hand_on(now)) {
+            return;
+        }
+        for onward in onward {
+            let to_all = router::target(frame).0 == 0;
+            if let Some(link) = self.links.get_mut(&onward).filter(|link| !(link.quiet && to_all)) {
+                link.hand_on(frame.bytes.clone());
+            }
+        }
+    }
+
+    /// Keeps what acts on the vehicle for the digest: who sent what. Sequence numbers and checksums do nothing, nor do a client's clocks.
+    fn note_act(&mut self, frame: &Received) {
+        let clocked = match frame.message_id {
+            // Questions about clocks: their answers change nothing of the vehicle, and they hold wall time.
+            TIMESYNC_DATA::ID | PING_DATA::ID => return,
+            // time_boot_ms of the sender, at the beginning of the payload.
+            SET_POSITION_TARGET_LOCAL_NED_DATA::ID | SET_POSITION_TARGET_GLOBAL_INT_DATA::ID | SET_ATTITUDE_TARGET_DATA::ID => {
+                size_of::<u32>()
+            }
+            id if HANDLED.contains(&id) => 0,
+            _ => return,
+        };
+        self.acted.extend(frame.message_id.to_le_bytes());
+        self.acted.extend([frame.system_id, frame.component_id]);
+        self.acted.extend(&frame.payload(255)[clocked..]);
+    }
+
+    /// What has acted on the vehicle since the last call, for the digest.
+    pub fn take_acted(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.acted)
+    }
+
+    /// Everything is the autopilot's component's; the camera's takes commands, and has settings and a file of its own.
+    fn act(&mut self, id: LinkId, frame: &Received, view: &View, autopilot: &mut Autopilot) {
+        let (system, component) = router::target(frame);
+        if system != 0 && system != self.system_id {
+            return;
+        }
+        if component == CAMERA
+            && let Some(link) = self.links.get_mut(&id)
+        {
+            link.use_camera();
+        }
+        self.note_act(frame);
+        let mut arrival = Arrival { link: id, from: (frame.system_id, frame.component_id), view, autopilot };
+        match (component, Command::of(frame)) {
+            (0 | AUTOPILOT | CAMERA, Some(command)) => self.command(&command, &mut arrival),
+            (0 | AUTOPILOT, None) => match &frame.message {
+                Some(message) => dispatch(self, message, &mut arrival),
+                None => self.unreadable(frame, &mut arrival),
+            },
+            (CAMERA, None) => self.act_as_camera(frame, &mut arrival),
+            _ => {}
+        }
+    }
+
+    fn act_as_camera(&mut self, frame: &Received, a: &mut Arrival) {
+        match &frame.message {
+            Some(MavMessage::FILE_TRANSFER_PROTOCOL(request)) => ftp::request_of_camera(self, request, a),
+            Some(
+                message @ (MavMessage::PARAM_EXT_REQUEST_LIST(_)
+                | MavMessage::PARAM_EXT_REQUEST_READ(_)
+                | MavMessage::PARAM_EXT_SET(_)),
+            ) => dispatch(self, message, a),
+            None if frame.message_id == PARAM_EXT_SET_DATA::ID => camera_params::unknown_type(self, &frame.payload(255), a),
+            _ => {}
+        }
+    }
+
+    /// Carries out a command, whether it came by the wire or by a button; `None` when its link is gone.
+    pub(super) fn obey(&mut self, command: &Command, a: &mut Arrival) -> Option<MavResult> {
+        let link = self.links.get_mut(&a.link)?;
+        let mut context = Context {
+            view: a.view.with(&self.payload).towards(link.kind),
+            autopilot: &mut *a.autopilot,
+            payload: &mut self.payload,
+            link,
+            texts: &mut self.texts,
+            params: &mut self.params,
+            storage: &mut self.storage,
+            restart: &mut self.restart,
+            faults: &mut self.injections,
+            chosen: &mut self.chosen,
+            report: &mut self.events.asked,
+            calibration: &mut self.calibration,
+        };
+        let before = context.params.changes();
+        let result = commands::handle(command, &mut context);
+        if self.params.changes() != before {
+            self.parameters_changed(a.autopilot);
+        }
+        Some(result)
+    }
+
+    fn command(&mut self, command: &Command, a: &mut Arrival) {
+        let Some(result) = self.obey(command, a) else { return };
+        let component = if command.component == CAMERA { CAMERA } else { AUTOPILOT };
+        let number = command.number.to_le_bytes();
+        // Laid out by hand: the number may be one that the dialect does not know.
+        let payload = [number[0], number[1], result as u8, 0, 0, 0, 0, 0, command.from.0, command.from.1];
+        if let Some(link) = self.links.get_mut(&a.link) {
+            link.send_payload(component, COMMAND_ACK, &payload);
+        }
+    }
+
+    /// Bodies with a number that the dialect's enumerations do not know are answered all the same.
+    fn unreadable(&mut self, frame: &Received, a: &mut Arrival) {
+        let p = frame.payload(255);
+        match frame.message_id {
+            SET_MODE_DATA::ID => control::enter_mode(self, u32::from_le_bytes([p[0], p[1], p[2], p[3]]), a),
+            SET_POSITION_TARGET_LOCAL_NED_DATA::ID | SET_POSITION_TARGET_GLOBAL_INT_DATA::ID => {
+                self.complain("Set-point in a frame that is not supported", a.view.now);
+            }
+            MISSION_ITEM_INT_DATA::ID | MISSION_ITEM_DATA::ID => exchange::unknown_item(self, p[37], a),
+            MISSION_REQUEST_LIST_DATA::ID | MISSION_CLEAR_ALL_DATA::ID => exchange::unknown_plan(self, p[2], a),
+            MISSION_COUNT_DATA::ID | MISSION_REQUEST_INT_DATA::ID | MISSION_REQUEST_DATA::ID => {
+                exchange::unknown_plan(self, p[4], a);
+            }
+            PARAM_SET_DATA::ID => exchange::unknown_type(self, &p[6..22], a),
+            _ => {}
+        }
+    }
+
+    /// Answers the link that asked.
+    pub(super) fn answer(&mut self, id: LinkId, message: &MavMessage) {
+        self.answer_as(AUTOPILOT, id, message);
+    }
+
+    /// Answers in the name of a component.
+    pub(super) fn answer_as(&mut self, component: u8, id: LinkId, message: &MavMessage) {
+        if let Some(link) = self.links.get_mut(&id) {
+            link.send(component, message);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The values that the scoring needs beside the truth's motion (design.md): named values, on change and at rates of their own.
+
+use super::Endpoint;
+use super::streams::{AUTOPILOT, truth};
+use super::view::View;
+use spandrel_model::time::{Schedule, SimTime};
+
+/// When each is due.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct TruthRates {
+    contact: Schedule,
+    clearance: Schedule,
+    lux: Schedule,
+    slow: Schedule,
+}
+
+impl TruthRates {
+    /// The design's rates; everything is due at once.
+    pub(super) fn new() -> Self {
+        let at = |hz| Schedule::new(SimTime::ZERO, hz);
+        Self { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2) }
+    }
+}
+
+impl Endpoint {
+    /// Named values for the scoring: contact on change and at 10 Hz, hits, respawns and traffic on change and with the slow
+    /// ones.
+    pub(super) fn truth(&mut self, view: &View) {
+        let s = view.scoring;
+        let rates = &mut self.truth_rates;
+        let mut out = Vec::new();
+        if rates.contact.fire(view.now) | (s.contact != self.sent.contact) {
+            out.push(truth::named_int(view, "contact", s.contact));
+        }
+        let slow = rates.slow.fire(view.now);
+        for (name, value, known) in [("hits", s.hits, self.sent.hits), ("respawns", s.respawns, self.sent.respawns)] {
+            if slow || value != known {
+                out.push(truth::named_int(view, name, value));
+            }
+        }
+        // Traffic that was never stopped is not spoken of.
+        if slow || s.traffic != self.sent.traffic {
+            out.extend(s.traffic.iter().filter(|code| **code != 0).map(|code| truth::named_int(view, "traffic", *code)));
+        }
+        if slow {
+            out.push(truth::named_int(view, "seed", s.seed));
+            out.push(truth::named_int(view, "scn_crc", s.scenario_crc));
+            if self.pace != 1.0 {
+                out.push(truth::named_float(view, "pace", self.pace));
+            }
+        }
+        if rates.clearance.fire(view.now) {
+            out.push(truth::named_float(view, "clearance", s.clearance_m));
+        }
+        if rates.lux.fire(view.now) {
+            out.push(truth::named_float(view, "lux", s.lux));
+        }
+        self.sent = *s;
+        for link in self.listeners().filter(|link| !link.is_limited() && link.wants_truth()) {
+            out.iter().for_each(|message| link.send(AUTOPILOT, message));
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! The console over SERIAL_CONTROL, as PX4's MAVLink shell: a line in, its output and a prompt back.
+
+mod topics;
+
+use super::arrival::Arrival;
+use super::commands::Command;
+use super::params::Value;
+use super::streams::AUTOPILOT;
+use super::{Endpoint, LinkId};
+use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavResult, SERIAL_CONTROL_DATA, SerialControlDev, SerialControlFlag};
+use std::collections::VecDeque;
+
+/// Bytes of SERIAL_CONTROL.
+const CHUNK: usize = 70;
+/// Longest line that is read, bytes.
+const LONGEST_LINE: usize = 256;
+/// Output that waits for one asker, bytes; more is cut off.
+const MOST_WAITING: usize = 65_536;
+/// Messages sent in one tick.
+const MESSAGES_A_TICK: usize = 4;
+const PROMPT: &str = "nsh> ";
+/// Numbers of PX4's modes, by the names of its shell.
+const MODES: [(&str, f64, f64); 11] = [
+    ("manual", 1.0, 0.0),
+    ("acro", 5.0, 0.0),
+    ("stabilized", 7.0, 0.0),
+    ("altctl", 2.0, 0.0),
+    ("posctl", 3.0, 0.0),
+    ("offboard", 6.0, 0.0),
+    ("auto:takeoff", 4.0, 2.0),
+    ("auto:loiter", 4.0, 3.0),
+    ("auto:mission", 4.0, 4.0),
+    ("auto:rtl", 4.0, 5.0),
+    ("auto:land", 4.0, 6.0),
+];
+
+/// Who talks to the shell.
+type Sender = (LinkId, (u8, u8));
+
+/// The shell's state. One talks to it at a time, as to PX4's: who types takes it over.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Shell {
+    user: Option<Sender>,
+    line: String,
+    out: VecDeque<u8>,
+}
+
+impl Shell {
+    fn print(&mut self, text: &str) {
+        let room = MOST_WAITING.saturating_sub(self.out.len());
+        self.out.extend(text.bytes().take(room));
+    }
+
+    /// A link is gone.
+    pub fn forget(&mut self, link: LinkId) {
+        if self.user.is_some_and(|(known, _)| known == link) {
+            *self = Self::default();
+        }
+    }
+}
+
+/// Bytes for the shell. Without the flags that ask for a reply it is closed.
+pub(super) fn bytes(e: &mut Endpoint, m: &SERIAL_CONTROL_DATA, a: &mut Arrival) {
+    let ours = m.device == SerialControlDev::SERIAL_CONTROL_DEV_SHELL && e.flavour.shell;
+    if !ours || m.flags.contains(SerialControlFlag::SERIAL_CONTROL_FLAG_REPLY) {
+        return;
+    }
+    let from = (a.link, a.from);
+    if !m.flags.contains(SerialControlFlag::SERIAL_CONTROL_FLAG_RESPOND) {
+        if e.shell.user == Some(from) {
+            e.shell = Shell::default();
+        }
+        return;
+    }
+    if e.shell.user != Some(from) {
+        e.shell = Shell { user: Some(from), ..Shell::default() };
+        e.shell.print(PROMPT);
+    }
+    let data = &m.data[..usize::from(m.count).min(CHUNK)];
+    for character in String::from_utf8_lossy(data).chars() {
+        match character {
+            '\n' | '\r' if e.shell.line.is_empty() && character == '\r' => {}
+            '\n' | '\r' => enter(e, a),
+            '\u{8}' | '\u{7f}' => {
+                e.shell.line.pop();
+            }
+            other if !other.is_control() && e.shell.line.len() < LONGEST_LINE => {
+                e.shell.line.push(other);
+                e.shell.print(other.encode_utf8(&mut [0; 4]));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Carries out the line.
+fn enter(e: &mut Endpoint, a: &mut Arrival) {
+    let line = std::mem::take(&mut e.shell.line);
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let output = match words.split_first() {
+        None => String::new(),
+        Some((&"help" | &"?", _)) => help(),
+        Some((&"ver", rest)) => version(e, rest),
+        Some((&"param", rest)) => parameters(e, rest, a),
+        Some((&"commander", rest)) => commander(e, rest, a),
+        Some((&"listener", rest)) => topics::listen(a.view, rest),
+        Some((unknown, _)) => format!("nsh: {unknown}: command not found\n"),
+    };
+    e.shell.print(&format!("\n{output}{PROMPT}"));
+}
+
+fn help() -> String {
+    let commands = ["commander", "help", "listener", "param", "ver"].map(|name| format!("  {name}\n"));
+    format!("Builtin Apps:\n{}", commands.concat())
+}
+
+fn version(e: &Endpoint, rest: &[&str]) -> String {
+    let version = e.flavour.software_version.to_be_bytes();
+    let number = format!("{}.{}.{}", version[0], version[1], version[2]);
+    let lines = [
+        ("hw", "HW arch: SPANDREL_SITL\n".to_owned()),
+        ("git", format!("FW version: {number} dev ({})\n", e.flavour.software_version)),
+        ("os", format!("OS: Spandrel {}\n", env!("CARGO_PKG_VERSION"))),
+        ("uid", format!("UID: system {}\n", e.system_id)),
+    ];
+    match rest {
+        ["all"] => lines.map(|(_, line)| line).concat(),
+        [part] if lines.iter().any(|(name, _)| name == part) => {
+            lines.into_iter().filter(|(name, _)| name == part).map(|(_, line)| line).collect()
+        }
+        _ => "Usage: ver {all|hw|git|os|uid}\n".into(),
+    }
+}
+
+fn parameters(e: &mut Endpoint, rest: &[&str], a: &mut Arrival) -> String {
+    let shown = |(name, value): (&str, Value)| match value {
+        Value::Int(whole) => format!("x   {name} : {whole}\n"),
+        Value::Real(real) => format!("x   {name} : {real:.4}\n"),
+    };
+    match rest {
+        ["show"] | ["show", _] => {
+            let wanted = rest.get(1).copied().unwrap_or("*");
+            let fits = |name: &str| wanted.strip_suffix('*').map_or(name == wanted, |start| name.starts_with(start));
+            let found: Vec<String> = e.parameters().filter(|(name, _)| fits(name)).map(shown).collect();
+            format!("Symbols: x = used, + = saved, * = unsaved\n{}\n {} parameters\n", found.concat(), found.len())
+        }
+        ["get", name] => match e.params.find(name) {
+            Some((_, name, value)) => shown((name, value)),
+            None => format!("ERROR: parameter {name} not found\n"),
+        },
+        ["set", name, value] => set_parameter(e, name, value, a),
+        _ => "Usage: param {show [NAME[*]]|get NAME|set NAME VALUE}\n".into(),
+    }
+}
+
+fn set_parameter(e: &mut Endpoint, name: &str, value: &str, a: &mut Arrival) -> String {
+    let Some((_, _, before)) = e.params.find(name) else { return format!("ERROR: parameter {name} not found\n") };
+    let parsed = match before {
+        Value::Int(_) => value.parse().ok().map(Value::Int),
+        Value::Real(_) => value.parse().ok().map(Value::Real),
+    };
+    let Some(parsed) = parsed else { return format!("ERROR: {value} is no value for {name}\n") };
+    if e.params.set_value(name, parsed).is_err() {
+        let (low, high) = e.params.range(name).unwrap_or((0.0, 0.0));
+        return format!("ERROR: {name} = {value} refused: allowed {low} to {high}, or read-only\n");
+    }
+    e.parameters_changed(a.autopilot);
+    format!("  {name}: curr: {value}\n")
+}
+
+fn commander(e: &mut Endpoint, rest: &[&str], a: &mut Arrival) -> String {
+    let forced = |rest: &[&str]| if rest.contains(&"-f") { 21_196.0 } else { 0.0 };
+    let order = match rest {
+        ["arm", more @ ..] => (MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, forced(more), 0.0]),
+        ["disarm", more @ ..] => (MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [0.0, forced(more), 0.0]),
+        ["takeoff"] => (MavCmd::MAV_CMD_NAV_TAKEOFF, [0.0; 3]),
+        ["land"] => (MavCmd::MAV_CMD_NAV_LAND, [0.0; 3]),
+        ["mode", name] => match MODES.iter().find(|(known, ..)| known == name) {
+            Some((_, main, sub)) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, *main, *sub]),
+            None => return format!("ERROR: no mode {name}; modes: {}\n", MODES.map(|(name, ..)| name).join(" ")),
+        },
+        ["check"] => return check(a),
+        ["status"] => return status(a),
+        _ => return "Usage: commander {arm [-f]|disarm [-f]|takeoff|land|mode NAME|check|status}\n".into(),
+    };
+    let (number, [p0, p1, p2]) = order;
+    let nan = f64::NAN;
+    let p = [p0, p1, p2, nan, nan, nan, nan];
+    let number = number as u16;
+    let command =
+        Command { number, p, frame: 0, component: AUTOPILOT, system: e.system_id, from: a.from, whole: false, own: false };
+    match e.obey(&command, a) {
+        Some(MavResult::MAV_RESULT_ACCEPTED) => String::new(),
+        Some(result) => format!("Command failed: {result:?}\n"),
+        None => String::new(),
+    }
+}
+
+fn check(a: &Arrival) -> String {
+    let reasons = &a.view.status.arming_reasons;
+    let lines: Vec<String> = reasons.iter().map(|reason| format!("WARN: Preflight Fail: {reason}\n")).collect();
+    let verdict = if reasons.is_empty() { "OK" } else { "FAILED" };
+    format!("{}Preflight check: {verdict}\n", lines.concat())
+}
+
+fn status(a: &Arrival) -> String {
+    let s = a.view.status;
+    let armed = if s.armed { "Armed" } else { "Disarmed" };
+    let failsafe = s.failsafe.as_deref().unwrap_or("none");
+    format!("Arm state: {armed}\nNavigation mode: {}\nFailsafe: {failsafe}\n", a.view.mode_row().name)
+}
+
+impl Endpoint {
+    /// Sends what the shell has printed, some of it in each tick.
+    pub(super) fn send_shell(&mut self) {
+        let Some((id, (target_system, target_component))) = self.shell.user else { return };
+        let Some(link) = self.links.get_mut(&id) else { return };
+        for _ in 0..MESSAGES_A_TICK {
+            if self.shell.out.is_empty() || link.is_busy() {
+                return;
+            }
+            let count = self.shell.out.len().min(CHUNK);
+            let mut data = [0; CHUNK];
+            data.iter_mut().zip(self.shell.out.drain(..count)).for_each(|(slot, byte)| *slot = byte);
+            let message = MavMessage::SERIAL_CONTROL(SERIAL_CONTROL_DATA {
+                baudrate: 0,
+                timeout: 0,
+                device: SerialControlDev::SERIAL_CONTROL_DEV_SHELL,
+                flags: SerialControlFlag::SERIAL_CONTROL_FLAG_REPLY,
+                count: count as u8,
+                data,
+                target_system,
+                target_component,
+            });
+            link.send(AUTOPILOT, &message);
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! `listener TOPIC`: the newest values of a topic, under PX4's names.
+
+use super::super::streams::{self, Outgoing};
+use super::super::view::View;
+use mavlink::MessageData;
+use spandrel_mavlink::dialect::{LOCAL_POSITION_NED_DATA, MavMessage};
+
+type Fields = Vec<(&'static str, String)>;
+type Topic = (&'static str, fn(&View) -> Fields);
+
+const TOPICS: [Topic; 6] = [
+    ("battery_status", battery),
+    ("sensor_combined", sensors),
+    ("vehicle_attitude", attitude),
+    ("vehicle_global_position", global_position),
+    ("vehicle_local_position", local_position),
+    ("vehicle_status", status),
+];
+
+pub(super) fn listen(view: &View, rest: &[&str]) -> String {
+    let found = rest.first().and_then(|wanted| TOPICS.iter().find(|(name, _)| name == wanted));
+    let Some((name, fields)) = found else {
+        let known = TOPICS.map(|(name, _)| format!("  {name}\n")).concat();
+        return format!("Usage: listener TOPIC\nTopics:\n{known}");
+    };
+    let lines: Vec<String> = fields(view).iter().map(|(field, value)| format!("    {field}: {value}\n")).collect();
+    format!("\nTOPIC: {name}\n {name}\n    timestamp: {}\n{}\n", view.boot_us(), lines.concat())
+}
+
+fn vector(values: &[f64]) -> String {
+    let numbers: Vec<String> = values.iter().map(|value| format!("{value:.5}")).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+fn battery(v: &View) -> Fields {
+    vec![
+        ("voltage_v", format!("{:.5}", v.battery.voltage_v)),
+        ("current_a", format!("{:.5}", v.battery.current_a)),
+        ("remaining", format!("{:.5}", v.battery.remaining_pct() / 100.0)),
+    ]
+}
+
+fn sensors(v: &View) -> Fields {
+    let Some(imu) = &v.readings.imu else { return Fields::new() };
+    vec![("gyro_rad", vector(&imu.rates_rad_s.array())), ("accelerometer_m_s2", vector(&imu.specific_force_m_s2.array()))]
+}
+
+fn attitude(v: &View) -> Fields {
+    let (roll, pitch, yaw) = v.estimate.attitude.euler();
+    let degrees = [roll, pitch, yaw].map(f64::to_degrees);
+    vec![(
+        "q",
+        format!(
+            "{} (Roll: {:.1} deg, Pitch: {:.1} deg, Yaw: {:.1} deg)",
+            vector(&v.estimate.attitude.wxyz()),
+            degrees[0],
+            degrees[1],
+            degrees[2]
+        ),
+    )]
+}
+
+fn global_position(v: &View) -> Fields {
+    let geo = v.geo();
+    vec![
+        ("lat", format!("{:.7}", geo.latitude_deg)),
+        ("lon", format!("{:.7}", geo.longitude_deg)),
+        ("alt", format!("{:.5}", geo.altitude_m)),
+        ("eph", format!("{:.5}", v.estimate.horizontal_m)),
+        ("epv", format!("{:.5}", v.estimate.vertical_m)),
+    ]
+}
+
+fn local_position(v: &View) -> Fields {
+    // As it is streamed, in the same frame.
+    let streamed = streams::rows_of(LOCAL_POSITION_NED_DATA::ID).find_map(|(_, row)| row.build(v));
+    let Some(Outgoing::Common(MavMessage::LOCAL_POSITION_NED(p))) = streamed else { return Fields::new() };
+    let number = |value: f32| format!("{value:.5}");
+    vec![
+        ("x", number(p.x)),
+        ("y", number(p.y)),
+        ("z", number(p.z)),
+        ("vx", number(p.vx)),
+        ("vy", number(p.vy)),
+        ("vz", number(p.vz)),
+        ("xy_valid", v.estimate.position_valid.to_string()),
+    ]
+}
+
+fn status(v: &View) -> Fields {
+    vec![
+        ("arming_state", if v.status.armed { "2" } else { "1" }.to_owned()),
+        ("nav_state", v.mode_row().name.to_owned()),
+        ("failsafe", v.status.failsafe.is_some().to_string()),
+        ("system_id", v.system_id.to_string()),
+    ]
+}

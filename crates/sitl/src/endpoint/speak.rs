@@ -1,0 +1,187 @@
+//! What the vehicle says in a tick: news, streams, texts, lists, each to whom it concerns.
+
+use super::camera::Shot;
+use super::link::Link;
+use super::streams::{self, AUTOPILOT, CAMERA, STREAMS};
+use super::view::View;
+use super::{Endpoint, LinkId, LinkKind, commands, ftp, items, mission};
+use crate::autopilot::{Event, Severity};
+use spandrel_mavlink::codec::Framed;
+use spandrel_mavlink::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity};
+
+/// A client that keeps the last heartbeat and has no use for the camera keeps the autopilot's: it follows the camera's in the same datagram.
+fn repeat_autopilot(link: &mut Link, view: &View) {
+    if link.uses_camera() || link.kind == LinkKind::Payload {
+        return;
+    }
+    let rows = streams::rows_of(HEARTBEAT).filter(|(_, row)| row.component == AUTOPILOT);
+    for message in rows.filter_map(|(_, row)| row.build(view)) {
+        link.send(AUTOPILOT, &message);
+    }
+}
+
+/// HEARTBEAT's number.
+const HEARTBEAT: u32 = 0;
+
+impl Endpoint {
+    /// What is due now goes out.
+    pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
+        self.chosen = self.shown(view);
+        self.flight.follow(std::mem::replace(&mut self.was_armed, view.status.armed), view.status, view.now);
+        self.note_fence_switch(view.fence_enabled);
+        self.take_picture(view);
+        if self.pace != self.told_pace {
+            self.told_pace = self.pace;
+            self.tell(MavSeverity::MAV_SEVERITY_INFO, &format!("Time limits of clients are {} times as long", self.pace));
+        }
+        for event in events {
+            let severity = match event.severity {
+                Severity::Critical => MavSeverity::MAV_SEVERITY_CRITICAL,
+                Severity::Warning => MavSeverity::MAV_SEVERITY_WARNING,
+                Severity::Info => MavSeverity::MAV_SEVERITY_INFO,
+            };
+            let own = event.sensor.and_then(self.flavour.sensor_words);
+            self.texts.push(own.unwrap_or((severity, event.text)));
+        }
+        for seq in reached {
+            self.mission_payload(seq, view);
+            let message = MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq: seq as u16 + view.plans.lead });
+            self.broadcast(AUTOPILOT, &message);
+        }
+        let view = &view.with(&self.payload);
+        self.tell_news(view);
+        self.streams(view);
+        self.truth(view);
+        self.calibrate(view);
+        self.report_events(view);
+        self.say_texts();
+        self.params.note_plans(self.plans.totals());
+        self.send_params();
+        self.send_shell();
+        ftp::speak(self);
+        self.tell_logs();
+        self.send_pictures();
+        if let Some((peer, message)) = self.plans.remind(view.now) {
+            self.send_to(peer, &message);
+        }
+    }
+
+    /// Heartbeats and texts alone: time stands still. The camera's go to those who use it.
+    pub fn beat(&mut self, view: &View) {
+        let view = &view.with(&self.payload);
+        for link in self.listeners() {
+            let view = &view.towards(link.kind);
+            let camera = link.uses_camera();
+            for (_, row) in streams::rows_of(HEARTBEAT).filter(|(_, row)| camera || row.component == AUTOPILOT) {
+                if let Some(message) = row.build(view) {
+                    link.send(row.component, &message);
+                }
+            }
+        }
+        self.say_texts();
+    }
+
+    /// The flavour's number of the mode that is flown. One that the fence or a failsafe has changed to nobody chose: what flies errands as they come does
+    /// not go on doing so.
+    fn shown(&mut self, view: &View) -> u32 {
+        let taken = view.status.fence.taken;
+        let changed = std::mem::replace(&mut self.fence_took, taken) != taken;
+        let forced = view.status.failsafe.is_some() && view.status.mode != view.status.intended;
+        if changed || forced { self.flavour.usual(view.status.mode).number } else { view.mode_row().number }
+    }
+
+    fn take_picture(&mut self, view: &View) {
+        let here = view.estimate.position_m.enu();
+        if !self.payload.camera.due(view.now, here) {
+            return;
+        }
+        let view = &view.with(&self.payload);
+        // The scoring judges what a picture shows: the field of view goes before it.
+        if view.vehicle.camera.zoom_max > 1.0 {
+            self.broadcast(CAMERA, &streams::field_of_view(view));
+        }
+        let message = self.payload.camera.take(Shot::of(view), view.now, here);
+        self.broadcast(CAMERA, &message);
+        if self.payload.camera.full(view.now) {
+            self.payload.news.warn("Memory card full");
+        }
+    }
+
+    /// What has changed in the payload is told to everybody.
+    fn tell_news(&mut self, view: &View) {
+        let (messages, warnings) = self.payload.news.take();
+        for (_, row) in messages.into_iter().flat_map(streams::rows_of) {
+            for link in self.links.values_mut() {
+                if let Some(message) = row.build(&view.towards(link.kind)) {
+                    link.send(row.component, &message);
+                }
+            }
+        }
+        for warning in warnings {
+            self.tell(MavSeverity::MAV_SEVERITY_WARNING, warning);
+        }
+    }
+
+    /// Pictures that were asked for again, one in a tick on each link that has room.
+    fn send_pictures(&mut self) {
+        for link in self.links.values_mut().filter(|link| !link.is_busy()) {
+            if let Some(message) = link.pictures.next().and_then(|index| self.payload.camera.again(index)) {
+                link.send(CAMERA, &message);
+            }
+        }
+    }
+
+    /// Items of the mission that are the payload's act when they are passed.
+    fn mission_payload(&mut self, seq: usize, view: &View) {
+        let Some(item) = items::aimed(self.plans.mission(), seq) else { return };
+        let command = commands::Command::of_item(&item, (self.system_id, AUTOPILOT));
+        if let Some(result) = commands::payload::handle(&command, view, &mut self.payload)
+            && result != MavResult::MAV_RESULT_ACCEPTED
+        {
+            let why = commands::payload::why(&command, view, &self.payload);
+            let text = format!("Mission item {}: {why}", seq + usize::from(view.plans.lead));
+            self.tell(MavSeverity::MAV_SEVERITY_WARNING, &text);
+        }
+    }
+
+    fn streams(&mut self, view: &View) {
+        let mut rows = std::mem::take(&mut self.row_buffer);
+        for link in self.listeners() {
+            link.due(view.now, &mut rows);
+            let view = &view.towards(link.kind);
+            for row in &rows {
+                let stream = &STREAMS[*row];
+                if let Some(message) = stream.build(view) {
+                    link.stream(stream.component, &message);
+                    if (stream.id, stream.component) == (HEARTBEAT, CAMERA) {
+                        repeat_autopilot(link, view);
+                    }
+                }
+            }
+        }
+        self.row_buffer = rows;
+    }
+
+    pub(super) fn broadcast(&mut self, component: u8, message: &impl Framed) {
+        for link in self.listeners() {
+            link.send(component, message);
+        }
+    }
+
+    /// To the links on which a peer has been heard.
+    fn send_to(&mut self, peer: mission::Peer, message: &MavMessage) {
+        for (id, link) in &mut self.links {
+            if self.router.heard_on(peer, *id) {
+                link.send(AUTOPILOT, message);
+            }
+        }
+    }
+
+    fn tell_logs(&mut self) {
+        let links = &self.links;
+        let ready = |link: &LinkId| links.get(link).is_none_or(|link| !link.is_busy());
+        for (link, message) in self.logs.poll(ready) {
+            self.answer(link, &message);
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Keeping parameters beyond a run: the shell holds the file, clients ask for it by PREFLIGHT_STORAGE.
+
+use super::Context;
+use super::commands::Command;
+use super::params::Params;
+use spandrel_mavlink::dialect::MavResult;
+
+/// What a client wants of the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wish {
+    /// Read it again.
+    Load,
+    /// Write it.
+    Save,
+}
+
+/// Who keeps the parameters, and what they were at first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Storage {
+    /// The shell has a file.
+    pub kept: bool,
+    /// What is to be done with it.
+    pub wish: Option<Wish>,
+    defaults: Params,
+}
+
+impl Storage {
+    /// What they were at first.
+    #[must_use]
+    pub fn defaults(&self) -> &Params {
+        &self.defaults
+    }
+
+    /// Nobody keeps them.
+    #[must_use]
+    pub fn new(defaults: Params) -> Self {
+        Self { kept: false, wish: None, defaults }
+    }
+}
+
+/// PREFLIGHT_STORAGE: parameter 1 is 0 to read the file, 1 to write it, 2 for the defaults (MAVLink common).
+pub(super) fn preflight(c: &Command, x: &mut Context) -> MavResult {
+    let wish = match c.p[0] {
+        0.0 => Wish::Load,
+        1.0 => Wish::Save,
+        2.0 => {
+            x.params.reset(&x.storage.defaults);
+            return MavResult::MAV_RESULT_ACCEPTED;
+        }
+        // -1 leaves the parameters alone.
+        -1.0 => return MavResult::MAV_RESULT_ACCEPTED,
+        _ => return MavResult::MAV_RESULT_DENIED,
+    };
+    if !x.storage.kept {
+        x.tell("No parameter file: start with --params FILE");
+        return MavResult::MAV_RESULT_DENIED;
+    }
+    x.storage.wish = Some(wish);
+    MavResult::MAV_RESULT_ACCEPTED
+}

@@ -1,0 +1,70 @@
+//! What ArduCopter streams besides the common messages.
+
+use super::super::view::View;
+use spandrel_mavlink::ardupilotmega::{AHRS, EKF_STATUS_REPORT, MEMINFO, Message, SIMSTATE, WIND};
+use spandrel_mavlink::dialect::{MavMessage, MavPowerStatus, POWER_STATUS_DATA};
+use spandrel_mavlink::units::deg_e7;
+use spandrel_model::frames::Vec3;
+use spandrel_model::math;
+
+/// Bits of EKF_STATUS_FLAGS (ardupilotmega.xml).
+const ATTITUDE: u16 = 1;
+const VERTICAL: u16 = 4 | 32;
+const HORIZONTAL: u16 = 2 | 8 | 16 | 256 | 512;
+const CONSTANT_POSITION: u16 = 128;
+const UNINITIALIZED: u16 = 1_024;
+/// Accuracies at which a variance is 1, beyond which ArduPilot rejects it, m (1 sigma): the one that arming asks for.
+const REJECTED_M: f64 = 5.0;
+/// What ArduPilot's own SITL reports of its board: a simulated one has no memory or supply of its own.
+const FREE_BYTES: f64 = 524_288.0;
+const BOARD_MV: u16 = 5_000;
+
+pub(super) fn estimator(v: &View) -> Option<Message> {
+    let e = v.estimate;
+    let flags = match (e.attitude_valid, e.position_valid) {
+        (false, _) => UNINITIALIZED,
+        (true, false) => ATTITUDE | VERTICAL | CONSTANT_POSITION,
+        (true, true) => ATTITUDE | VERTICAL | HORIZONTAL,
+    };
+    let share = |sigma_m: f64| ((sigma_m / REJECTED_M) * (sigma_m / REJECTED_M)).min(1.0);
+    let compass = if v.status.health.compass { 0.0 } else { 1.0 };
+    let [flat, height] = [e.horizontal_m, e.vertical_m].map(share);
+    Some(EKF_STATUS_REPORT.message(&[
+        f64::from(flags),
+        if e.position_valid { flat } else { 1.0 },
+        flat,
+        height,
+        compass,
+        0.0,
+        0.0,
+    ]))
+}
+
+/// The gyroscope's drift: what the estimator adds to its readings. It keeps no measure of its attitude's error: those are 0.
+pub(super) fn ahrs(v: &View) -> Option<Message> {
+    let drift = v.readings.imu.map_or(Vec3::zero(), |imu| v.estimate.rates_rad_s - imu.rates_rad_s);
+    let [x, y, z] = drift.array();
+    Some(AHRS.message(&[x, y, z]))
+}
+
+pub(super) fn memory(_: &View) -> Option<Message> {
+    Some(MEMINFO.message(&[0.0, f64::from(u16::MAX), FREE_BYTES]))
+}
+
+pub(super) fn simulation(v: &View) -> Option<Message> {
+    let (roll, pitch, yaw) = v.truth.attitude.euler();
+    let ([xa, ya, za], [xr, yr, zr]) = (v.specific_force_m_s2.array(), v.truth.rates_rad_s.array());
+    let geo = v.true_geo();
+    let [lat, lng] = [geo.latitude_deg, geo.longitude_deg].map(|degrees| f64::from(deg_e7(degrees)));
+    Some(SIMSTATE.message(&[roll, pitch, yaw, xa, ya, za, xr, yr, zr, lat, lng]))
+}
+
+pub(super) fn wind(v: &View) -> Option<Message> {
+    let w = v.wind_m_s;
+    let from = math::atan2(-w.east(), -w.north()).to_degrees();
+    Some(WIND.message(&[from, w.horizontal_norm(), w.down()]))
+}
+
+pub(super) fn power(_: &View) -> Option<MavMessage> {
+    Some(MavMessage::POWER_STATUS(POWER_STATUS_DATA { Vcc: BOARD_MV, Vservo: 0, flags: MavPowerStatus::empty() }))
+}

@@ -1,0 +1,184 @@
+//! What the vehicle sends by itself: one row a message, with its rates by kind of link (mavlink.md 4.10).
+
+mod ardupilot;
+mod attitude;
+mod payload;
+mod position;
+mod sensors;
+mod system;
+pub mod truth;
+
+pub(super) use payload::field_of_view;
+
+use super::LinkKind;
+use super::flavour::Flavour;
+use super::view::View;
+use spandrel_mavlink::ardupilotmega;
+use spandrel_mavlink::codec::{Encoder, Framed};
+use spandrel_mavlink::dialect::MavMessage;
+
+/// The autopilot's component id.
+pub const AUTOPILOT: u8 = 1;
+/// The camera's component id.
+pub const CAMERA: u8 = 100;
+
+/// One message that can be streamed or requested.
+#[derive(Clone, Copy)]
+pub struct Stream {
+    /// Message id.
+    pub id: u32,
+    /// Rates on a ground station's link, an SDK's and a sidecar's, Hz.
+    rates_hz: [f64; 3],
+    /// Which component speaks.
+    pub component: u8,
+    /// ArduPilot alone sends it, whichever dialect defines it.
+    of_ardupilot: bool,
+    make: Make,
+}
+
+/// How a message is made; `None` when there is nothing to say.
+#[derive(Clone, Copy)]
+enum Make {
+    Common(fn(&View) -> Option<MavMessage>),
+    ArduPilot(fn(&View) -> Option<ardupilotmega::Message>),
+}
+
+/// A message to be sent.
+#[derive(Debug, Clone, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "it lives for one call; a box would cost an allocation for each message")]
+pub enum Outgoing {
+    /// Of the common dialect.
+    Common(MavMessage),
+    /// Of ArduPilot's.
+    ArduPilot(ardupilotmega::Message),
+}
+
+impl Framed for Outgoing {
+    fn frame(&self, encoder: &mut Encoder) -> Vec<u8> {
+        match self {
+            Self::Common(message) => message.frame(encoder),
+            Self::ArduPilot(message) => message.frame(encoder),
+        }
+    }
+}
+
+impl Stream {
+    /// The message; `None` when there is nothing to say.
+    #[must_use]
+    pub fn build(&self, view: &View) -> Option<Outgoing> {
+        if !self.is_spoken(view.flavour) {
+            return None;
+        }
+        match self.make {
+            Make::Common(make) => make(view).map(Outgoing::Common),
+            Make::ArduPilot(make) => make(view).map(Outgoing::ArduPilot),
+        }
+    }
+
+    /// Whether a flavour speaks this message.
+    #[must_use]
+    pub fn is_spoken(&self, flavour: &Flavour) -> bool {
+        flavour.dialect_of_ardupilot || !self.of_ardupilot
+    }
+
+    /// Rate on a kind of link, Hz.
+    #[must_use]
+    pub fn rate_hz(&self, kind: LinkKind) -> f64 {
+        match kind {
+            LinkKind::GroundStation | LinkKind::Tcp | LinkKind::Serial => self.rates_hz[0],
+            LinkKind::Sdk => self.rates_hz[1],
+            LinkKind::Payload => self.rates_hz[2],
+        }
+    }
+}
+
+const fn row(id: u32, rates_hz: [f64; 3], build: fn(&View) -> Option<MavMessage>) -> Stream {
+    Stream { id, rates_hz, component: AUTOPILOT, of_ardupilot: false, make: Make::Common(build) }
+}
+
+const fn camera(id: u32, rates_hz: [f64; 3], build: fn(&View) -> Option<MavMessage>) -> Stream {
+    Stream { id, rates_hz, component: CAMERA, of_ardupilot: false, make: Make::Common(build) }
+}
+
+const fn of_ardupilot(id: u32, make: Make) -> Stream {
+    Stream { id, rates_hz: [0.0; 3], component: AUTOPILOT, of_ardupilot: true, make }
+}
+
+/// All of them. HIL_STATE_QUATERNION comes first, so that what follows in the same datagram belongs to its instant.
+pub const STREAMS: &[Stream] = &[
+    row(115, [50.0, 50.0, 50.0], truth::state),
+    row(0, [1.0, 1.0, 1.0], system::heartbeat),
+    // After the autopilot's, so that a client that takes the first heartbeat gets the vehicle; once a second where the camera is used (`Link`).
+    camera(0, [0.25, 0.25, 1.0], payload::camera_heartbeat),
+    row(1, [2.0, 2.0, 2.0], system::sys_status),
+    row(2, [1.0, 1.0, 1.0], system::system_time),
+    row(24, [5.0, 5.0, 1.0], sensors::gps_raw),
+    row(29, [1.0, 1.0, 0.0], sensors::pressure),
+    row(105, [0.0, 50.0, 0.0], sensors::highres_imu),
+    row(26, [0.0, 0.0, 0.0], sensors::scaled_imu),
+    row(30, [50.0, 50.0, 10.0], attitude::attitude),
+    row(31, [50.0, 50.0, 0.0], attitude::quaternion),
+    row(83, [10.0, 10.0, 0.0], attitude::target),
+    row(32, [50.0, 50.0, 10.0], position::local),
+    row(33, [50.0, 50.0, 10.0], position::global),
+    row(85, [10.0, 10.0, 0.0], position::local_target),
+    row(141, [5.0, 10.0, 0.0], position::altitude),
+    row(242, [0.5, 1.0, 1.0], position::home),
+    row(49, [0.5, 1.0, 0.0], position::origin),
+    row(331, [0.0, 30.0, 0.0], position::odometry),
+    row(74, [10.0, 10.0, 2.0], position::hud),
+    row(36, [10.0, 10.0, 0.0], system::servos),
+    row(375, [0.0, 0.0, 0.0], system::outputs),
+    row(147, [2.0, 2.0, 2.0], system::battery),
+    row(230, [0.5, 1.0, 0.0], system::estimator),
+    row(231, [1.0, 1.0, 0.0], system::wind),
+    row(241, [0.2, 0.2, 0.0], system::vibration),
+    row(245, [5.0, 5.0, 5.0], system::extended_state),
+    row(42, [1.0, 1.0, 1.0], system::mission_current),
+    row(436, [1.0, 1.0, 0.5], system::current_mode),
+    row(360, [2.0, 2.0, 0.0], position::orbit),
+    row(162, [1.0, 1.0, 0.0], system::fence),
+    row(65, [50.0, 50.0, 50.0], truth::sticks),
+    row(330, [5.0, 5.0, 0.0], sensors::obstacles),
+    row(132, [5.0, 5.0, 0.0], sensors::range_down),
+    row(132, [5.0, 5.0, 0.0], sensors::range_up),
+    row(132, [5.0, 5.0, 0.0], sensors::range_ahead),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 1)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 2)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 3)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 4)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 5)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 6)),
+    row(132, [2.0, 2.0, 0.0], |v| sensors::range_beside(v, 7)),
+    row(281, [0.5, 1.0, 0.0], payload::gimbal_manager_status),
+    row(285, [10.0, 10.0, 25.0], payload::gimbal_attitude),
+    row(440, [2.0, 2.0, 10.0], payload::lamp),
+    row(376, [1.0, 1.0, 0.0], payload::relay),
+    camera(262, [0.2, 0.2, 0.0], payload::capture_status),
+    row(148, [0.0, 0.0, 0.0], system::version),
+    row(397, [0.0, 0.0, 0.0], system::metadata),
+    row(395, [0.0, 0.0, 0.0], system::information),
+    row(300, [0.0, 0.0, 0.0], system::protocol),
+    row(264, [0.0, 0.0, 0.0], system::flight),
+    row(280, [0.0, 0.0, 0.0], payload::gimbal_manager),
+    row(283, [0.0, 0.0, 0.0], payload::gimbal_device),
+    camera(259, [0.0, 0.0, 0.0], payload::camera_information),
+    camera(260, [0.0, 0.0, 0.0], payload::camera_settings),
+    camera(261, [0.0, 0.0, 0.0], payload::storage),
+    camera(269, [0.0, 0.0, 0.0], payload::stream_information),
+    camera(270, [0.0, 0.0, 0.0], payload::stream_status),
+    camera(271, [0.0, 0.0, 5.0], |v| Some(field_of_view(v))),
+    row(27, [0.0, 0.0, 0.0], sensors::raw_imu),
+    row(62, [0.0, 0.0, 0.0], position::way),
+    of_ardupilot(125, Make::Common(ardupilot::power)),
+    of_ardupilot(152, Make::ArduPilot(ardupilot::memory)),
+    of_ardupilot(163, Make::ArduPilot(ardupilot::ahrs)),
+    of_ardupilot(164, Make::ArduPilot(ardupilot::simulation)),
+    of_ardupilot(168, Make::ArduPilot(ardupilot::wind)),
+    of_ardupilot(193, Make::ArduPilot(ardupilot::estimator)),
+];
+
+/// The rows of a message id.
+pub fn rows_of(id: u32) -> impl Iterator<Item = (usize, &'static Stream)> {
+    STREAMS.iter().enumerate().filter(move |(_, s)| s.id == id)
+}

@@ -1,0 +1,176 @@
+//! Where the vehicle believes to be, wants to be, and calls home.
+
+use super::super::view::View;
+use spandrel_mavlink::dialect::{
+    ALTITUDE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA,
+    MavEstimatorType, MavFrame, MavMessage, NAV_CONTROLLER_OUTPUT_DATA, ODOMETRY_DATA, ORBIT_EXECUTION_STATUS_DATA,
+    POSITION_TARGET_LOCAL_NED_DATA, PositionTargetTypemask, VFR_HUD_DATA,
+};
+use spandrel_mavlink::units::{cm, deg_e7, heading_cdeg, mm};
+use spandrel_model::frames::Vec3;
+use spandrel_model::math;
+
+pub(super) fn local(v: &View) -> Option<MavMessage> {
+    let [x, y, z] = v.local_from_site(v.estimate.position_m).array().map(|c| c as f32);
+    let [vx, vy, vz] = v.estimate.velocity_m_s.array().map(|c| c as f32);
+    v.estimate
+        .attitude_valid
+        .then(|| MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { time_boot_ms: v.boot_ms(), x, y, z, vx, vy, vz }))
+}
+
+pub(super) fn global(v: &View) -> Option<MavMessage> {
+    if !v.estimate.position_valid {
+        return None;
+    }
+    let geo = v.geo();
+    let velocity = v.estimate.velocity_m_s;
+    Some(MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
+        time_boot_ms: v.boot_ms(),
+        lat: deg_e7(geo.latitude_deg),
+        lon: deg_e7(geo.longitude_deg),
+        alt: mm(geo.altitude_m),
+        relative_alt: mm(v.over_home_m()),
+        vx: cm(velocity.north()),
+        vy: cm(velocity.east()),
+        vz: cm(velocity.down()),
+        hdg: heading_cdeg(v.estimate.attitude.yaw_rad()),
+    }))
+}
+
+/// Only while it circles.
+pub(super) fn orbit(v: &View) -> Option<MavMessage> {
+    let orbit = v.status.orbit?;
+    let centre = v.plane.geo_from_enu(orbit.centre_m.enu());
+    Some(MavMessage::ORBIT_EXECUTION_STATUS(ORBIT_EXECUTION_STATUS_DATA {
+        time_usec: v.boot_us(),
+        radius: (orbit.radius_m * orbit.speed_m_s.signum()) as f32,
+        x: deg_e7(centre.latitude_deg),
+        y: deg_e7(centre.longitude_deg),
+        z: centre.altitude_m as f32,
+        frame: MavFrame::MAV_FRAME_GLOBAL,
+    }))
+}
+
+pub(super) fn local_target(v: &View) -> Option<MavMessage> {
+    let [x, y, z] = v.local_from_site(v.status.target_m?).array().map(|c| c as f32);
+    let mask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VX_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VY_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VZ_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AX_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AY_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AZ_IGNORE
+        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE;
+    Some(MavMessage::POSITION_TARGET_LOCAL_NED(POSITION_TARGET_LOCAL_NED_DATA {
+        time_boot_ms: v.boot_ms(),
+        x,
+        y,
+        z,
+        type_mask: mask,
+        coordinate_frame: MavFrame::MAV_FRAME_LOCAL_NED,
+        ..Default::default()
+    }))
+}
+
+pub(super) fn altitude(v: &View) -> Option<MavMessage> {
+    let [_, _, local_down] = v.local_from_site(v.estimate.position_m).array();
+    let up = -v.estimate.position_m.down();
+    let amsl = v.plane.origin().altitude_m + up;
+    let below = v.readings.range_down_m.filter(|r| r.is_finite());
+    v.estimate.attitude_valid.then(|| {
+        MavMessage::ALTITUDE(ALTITUDE_DATA {
+            time_usec: v.boot_us(),
+            altitude_monotonic: amsl as f32,
+            altitude_amsl: amsl as f32,
+            altitude_local: -local_down as f32,
+            altitude_relative: v.over_home_m() as f32,
+            altitude_terrain: f32::NAN,
+            bottom_clearance: below.map_or(f32::NAN, |r| r as f32),
+        })
+    })
+}
+
+pub(super) fn home(v: &View) -> Option<MavMessage> {
+    let home = v.status.home_m?;
+    let geo = v.plane.geo_from_enu(home.enu());
+    let [x, y, z] = v.local_from_site(home).array().map(|c| c as f32);
+    Some(MavMessage::HOME_POSITION(HOME_POSITION_DATA {
+        latitude: deg_e7(geo.latitude_deg),
+        longitude: deg_e7(geo.longitude_deg),
+        altitude: mm(geo.altitude_m),
+        x,
+        y,
+        z,
+        q: [1.0, 0.0, 0.0, 0.0],
+        approach_z: 0.0,
+        time_usec: v.boot_us(),
+        ..Default::default()
+    }))
+}
+
+pub(super) fn origin(v: &View) -> Option<MavMessage> {
+    let geo = v.local_origin()?;
+    Some(MavMessage::GPS_GLOBAL_ORIGIN(GPS_GLOBAL_ORIGIN_DATA {
+        latitude: deg_e7(geo.latitude_deg),
+        longitude: deg_e7(geo.longitude_deg),
+        altitude: mm(geo.altitude_m),
+        time_usec: v.boot_us(),
+    }))
+}
+
+pub(super) fn odometry(v: &View) -> Option<MavMessage> {
+    let [x, y, z] = v.local_from_site(v.estimate.position_m).array().map(|c| c as f32);
+    let body: Vec3<_> = v.estimate.attitude.inverse() * v.estimate.velocity_m_s;
+    let w = v.estimate.rates_rad_s;
+    let mut pose_covariance = [f32::NAN; 21];
+    pose_covariance[0] = (0.5 * v.estimate.horizontal_m * v.estimate.horizontal_m) as f32;
+    Some(MavMessage::ODOMETRY(ODOMETRY_DATA {
+        time_usec: v.boot_us(),
+        x,
+        y,
+        z,
+        q: v.estimate.attitude.wxyz().map(|c| c as f32),
+        vx: body.forward() as f32,
+        vy: body.right() as f32,
+        vz: body.down() as f32,
+        rollspeed: w.forward() as f32,
+        pitchspeed: w.right() as f32,
+        yawspeed: w.down() as f32,
+        pose_covariance,
+        velocity_covariance: [f32::NAN; 21],
+        frame_id: MavFrame::MAV_FRAME_LOCAL_NED,
+        child_frame_id: MavFrame::MAV_FRAME_BODY_FRD,
+        reset_counter: (v.scoring.respawns & 0xff) as u8,
+        estimator_type: MavEstimatorType::MAV_ESTIMATOR_TYPE_AUTOPILOT,
+        quality: 100,
+    }))
+}
+
+pub(super) fn hud(v: &View) -> Option<MavMessage> {
+    let e = v.estimate;
+    let heading = e.attitude.yaw_rad().to_degrees().rem_euclid(360.0);
+    Some(MavMessage::VFR_HUD(VFR_HUD_DATA {
+        airspeed: (e.velocity_m_s - v.wind_m_s).norm() as f32,
+        groundspeed: e.velocity_m_s.horizontal_norm() as f32,
+        alt: (v.plane.origin().altitude_m - e.position_m.down()) as f32,
+        climb: -e.velocity_m_s.down() as f32,
+        heading: (heading.round() as i16) % 360,
+        throttle: (v.status.thrust * 100.0).clamp(0.0, 100.0) as u16,
+    }))
+}
+
+/// What the guidance wants, and how far it has to go: nowhere without a target.
+pub(super) fn way(v: &View) -> Option<MavMessage> {
+    let here = v.estimate.position_m;
+    let left = v.status.target_m.map_or(Vec3::zero(), |target| target - here);
+    let bearing = |east: f64, north: f64| math::atan2(east, north).to_degrees().round() as i16;
+    let (roll, pitch, yaw) = v.status.attitude_target.euler();
+    Some(MavMessage::NAV_CONTROLLER_OUTPUT(NAV_CONTROLLER_OUTPUT_DATA {
+        nav_roll: roll.to_degrees() as f32,
+        nav_pitch: pitch.to_degrees() as f32,
+        alt_error: -left.down() as f32,
+        nav_bearing: yaw.to_degrees().round() as i16,
+        target_bearing: bearing(left.east(), left.north()),
+        wp_dist: left.horizontal_norm().round().clamp(0.0, 65_535.0) as u16,
+        ..Default::default()
+    }))
+}

@@ -1,0 +1,193 @@
+//! What the sensors measure.
+
+use super::super::view::View;
+use spandrel_mavlink::dialect::{
+    DISTANCE_SENSOR_DATA, GPS_RAW_INT_DATA, GpsFixType, HIGHRES_IMU_DATA, HighresImuUpdatedFlags, MavDistanceSensor, MavFrame,
+    MavMessage, MavSensorOrientation, OBSTACLE_DISTANCE_DATA, RAW_IMU_DATA, SCALED_IMU_DATA, SCALED_PRESSURE_DATA,
+};
+use spandrel_mavlink::units::{cm_u16, deg_e7, heading_cdeg, milli_g, mm};
+
+pub(super) fn gps_raw(v: &View) -> Option<MavMessage> {
+    let gnss = v.readings.gnss.as_ref()?;
+    let geo = v.plane.geo_from_enu(gnss.position_m.enu());
+    let velocity = gnss.velocity_m_s;
+    let course = spandrel_model::math::atan2(velocity.east(), velocity.north());
+    let fix = gnss.fix >= 3;
+    Some(MavMessage::GPS_RAW_INT(GPS_RAW_INT_DATA {
+        time_usec: v.boot_us(),
+        lat: if fix { deg_e7(geo.latitude_deg) } else { 0 },
+        lon: if fix { deg_e7(geo.longitude_deg) } else { 0 },
+        alt: if fix { mm(geo.altitude_m) } else { 0 },
+        eph: (gnss.hdop * 100.0).round() as u16,
+        epv: (gnss.vdop * 100.0).round() as u16,
+        vel: cm_u16(velocity.horizontal_norm()),
+        cog: heading_cdeg(course),
+        fix_type: if fix { GpsFixType::GPS_FIX_TYPE_3D_FIX } else { GpsFixType::GPS_FIX_TYPE_NO_FIX },
+        satellites_visible: gnss.satellites,
+        h_acc: mm(gnss.eph_m).unsigned_abs(),
+        v_acc: mm(gnss.epv_m).unsigned_abs(),
+        // The simulator takes mean sea level as the ellipsoid (base::geodesy).
+        alt_ellipsoid: if fix { mm(geo.altitude_m) } else { 0 },
+        ..Default::default()
+    }))
+}
+
+pub(super) fn pressure(v: &View) -> Option<MavMessage> {
+    Some(MavMessage::SCALED_PRESSURE(SCALED_PRESSURE_DATA {
+        time_boot_ms: v.boot_ms(),
+        press_abs: (v.readings.pressure_pa? / 100.0) as f32,
+        temperature: 1500,
+        ..Default::default()
+    }))
+}
+
+pub(super) fn highres_imu(v: &View) -> Option<MavMessage> {
+    let imu = v.readings.imu.as_ref()?;
+    let [xacc, yacc, zacc] = imu.specific_force_m_s2.array().map(|c| c as f32);
+    let [xgyro, ygyro, zgyro] = imu.rates_rad_s.array().map(|c| c as f32);
+    let [xmag, ymag, zmag] = v.readings.mag_gauss.map_or([0.0; 3], |m| m.array().map(|c| c as f32));
+    Some(MavMessage::HIGHRES_IMU(HIGHRES_IMU_DATA {
+        time_usec: v.boot_us(),
+        xacc,
+        yacc,
+        zacc,
+        xgyro,
+        ygyro,
+        zgyro,
+        xmag,
+        ymag,
+        zmag,
+        abs_pressure: v.readings.pressure_pa.map_or(0.0, |p| (p / 100.0) as f32),
+        temperature: 15.0,
+        fields_updated: HighresImuUpdatedFlags::all(),
+        ..Default::default()
+    }))
+}
+
+/// Specific force, thousandths of g; rates, mrad/s; field, mgauss. The raw message leaves its units open; ArduPilot fills it so.
+fn milli(v: &View) -> Option<[[i16; 3]; 3]> {
+    let imu = v.readings.imu.as_ref()?;
+    let milli = |value: f64| (1000.0 * value).round() as i16;
+    let field = v.readings.mag_gauss.map_or([0; 3], |gauss| gauss.array().map(milli));
+    Some([imu.specific_force_m_s2.array().map(milli_g), imu.rates_rad_s.array().map(milli), field])
+}
+
+pub(super) fn scaled_imu(v: &View) -> Option<MavMessage> {
+    let [[xacc, yacc, zacc], [xgyro, ygyro, zgyro], [xmag, ymag, zmag]] = milli(v)?;
+    Some(MavMessage::SCALED_IMU(SCALED_IMU_DATA {
+        time_boot_ms: v.boot_ms(),
+        xacc,
+        yacc,
+        zacc,
+        xgyro,
+        ygyro,
+        zgyro,
+        xmag,
+        ymag,
+        zmag,
+        ..Default::default()
+    }))
+}
+
+pub(super) fn raw_imu(v: &View) -> Option<MavMessage> {
+    let [[xacc, yacc, zacc], [xgyro, ygyro, zgyro], [xmag, ymag, zmag]] = milli(v)?;
+    Some(MavMessage::RAW_IMU(RAW_IMU_DATA {
+        time_usec: v.boot_us(),
+        xacc,
+        yacc,
+        zacc,
+        xgyro,
+        ygyro,
+        zgyro,
+        xmag,
+        ymag,
+        zmag,
+        ..Default::default()
+    }))
+}
+
+/// Width of a sector of OBSTACLE_DISTANCE, deg: 72 of them, because QGroundControl's overlay reads all the array's elements.
+const SECTOR_DEG: u8 = 5;
+
+/// The range finder whose direction is nearest to a sector's; clockwise from the nose.
+fn finder_of(sector: usize, finders: usize) -> usize {
+    let between_deg = 360 / finders.max(1);
+    (sector * usize::from(SECTOR_DEG) + between_deg / 2) / between_deg % finders.max(1)
+}
+
+/// Sectors clockwise from the nose, each with the reading of the nearest of the range finders around.
+pub(super) fn obstacles(v: &View) -> Option<MavMessage> {
+    let around = v.readings.range_around_m?;
+    let reach = cm_u16(v.vehicle.sensors.range_max_m);
+    let mut distances = [u16::MAX; 72];
+    for (sector, slot) in distances.iter_mut().enumerate() {
+        let range = around[finder_of(sector, around.len())];
+        *slot = if range.is_finite() { cm_u16(range).min(reach) } else { reach + 1 };
+    }
+    Some(MavMessage::OBSTACLE_DISTANCE(OBSTACLE_DISTANCE_DATA {
+        time_usec: v.boot_us(),
+        distances,
+        min_distance: 10,
+        max_distance: reach,
+        sensor_type: MavDistanceSensor::MAV_DISTANCE_SENSOR_LASER,
+        increment: SECTOR_DEG,
+        increment_f: f32::from(SECTOR_DEG),
+        angle_offset: 0.0,
+        frame: MavFrame::MAV_FRAME_BODY_FRD,
+    }))
+}
+
+pub(super) fn range_down(v: &View) -> Option<MavMessage> {
+    Some(range(v, 0, v.readings.range_down_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_270))
+}
+
+/// To the soffit.
+pub(super) fn range_up(v: &View) -> Option<MavMessage> {
+    Some(range(v, 1, v.readings.range_up_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_90))
+}
+
+/// Directions of the finders around, clockwise from the nose. MAVLink's own text has left and right of them exchanged; PX4, ArduPilot and
+/// QGroundControl all take 90 degrees for right.
+const AROUND: [MavSensorOrientation; 8] = [
+    MavSensorOrientation::MAV_SENSOR_ROTATION_NONE,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_45,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_90,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_135,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_180,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_225,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_270,
+    MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_315,
+];
+/// Numbers of the finders: down, up, and from here on those around.
+const FIRST_AROUND: u8 = 2;
+
+/// Ahead: the sector of the nose among those around.
+pub(super) fn range_ahead(v: &View) -> Option<MavMessage> {
+    range_beside(v, 0)
+}
+
+/// One of the eight around.
+pub(super) fn range_beside(v: &View, k: usize) -> Option<MavMessage> {
+    Some(range(v, FIRST_AROUND + k as u8, *v.readings.range_around_m?.get(k)?, *AROUND.get(k)?))
+}
+
+/// Nothing within reach is told as a little more than the reach.
+fn range(v: &View, id: u8, distance_m: f64, orientation: MavSensorOrientation) -> MavMessage {
+    let reach = cm_u16(v.vehicle.sensors.range_max_m);
+    MavMessage::DISTANCE_SENSOR(DISTANCE_SENSOR_DATA {
+        time_boot_ms: v.boot_ms(),
+        min_distance: 10,
+        max_distance: reach,
+        current_distance: if distance_m.is_finite() { cm_u16(distance_m) } else { reach + 1 },
+        mavtype: MavDistanceSensor::MAV_DISTANCE_SENSOR_LASER,
+        id,
+        orientation,
+        covariance: variance_cm2(v.vehicle.sensors.range_noise_m),
+        ..Default::default()
+    })
+}
+
+/// Variance of a standard deviation, cm²; 255 is "unknown", and what is more than a byte holds.
+fn variance_cm2(noise_m: f64) -> u8 {
+    (noise_m * 100.0 * noise_m * 100.0).round().min(f64::from(u8::MAX)) as u8
+}

@@ -1,0 +1,334 @@
+//! Faults that an instructor puts into the vehicle (MAV_CMD_INJECT_FAILURE): sensors, motors, battery, manual control. They spoil what
+//! sensors read and what actuators do; the autopilot is not told.
+
+use super::physics::{Actuators, MAX_ROTORS};
+use super::sensors::Readings;
+use spandrel_model::frames::{Frd, Ned, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_model::time::SimTime;
+
+/// What fails, by MAVLink's FAILURE_UNIT.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Unit {
+    /// 2.
+    Magnetometer,
+    /// 3.
+    Barometer,
+    /// 4.
+    Gnss,
+    /// 5.
+    Flow,
+    /// 7.
+    Ranges,
+    /// 100.
+    Battery,
+    /// 101.
+    Motor,
+    /// 104.
+    Sticks,
+}
+
+/// How it fails, by MAVLink's FAILURE_TYPE.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Nothing comes (1).
+    Off,
+    /// The last value again and again (2).
+    Stuck,
+    /// Noise (3).
+    Garbage,
+    /// Wrong by a constant (4).
+    Wrong,
+    /// There for a second, gone for a second (7).
+    Intermittent,
+}
+
+impl Unit {
+    /// From MAVLink's number.
+    #[must_use]
+    pub fn from_number(n: i64) -> Option<Self> {
+        Some(match n {
+            2 => Self::Magnetometer,
+            3 => Self::Barometer,
+            4 => Self::Gnss,
+            5 => Self::Flow,
+            7 => Self::Ranges,
+            100 => Self::Battery,
+            101 => Self::Motor,
+            104 => Self::Sticks,
+            _ => return None,
+        })
+    }
+
+    /// Faults that it can have.
+    fn has(self, kind: Kind) -> bool {
+        match self {
+            Self::Magnetometer | Self::Barometer | Self::Gnss | Self::Ranges => true,
+            Self::Flow => matches!(kind, Kind::Off | Kind::Intermittent),
+            Self::Battery | Self::Motor => kind == Kind::Off,
+            Self::Sticks => matches!(kind, Kind::Off | Kind::Intermittent),
+        }
+    }
+}
+
+impl Kind {
+    /// From MAVLink's number; `Some(None)` for 0, all is well.
+    #[must_use]
+    pub fn from_number(n: i64) -> Option<Option<Self>> {
+        Some(match n {
+            0 => None,
+            1 => Some(Self::Off),
+            2 => Some(Self::Stuck),
+            3 => Some(Self::Garbage),
+            4 => Some(Self::Wrong),
+            7 => Some(Self::Intermittent),
+            _ => return None,
+        })
+    }
+}
+
+/// A wrong fix lies so far to the north and east, m, and a wrong height so far up, m (estimates: a multipath jump under a deck).
+const JUMP_M: f64 = 25.0;
+const RISE_M: f64 = 8.0;
+/// A garbage reading is wrong by this, one standard deviation: m, m, gauss.
+const GARBAGE_M: f64 = 30.0;
+const GARBAGE_UP_M: f64 = 10.0;
+const GARBAGE_GAUSS: f64 = 0.5;
+/// A wrong range finder is off by this factor.
+const RANGE_FACTOR: f64 = 0.5;
+/// Charge that a failing battery has left at most, share.
+const CHARGE_LEFT: f64 = 0.05;
+
+/// All faults of now.
+#[derive(Debug, Clone)]
+pub struct Faults {
+    sensors: [Option<Kind>; 5],
+    motors: [bool; MAX_ROTORS],
+    sticks: Option<Kind>,
+    held: Readings,
+    stream: RandomStream,
+}
+
+impl Faults {
+    /// None yet.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self {
+            sensors: [None; 5],
+            motors: [false; MAX_ROTORS],
+            sticks: None,
+            held: Readings::default(),
+            stream: RandomStream::new(seed, "faults"),
+        }
+    }
+
+    /// Puts a fault in, or takes it out again (`None`). `instance` counts from 1, 0 is all. False for a fault that there is not.
+    pub fn inject(&mut self, unit: Unit, kind: Option<Kind>, instance: usize, rotors: usize) -> bool {
+        if kind.is_some_and(|kind| !unit.has(kind)) {
+            return false;
+        }
+        match unit {
+            Unit::Motor => {
+                if instance > rotors {
+                    return false;
+                }
+                let all = instance == 0;
+                (0..rotors).filter(|k| all || k + 1 == instance).for_each(|k| self.motors[k] = kind.is_some());
+            }
+            Unit::Sticks => self.sticks = kind,
+            Unit::Battery => {}
+            sensor => self.sensors[place(sensor)] = kind,
+        }
+        true
+    }
+
+    /// The charge that a battery has after its failure.
+    #[must_use]
+    pub fn charge(charge: f64) -> f64 {
+        charge.min(CHARGE_LEFT)
+    }
+
+    /// Whether manual control gets through now.
+    #[must_use]
+    pub fn sticks_pass(&self, now: SimTime) -> bool {
+        match self.sticks {
+            Some(Kind::Intermittent) => !gone(now),
+            Some(_) => false,
+            None => true,
+        }
+    }
+
+    /// Keeps the last good reading of every sensor that is not stuck.
+    fn hold(&mut self, fresh: &Readings) {
+        let before = self.held;
+        let stuck = |unit| self.sensors[place(unit)] == Some(Kind::Stuck);
+        let [mag, baro, gnss, flow, ranges] =
+            [Unit::Magnetometer, Unit::Barometer, Unit::Gnss, Unit::Flow, Unit::Ranges].map(stuck);
+        let held = &mut self.held;
+        held.keep(fresh);
+        if mag {
+            held.mag_gauss = before.mag_gauss;
+        }
+        if baro {
+            held.baro_up_m = before.baro_up_m;
+        }
+        if gnss {
+            held.gnss = before.gnss;
+        }
+        if flow {
+            held.flow = before.flow;
+        }
+        if ranges {
+            held.range_down_m = before.range_down_m;
+            held.range_up_m = before.range_up_m;
+            held.range_around_m = before.range_around_m;
+        }
+    }
+
+    /// Spoils fresh readings.
+    pub fn spoil(&mut self, fresh: &mut Readings, now: SimTime) {
+        if self.sensors.iter().all(Option::is_none) {
+            self.held.keep(fresh);
+            return;
+        }
+        let kinds = self.sensors;
+        self.hold(fresh);
+        let held = self.held;
+        let noise = |stream: &mut RandomStream, scale: f64| stream.normal3().map(|x| x * scale);
+        if let Some(kind) = kinds[place(Unit::Gnss)]
+            && let Some(fix) = &mut fresh.gnss
+        {
+            let [n, e, d] = match kind {
+                Kind::Wrong => [JUMP_M, JUMP_M, 0.0],
+                Kind::Garbage => noise(&mut self.stream, GARBAGE_M),
+                _ => [0.0; 3],
+            };
+            fix.position_m += Vec3::<Ned>::new(n, e, d);
+            // A receiver that hears nothing still says so.
+            if kind == Kind::Off || (kind == Kind::Intermittent && gone(now)) {
+                (fix.fix, fix.satellites) = (0, 0);
+            }
+            if kind == Kind::Stuck {
+                fresh.gnss = held.gnss;
+            }
+        }
+        if let Some(kind) = kinds[place(Unit::Barometer)] {
+            let rise = match kind {
+                Kind::Wrong => RISE_M,
+                Kind::Garbage => self.stream.normal() * GARBAGE_UP_M,
+                _ => 0.0,
+            };
+            fresh.baro_up_m = kept(kind, fresh.baro_up_m.map(|up| up + rise), held.baro_up_m, now);
+        }
+        if let Some(kind) = kinds[place(Unit::Magnetometer)] {
+            let turned = |field: Vec3<Frd>, [x, y, z]: [f64; 3]| match kind {
+                // Turned by a right angle, as a magnet beside the sensor would.
+                Kind::Wrong => Vec3::new(-field.right(), field.forward(), field.down()),
+                _ => field + Vec3::new(x, y, z),
+            };
+            let scale = if kind == Kind::Garbage { GARBAGE_GAUSS } else { 0.0 };
+            let spoilt = fresh.mag_gauss.map(|field| turned(field, noise(&mut self.stream, scale)));
+            fresh.mag_gauss = kept(kind, spoilt, held.mag_gauss, now);
+        }
+        if let Some(kind) = kinds[place(Unit::Flow)] {
+            fresh.flow = kept(kind, fresh.flow, held.flow, now);
+        }
+        if let Some(kind) = kinds[place(Unit::Ranges)] {
+            let factor = match kind {
+                Kind::Wrong => RANGE_FACTOR,
+                Kind::Garbage => 0.2 + self.stream.uniform(),
+                _ => 1.0,
+            };
+            fresh.range_down_m = kept(kind, fresh.range_down_m.map(|m| m * factor), held.range_down_m, now);
+            fresh.range_up_m = kept(kind, fresh.range_up_m.map(|m| m * factor), held.range_up_m, now);
+            fresh.range_around_m = kept(kind, fresh.range_around_m.map(|all| all.map(|m| m * factor)), held.range_around_m, now);
+        }
+    }
+
+    /// Motors that have failed do not turn.
+    pub fn stop_motors(&self, actuators: &mut Actuators) {
+        for (command, failed) in actuators.motors.iter_mut().zip(self.motors) {
+            if failed {
+                *command = 0.0;
+            }
+        }
+    }
+}
+
+fn place(sensor: Unit) -> usize {
+    match sensor {
+        Unit::Magnetometer => 0,
+        Unit::Barometer => 1,
+        Unit::Gnss => 2,
+        Unit::Flow => 3,
+        _ => 4,
+    }
+}
+
+fn gone(now: SimTime) -> bool {
+    now.ms().rem_euclid(2_000) >= 1_000
+}
+
+/// A reading under a fault, when one is due.
+fn kept<T: Copy>(kind: Kind, fresh: Option<T>, held: Option<T>, now: SimTime) -> Option<T> {
+    match kind {
+        Kind::Off => None,
+        Kind::Stuck => fresh.and(held),
+        Kind::Intermittent if gone(now) => None,
+        Kind::Garbage | Kind::Wrong | Kind::Intermittent => fresh,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spoilt(kind: Kind, ms: i64) -> Option<f64> {
+        let mut faults = Faults::new(1);
+        let reading = |up| Readings { baro_up_m: Some(up), ..Readings::default() };
+        faults.spoil(&mut reading(3.0), SimTime::ZERO);
+        assert!(faults.inject(Unit::Barometer, Some(kind), 0, 4));
+        let mut fresh = reading(5.0);
+        faults.spoil(&mut fresh, SimTime::from_ms(ms));
+        fresh.baro_up_m
+    }
+
+    #[test]
+    fn exact_each_kind_of_fault_spoils_a_reading_in_its_way() {
+        assert_eq!(spoilt(Kind::Off, 0), None);
+        assert_eq!(spoilt(Kind::Stuck, 0), Some(3.0));
+        assert_eq!(spoilt(Kind::Wrong, 0), Some(5.0 + RISE_M));
+        assert_eq!((spoilt(Kind::Intermittent, 500), spoilt(Kind::Intermittent, 1_500)), (Some(5.0), None));
+        assert!(spoilt(Kind::Garbage, 0).is_some_and(|up| up != 5.0));
+    }
+
+    #[test]
+    fn exact_a_sensor_that_sticks_after_another_has_failed_sticks_at_its_last_reading() {
+        let mut faults = Faults::new(1);
+        let reading = |up| Readings { baro_up_m: Some(up), ..Readings::default() };
+        faults.spoil(&mut reading(3.0), SimTime::ZERO);
+        faults.inject(Unit::Magnetometer, Some(Kind::Wrong), 0, 4);
+        faults.spoil(&mut reading(50.0), SimTime::from_ms(60_000));
+        faults.inject(Unit::Barometer, Some(Kind::Stuck), 0, 4);
+        for ms in [60_010, 90_000] {
+            let mut fresh = reading(70.0);
+            faults.spoil(&mut fresh, SimTime::from_ms(ms));
+            assert_eq!(fresh.baro_up_m, Some(50.0));
+        }
+    }
+
+    #[test]
+    fn exact_faults_that_there_are_not_are_refused_and_motors_are_counted_from_one() {
+        let mut faults = Faults::new(1);
+        assert!(!faults.inject(Unit::Motor, Some(Kind::Stuck), 1, 4));
+        assert!(!faults.inject(Unit::Motor, Some(Kind::Off), 5, 4));
+        assert!(faults.inject(Unit::Motor, Some(Kind::Off), 2, 4));
+        let mut actuators = Actuators { motors: [0.5; MAX_ROTORS], armed: true };
+        faults.stop_motors(&mut actuators);
+        assert_eq!(actuators.motors[..3], [0.5, 0.0, 0.5]);
+        assert!(faults.inject(Unit::Motor, None, 0, 4));
+        let mut again = Actuators { motors: [0.5; MAX_ROTORS], armed: true };
+        faults.stop_motors(&mut again);
+        assert_eq!(again.motors[1], 0.5);
+    }
+}

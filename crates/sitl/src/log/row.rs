@@ -1,0 +1,71 @@
+//! One row of a topic, field by field.
+
+use spandrel_model::frames::{Rotation, Vec3};
+
+/// Bytes of a row under way.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Row {
+    bytes: Vec<u8>,
+}
+
+impl Row {
+    /// A row that begins with its timestamp, microseconds.
+    #[must_use]
+    pub fn at(us: u64) -> Self {
+        Self { bytes: us.to_le_bytes().to_vec() }
+    }
+
+    /// `double`.
+    pub fn f64(&mut self, value: f64) -> &mut Self {
+        self.put(&value.to_le_bytes())
+    }
+
+    /// `float` from a core value.
+    pub fn f32(&mut self, value: f64) -> &mut Self {
+        self.put(&(value as f32).to_le_bytes())
+    }
+
+    /// `int32_t`.
+    pub fn i32(&mut self, value: i32) -> &mut Self {
+        self.put(&value.to_le_bytes())
+    }
+
+    /// `uint8_t`.
+    pub fn u8(&mut self, value: u8) -> &mut Self {
+        self.put(&[value])
+    }
+
+    /// `bool`.
+    pub fn bool(&mut self, value: bool) -> &mut Self {
+        self.put(&[u8::from(value)])
+    }
+
+    /// `float[N]`.
+    pub fn floats(&mut self, values: &[f64]) -> &mut Self {
+        for value in values {
+            self.f32(*value);
+        }
+        self
+    }
+
+    /// `float[3]`, or three `float`.
+    pub fn vec<F>(&mut self, vector: Vec3<F>) -> &mut Self {
+        self.floats(&vector.array())
+    }
+
+    /// `float[4]`: w, x, y, z.
+    pub fn quaternion<A, B>(&mut self, rotation: Rotation<A, B>) -> &mut Self {
+        self.floats(&rotation.wxyz())
+    }
+
+    /// The bytes.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    fn put(&mut self, bytes: &[u8]) -> &mut Self {
+        self.bytes.extend_from_slice(bytes);
+        self
+    }
+}

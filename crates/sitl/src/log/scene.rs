@@ -1,0 +1,82 @@
+//! The flight for Foxglove: where drone and camera are, truth and estimate, battery, what the scores are made of, and every text.
+
+use super::super::endpoint::view::View;
+use spandrel_model::foxglove::{self, Message, Pose};
+use spandrel_model::time::{Schedule, SimTime};
+use std::collections::VecDeque;
+
+/// Messages a second of simulation time: frames, fixes, scoring, the slow rest.
+const RATES_HZ: [f64; 4] = [25.0, 5.0, 10.0, 1.0];
+
+/// What is due when.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    due: [Schedule; 4],
+    start_unix_s: i64,
+}
+
+impl Scene {
+    /// From now on.
+    pub fn begin(view: &View) -> Self {
+        Self { due: RATES_HZ.map(|rate| Schedule::new(view.now, rate)), start_unix_s: view.start_unix_s }
+    }
+
+    fn unix_ns(&self, now: SimTime) -> u64 {
+        (self.start_unix_s * 1_000_000_000 + now.ns()).max(0).cast_unsigned()
+    }
+
+    /// A text with MAVLink's severity.
+    pub fn text(&self, severity: u8, now: SimTime, text: &str) -> Message {
+        foxglove::log(self.unix_ns(now), severity, text)
+    }
+
+    /// What is due at an instant.
+    pub fn observe(&mut self, view: &View) -> VecDeque<Message> {
+        let at = self.unix_ns(view.now);
+        let [frames, fixes, scoring, slow] = self.due.each_mut().map(|due| due.fire(view.now));
+        let mut out = VecDeque::new();
+        if frames {
+            out.push_back(transforms(view, at));
+        }
+        if fixes && view.estimate.position_valid {
+            out.push_back(foxglove::fix(at, view.geo(), view.estimate.horizontal_m, view.estimate.vertical_m));
+        }
+        if scoring {
+            let s = view.scoring;
+            let values = foxglove::Scoring {
+                clearance_m: s.clearance_m,
+                lux: Some(s.lux),
+                contact: word(s.contact),
+                hits: s.hits,
+                respawns: s.respawns,
+                lamp_on: view.lamp.on,
+                speed_m_s: view.truth.velocity_m_s.norm(),
+            };
+            out.push_back(foxglove::scoring(at, &values));
+        }
+        if slow {
+            let lens = view.camera_now();
+            out.push_back(foxglove::camera(at, lens.focal_px(), (lens.width_px, lens.height_px)));
+            let battery = view.readings.battery.as_ref();
+            out.extend(battery.map(|b| foxglove::battery(at, Some((b.voltage_v, b.current_a)), b.remaining_pct)));
+        }
+        out
+    }
+}
+
+/// What is touched, by the wire's number (design.md, truth for the scoring).
+fn word(contact: i32) -> &'static str {
+    const WORDS: [&str; 7] = ["none", "bridge", "terrain", "water", "vehicle", "person", "other"];
+    usize::try_from(contact).ok().and_then(|code| WORDS.get(code)).copied().unwrap_or("other")
+}
+
+fn transforms(view: &View, at: u64) -> Message {
+    let (truth, believed) = (view.truth, view.estimate);
+    let camera = Pose::camera(truth.position_m, truth.attitude, view.vehicle.camera.position_m, view.gimbal.pitch_rad);
+    let frames = [
+        (foxglove::DRONE, Pose::drone(truth.position_m, truth.attitude)),
+        (foxglove::BELIEVED, Pose::drone(believed.position_m, believed.attitude)),
+        (foxglove::CAMERA, camera),
+    ];
+    foxglove::transforms(at, &frames)
+}

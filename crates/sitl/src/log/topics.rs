@@ -1,0 +1,250 @@
+//! What is logged: one row of the table a topic, with PX4's names, so that PX4's tools draw the usual pictures.
+
+use super::row::Row;
+use crate::autopilot::{Landed, Mode};
+use crate::endpoint::view::View;
+use spandrel_model::geodesy::Geo;
+
+/// A topic.
+#[derive(Debug, Clone, Copy)]
+pub struct Topic {
+    /// PX4's name, or our own.
+    pub name: &'static str,
+    /// Fields after the timestamp.
+    pub fields: &'static str,
+    /// Rows a second of simulation time.
+    pub rate_hz: f64,
+    /// Adds the fields to a row; `None` when there is nothing to say.
+    pub fill: fn(&View, &mut Row) -> Option<()>,
+}
+
+const fn topic(name: &'static str, rate_hz: f64, fields: &'static str, fill: fn(&View, &mut Row) -> Option<()>) -> Topic {
+    Topic { name, fields, rate_hz, fill }
+}
+
+/// All of them.
+pub const TOPICS: &[Topic] = &[
+    topic("sensor_combined", 250.0, "float[3] gyro_rad;float[3] accelerometer_m_s2;", sensor_combined),
+    topic("vehicle_angular_velocity", 250.0, "float[3] xyz;", angular_velocity),
+    topic("vehicle_attitude", 100.0, "float[4] q;", attitude),
+    topic("vehicle_attitude_setpoint", 50.0, "float[4] q_d;float[3] thrust_body;", attitude_setpoint),
+    topic(
+        "vehicle_local_position",
+        50.0,
+        "float x;float y;float z;float vx;float vy;float vz;float heading;double ref_lat;double ref_lon;float ref_alt;float eph;\
+         float epv;bool xy_valid;bool z_valid;bool v_xy_valid;bool v_z_valid;",
+        local_position,
+    ),
+    topic("vehicle_local_position_setpoint", 20.0, "float x;float y;float z;", position_setpoint),
+    topic("vehicle_global_position", 10.0, "double lat;double lon;float alt;float eph;float epv;", global_position),
+    topic(
+        "vehicle_gps_position",
+        5.0,
+        "double latitude_deg;double longitude_deg;double altitude_msl_m;float eph;float epv;float hdop;float vdop;float vel_n_m_s;\
+         float vel_e_m_s;float vel_d_m_s;uint8_t fix_type;uint8_t satellites_used;",
+        gnss,
+    ),
+    topic("vehicle_air_data", 20.0, "float baro_alt_meter;float baro_pressure_pa;", air_data),
+    topic("vehicle_magnetometer", 20.0, "float[3] magnetometer_ga;", magnetometer),
+    topic("distance_sensor", 20.0, "float current_distance;uint8_t orientation;", range_down),
+    topic("manual_control_setpoint", 50.0, "bool valid;float roll;float pitch;float yaw;float throttle;", sticks),
+    topic("actuator_motors", 100.0, "float[12] control;", motors),
+    topic("actuator_outputs", 20.0, "uint32_t noutputs;float[16] output;", outputs),
+    topic("battery_status", 5.0, "bool connected;float voltage_v;float current_a;float remaining;", battery),
+    topic("vehicle_status", 5.0, "uint8_t arming_state;uint8_t nav_state;bool failsafe;uint8_t vehicle_type;", status),
+    topic("vehicle_land_detected", 5.0, "bool landed;bool maybe_landed;bool ground_contact;", land_detected),
+    topic("home_position", 1.0, "double lat;double lon;float alt;float x;float y;float z;", home),
+    topic("wind", 5.0, "float windspeed_north;float windspeed_east;", wind),
+    topic("vehicle_attitude_groundtruth", 50.0, "float[4] q;", true_attitude),
+    topic("vehicle_angular_velocity_groundtruth", 50.0, "float[3] xyz;", true_rates),
+    topic("vehicle_local_position_groundtruth", 50.0, "float x;float y;float z;float vx;float vy;float vz;", true_position),
+    topic("vehicle_global_position_groundtruth", 10.0, "double lat;double lon;float alt;", true_global),
+    topic(
+        "spandrel_scoring",
+        30.0,
+        "float clearance_m;float lux;int32_t contact;int32_t hits;int32_t respawns;float gimbal_pitch_rad;bool lamp_on;",
+        scoring,
+    ),
+];
+
+fn sensor_combined(v: &View, row: &mut Row) -> Option<()> {
+    let imu = v.readings.imu.as_ref()?;
+    row.vec(imu.rates_rad_s).vec(imu.specific_force_m_s2);
+    Some(())
+}
+
+fn angular_velocity(v: &View, row: &mut Row) -> Option<()> {
+    row.vec(v.estimate.rates_rad_s);
+    Some(())
+}
+
+fn attitude(v: &View, row: &mut Row) -> Option<()> {
+    row.quaternion(v.estimate.attitude);
+    v.estimate.attitude_valid.then_some(())
+}
+
+fn attitude_setpoint(v: &View, row: &mut Row) -> Option<()> {
+    row.quaternion(v.status.attitude_target).floats(&[0.0, 0.0, -v.status.thrust]);
+    v.status.armed.then_some(())
+}
+
+fn local_position(v: &View, row: &mut Row) -> Option<()> {
+    // Without a fix there is no reference: PX4 logs not-a-number then.
+    let nowhere = Geo { latitude_deg: f64::NAN, longitude_deg: f64::NAN, altitude_m: f64::NAN };
+    let (e, origin) = (v.estimate, v.local_origin().unwrap_or(nowhere));
+    row.vec(v.local_from_site(e.position_m)).vec(e.velocity_m_s).f32(e.attitude.yaw_rad());
+    row.f64(origin.latitude_deg).f64(origin.longitude_deg).f32(origin.altitude_m).f32(e.horizontal_m).f32(e.vertical_m);
+    for valid in [e.position_valid, e.attitude_valid, e.position_valid, e.attitude_valid] {
+        row.bool(valid);
+    }
+    Some(())
+}
+
+fn position_setpoint(v: &View, row: &mut Row) -> Option<()> {
+    row.vec(v.local_from_site(v.status.target_m?));
+    Some(())
+}
+
+fn global_position(v: &View, row: &mut Row) -> Option<()> {
+    let geo = v.geo();
+    row.f64(geo.latitude_deg).f64(geo.longitude_deg).f32(geo.altitude_m).f32(v.estimate.horizontal_m).f32(v.estimate.vertical_m);
+    v.estimate.position_valid.then_some(())
+}
+
+fn gnss(v: &View, row: &mut Row) -> Option<()> {
+    let gnss = v.readings.gnss.as_ref()?;
+    let geo = v.plane.geo_from_enu(gnss.position_m.enu());
+    row.f64(geo.latitude_deg)
+        .f64(geo.longitude_deg)
+        .f64(geo.altitude_m)
+        .f32(gnss.eph_m)
+        .f32(gnss.epv_m)
+        .f32(gnss.hdop)
+        .f32(gnss.vdop);
+    row.vec(gnss.velocity_m_s).u8(gnss.fix).u8(gnss.satellites);
+    Some(())
+}
+
+fn air_data(v: &View, row: &mut Row) -> Option<()> {
+    row.f32(v.readings.baro_up_m? + v.plane.origin().altitude_m).f32(v.readings.pressure_pa?);
+    Some(())
+}
+
+fn magnetometer(v: &View, row: &mut Row) -> Option<()> {
+    row.vec(v.readings.mag_gauss?);
+    Some(())
+}
+
+fn range_down(v: &View, row: &mut Row) -> Option<()> {
+    /// ROTATION_DOWNWARD_FACING of PX4's distance_sensor.
+    const DOWN: u8 = 25;
+    let range = v.readings.range_down_m.filter(|range| range.is_finite())?;
+    row.f32(range).u8(DOWN);
+    Some(())
+}
+
+fn sticks(v: &View, row: &mut Row) -> Option<()> {
+    let sticks = v.sticks?;
+    row.bool(true).f32(sticks.right).f32(sticks.forward).f32(sticks.yaw).f32(sticks.up);
+    Some(())
+}
+
+fn motors(v: &View, row: &mut Row) -> Option<()> {
+    row.floats(&padded::<12>(v.actuators.motors.iter().map(|motor| if v.actuators.armed { *motor } else { 0.0 })));
+    Some(())
+}
+
+/// Motor outputs as pulse widths, us: 1000 at rest, 2000 at full speed.
+fn outputs(v: &View, row: &mut Row) -> Option<()> {
+    let pulses = v.actuators.motors.iter().map(|motor| if v.actuators.armed { 1000.0 + 1000.0 * motor } else { 900.0 });
+    row.i32(v.vehicle.rotors.len() as i32).floats(&padded::<16>(pulses.take(v.vehicle.rotors.len())));
+    Some(())
+}
+
+fn padded<const N: usize>(values: impl Iterator<Item = f64>) -> [f64; N] {
+    let mut out = [0.0; N];
+    for (slot, value) in out.iter_mut().zip(values) {
+        *slot = value;
+    }
+    out
+}
+
+fn battery(v: &View, row: &mut Row) -> Option<()> {
+    let battery = v.readings.battery.as_ref()?;
+    row.bool(true).f32(battery.voltage_v).f32(battery.current_a).f32(battery.remaining_pct / 100.0);
+    Some(())
+}
+
+fn status(v: &View, row: &mut Row) -> Option<()> {
+    /// PX4's arming states and its number for a rotary wing.
+    const DISARMED: u8 = 1;
+    const ARMED: u8 = 2;
+    const ROTARY_WING: u8 = 1;
+    row.u8(if v.status.armed { ARMED } else { DISARMED }).u8(nav_state(v.status.mode)).bool(v.status.failsafe.is_some());
+    row.u8(ROTARY_WING);
+    Some(())
+}
+
+/// PX4's number of a mode (vehicle_status, nav_state).
+fn nav_state(mode: Mode) -> u8 {
+    match mode {
+        Mode::Altitude => 1,
+        Mode::Position => 2,
+        Mode::Mission => 3,
+        Mode::Hold => 4,
+        Mode::Return => 5,
+        Mode::Offboard => 14,
+        Mode::Orbit => 21,
+        Mode::Stabilized => 15,
+        Mode::Takeoff => 17,
+        Mode::Land => 18,
+        Mode::Acro => 10,
+        Mode::SmartReturn => 5,
+        Mode::Follow => 19,
+    }
+}
+
+fn land_detected(v: &View, row: &mut Row) -> Option<()> {
+    let landed = v.status.landed == Landed::OnGround;
+    row.bool(landed).bool(landed).bool(landed);
+    Some(())
+}
+
+fn home(v: &View, row: &mut Row) -> Option<()> {
+    let home = v.status.home_m?;
+    let geo = v.plane.geo_from_enu(home.enu());
+    row.f64(geo.latitude_deg).f64(geo.longitude_deg).f32(geo.altitude_m).vec(v.local_from_site(home));
+    Some(())
+}
+
+fn wind(v: &View, row: &mut Row) -> Option<()> {
+    row.f32(v.wind_m_s.north()).f32(v.wind_m_s.east());
+    Some(())
+}
+
+fn true_attitude(v: &View, row: &mut Row) -> Option<()> {
+    row.quaternion(v.truth.attitude);
+    Some(())
+}
+
+fn true_rates(v: &View, row: &mut Row) -> Option<()> {
+    row.vec(v.truth.rates_rad_s);
+    Some(())
+}
+
+fn true_position(v: &View, row: &mut Row) -> Option<()> {
+    row.vec(v.local_from_site(v.truth.position_m)).vec(v.truth.velocity_m_s);
+    Some(())
+}
+
+fn true_global(v: &View, row: &mut Row) -> Option<()> {
+    let geo = v.true_geo();
+    row.f64(geo.latitude_deg).f64(geo.longitude_deg).f32(geo.altitude_m);
+    Some(())
+}
+
+fn scoring(v: &View, row: &mut Row) -> Option<()> {
+    row.f32(v.scoring.clearance_m).f32(v.scoring.lux).i32(v.scoring.contact).i32(v.scoring.hits).i32(v.scoring.respawns);
+    row.f32(v.gimbal.pitch_rad).bool(v.lamp.on);
+    Some(())
+}

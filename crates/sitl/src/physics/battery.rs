@@ -1,0 +1,113 @@
+//! Battery: open-circuit voltage over charge, internal resistance, power drawn; or the paper's clock.
+
+use super::{Load, Model, State as Physics};
+use spandrel_model::math;
+use spandrel_model::scenario::BatteryModel;
+
+/// Cell voltage below which the pack is taken as empty, V (estimate; LiPo practice).
+const EMPTY_CELL_V: f64 = 3.2;
+
+/// Charge and what the terminals show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State {
+    /// State of charge, 0..1.
+    pub charge: f64,
+    /// Terminal voltage, V; 0 until the first step.
+    pub voltage_v: f64,
+    /// Current, A.
+    pub current_a: f64,
+    /// Energy drawn, J.
+    pub energy_j: f64,
+    /// Share of the full rotor speed that the sagging voltage still allows.
+    pub speed_factor: f64,
+    /// Cells that have failed and give no voltage, one bit each from the lowest.
+    pub dead_cells: u16,
+}
+
+impl State {
+    /// A full pack.
+    pub const FULL: Self = Self { charge: 1.0, voltage_v: 0.0, current_a: 0.0, energy_j: 0.0, speed_factor: 1.0, dead_cells: 0 };
+
+    /// Nothing left.
+    #[must_use]
+    pub fn empty(&self) -> bool {
+        self.charge <= 0.0
+    }
+
+    /// Whether a cell, counted from 0, has failed.
+    #[must_use]
+    pub fn is_dead(&self, cell: usize) -> bool {
+        cell < 16 && self.dead_cells & (1 << cell) != 0
+    }
+
+    /// A cell fails, or is whole again.
+    pub fn fail_cell(&mut self, cell: usize, dead: bool) {
+        let bit = if cell < 16 { 1 << cell } else { 0 };
+        self.dead_cells = if dead { self.dead_cells | bit } else { self.dead_cells & !bit };
+    }
+
+    /// Cells of a pack that still give voltage.
+    #[must_use]
+    pub fn live_cells(&self, cells: u32) -> u32 {
+        cells.saturating_sub(self.dead_cells.count_ones())
+    }
+
+    /// Remaining charge, %.
+    #[must_use]
+    pub fn remaining_pct(&self) -> f64 {
+        self.charge * 100.0
+    }
+}
+
+/// Open-circuit voltage of the pack at a state of charge, V: linear between the eleven points of the aircraft's file.
+#[must_use]
+pub fn open_circuit_v(battery: &spandrel_model::vehicle::Battery, charge: f64) -> f64 {
+    let x = charge.clamp(0.0, 1.0) * 10.0;
+    let low = (x.floor() as usize).min(9);
+    f64::from(battery.cells) * math::lerp(battery.ocv_cell_v[low], battery.ocv_cell_v[low + 1], x - low as f64)
+}
+
+/// Electrical power of everything on board, W.
+fn power_w(model: &Model, physics: &Physics, load: Load) -> f64 {
+    let rotor = &model.rotor;
+    let shaft: f64 = physics.rigid.rotor_rad_s.iter().map(|w| rotor.torque_coefficient_n_m_s2 * w * w * w).sum();
+    let lamp = if load.lamp_on && model.lamp.flux_lm > 0.0 { model.battery.lamp_w } else { 0.0 };
+    shaft / rotor.efficiency + model.battery.avionics_w + lamp
+}
+
+/// One step of charge, voltage and sag.
+pub fn advance(model: &Model, physics: &mut Physics, load: Load, dt_s: f64) {
+    let battery = &model.battery;
+    let power = power_w(model, physics, load);
+    let state = &mut physics.battery;
+    let whole = open_circuit_v(battery, state.charge);
+    let live = state.live_cells(battery.cells);
+    let open = if live < battery.cells { whole * f64::from(live) / f64::from(battery.cells) } else { whole };
+    let r = battery.internal_resistance_ohm;
+    // P = (OCV - I R) I has no real solution beyond the power that the pack can give; it then gives that.
+    let discriminant = (open * open - 4.0 * r * power).max(0.0);
+    state.current_a = if r > 0.0 {
+        (open - discriminant.sqrt()) / (2.0 * r)
+    } else if open > 0.0 {
+        power / open
+    } else {
+        0.0
+    };
+    state.voltage_v = open - state.current_a * r;
+    state.energy_j += power * dt_s;
+    match model.battery_model {
+        BatteryModel::Paper => {
+            if load.airborne {
+                state.charge = (state.charge - dt_s / battery.paper_endurance_s).max(0.0);
+            }
+        }
+        BatteryModel::Physical => {
+            state.charge = (state.charge - state.current_a * dt_s / (battery.capacity_ah * 3600.0)).max(0.0);
+            let full = open_circuit_v(battery, 1.0);
+            state.speed_factor = (state.voltage_v / full).clamp(0.0, 1.0);
+            if state.voltage_v < EMPTY_CELL_V * f64::from(live) {
+                state.charge = 0.0;
+            }
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! Contact as impulses on velocities: restitution, Coulomb friction, and a look ahead of one step so that nothing is passed through.
+
+use super::{Model, Obstacles, RigidState, State};
+use nalgebra::{Matrix3, Vector3};
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::site::{Contact, ObjectId, Surface};
+use spandrel_model::time::SimTime;
+
+/// Near-contacts are asked for within this beyond one step's travel, m.
+pub const MARGIN_M: f64 = 0.01;
+/// Slower approaches than this do not bounce, m/s (keeps a resting body at rest).
+const BOUNCE_M_S: f64 = 0.3;
+/// A gap below this counts as touching, m.
+const TOUCH_M: f64 = 1e-3;
+/// Penetration that is left alone, m.
+const SLOP_M: f64 = 1e-5;
+/// Share of the penetration mended a step.
+const MEND: f64 = 0.2;
+/// Rounds of the impulse solver; a resting body starts from the last step's impulses and needs few.
+const ROUNDS: usize = 16;
+/// An impulse change below this share of the weight's impulse ends the rounds.
+const SETTLED: f64 = 1e-9;
+/// A rotor that touches loses its speed with this time constant, s (estimate).
+const ROTOR_STRIKE_S: f64 = 0.08;
+
+/// What touched in one step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Report {
+    /// The most severe surface touched, with its object.
+    pub surface: Option<(Surface, ObjectId)>,
+    /// Fastest approach that was stopped in this step, m/s.
+    pub impact_m_s: f64,
+    /// Sum of normal forces, N.
+    pub normal_n: f64,
+}
+
+impl Report {
+    /// Something touches.
+    #[must_use]
+    pub fn touching(&self) -> bool {
+        self.surface.is_some()
+    }
+}
+
+/// Impulses of the last step, to start from.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Warm {
+    kept: Vec<(Key, Vector3<f64>)>,
+}
+
+/// Which probe met which object, and how many times before in this step.
+type Key = (usize, u32, usize);
+
+struct Constraint {
+    key: Key,
+    rotor: Option<usize>,
+    surface: Surface,
+    object: ObjectId,
+    arm: Vector3<f64>,
+    normal: Vector3<f64>,
+    object_velocity: Vector3<f64>,
+    gap: f64,
+    target: f64,
+    approach: f64,
+    /// What impulses here do to the body, and how far its own place gives way.
+    gives: Gives,
+    inverse_effective: f64,
+    impulse: Vector3<f64>,
+    active: bool,
+}
+
+/// Corrects the step that free flight has just made from `start`, where something is in the way.
+pub fn resolve(model: &Model, state: &mut State, start: &RigidState, obstacles: &impl Obstacles, at: SimTime, dt_s: f64) {
+    let travel = state.rigid.velocity_m_s.norm() * dt_s + model.hull_radius_m * state.rigid.rates_rad_s.norm() * dt_s;
+    // Asked at the step's start, where nothing had been passed yet.
+    let mut constraints = gather(model, start, obstacles, at, travel + MARGIN_M);
+    if constraints.is_empty() {
+        state.contact = Report::default();
+        state.warm.kept.clear();
+        return;
+    }
+    let body = Body::new(model, &state.rigid);
+    prepare(&mut constraints, &body, &state.rigid, model.restitution, dt_s);
+    warm_start(&mut constraints, &state.warm);
+    let (velocity, spin) = solve(&mut constraints, &body, &state.rigid, model, dt_s);
+    if constraints.iter().any(|c| c.active) {
+        // FRAME: the solver works in NED; the body keeps its rates in its own axes.
+        state.rigid.velocity_m_s = Vec3::assume(velocity);
+        state.rigid.rates_rad_s = state.rigid.attitude.inverse() * Vec3::<Ned>::assume(spin);
+        // The step is made again from its start with the velocities that contact allows.
+        state.rigid.position_m = start.position_m + state.rigid.velocity_m_s * dt_s + mend(&constraints);
+        state.rigid.attitude = start.attitude.turned_by(state.rigid.rates_rad_s * dt_s);
+        strike_rotors(&constraints, &mut state.rigid, dt_s);
+    }
+    state.contact = report(&constraints, dt_s);
+    state.warm.kept = constraints.iter().filter(|c| c.active).map(|c| (c.key, c.impulse)).collect();
+}
+
+struct Body {
+    inverse_mass: f64,
+    inverse_inertia: Matrix3<f64>,
+}
+
+impl Body {
+    fn new(model: &Model, rigid: &RigidState) -> Self {
+        let r = rigid.attitude.matrix();
+        let inverse_inertia = r * Matrix3::from_diagonal(&model.inverse_inertia) * r.transpose();
+        Self { inverse_mass: model.inverse_mass, inverse_inertia }
+    }
+
+    /// How it gives way to impulses at `arm`.
+    fn gives(&self, arm: &Vector3<f64>) -> Gives {
+        let cross = arm.cross_matrix();
+        let spin = self.inverse_inertia * cross;
+        Gives { spin, place: Matrix3::identity() * self.inverse_mass - cross * spin }
+    }
+}
+
+/// How a body gives way to an impulse at a place of it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Gives {
+    /// Change of its spin.
+    spin: Matrix3<f64>,
+    /// Change of the place's velocity.
+    place: Matrix3<f64>,
+}
+
+fn gather(model: &Model, pose: &RigidState, obstacles: &impl Obstacles, at: SimTime, margin_m: f64) -> Vec<Constraint> {
+    let mut found: Vec<Contact> = Vec::new();
+    let mut out: Vec<Constraint> = Vec::new();
+    for (index, probe) in model.probes.iter().enumerate() {
+        found.clear();
+        obstacles.contacts(&probe.placed(pose), margin_m, at, &mut found);
+        for contact in &found {
+            let same = |c: &&Constraint| c.key.0 == index && c.key.1 == contact.object.0;
+            let key = (index, contact.object.0, out.iter().filter(same).count());
+            out.push(Constraint {
+                key,
+                rotor: probe.rotor,
+                surface: contact.surface,
+                object: contact.object,
+                arm: (contact.point_m.ned() - pose.position_m).raw(),
+                normal: contact.normal.ned().raw(),
+                object_velocity: contact.velocity_m_s.ned().raw(),
+                gap: contact.gap_m,
+                target: 0.0,
+                approach: 0.0,
+                gives: Gives::default(),
+                inverse_effective: 0.0,
+                impulse: Vector3::zeros(),
+                active: false,
+            });
+        }
+    }
+    out
+}
+
+fn prepare(constraints: &mut [Constraint], body: &Body, rigid: &RigidState, restitution: f64, dt_s: f64) {
+    let v = rigid.velocity_m_s.raw();
+    let w = (rigid.attitude * rigid.rates_rad_s).raw();
+    for c in constraints {
+        let relative = v + w.cross(&c.arm) - c.object_velocity;
+        c.approach = -relative.dot(&c.normal);
+        let allowed = c.gap.max(0.0) / dt_s;
+        c.target = if c.approach > allowed && c.approach > BOUNCE_M_S { restitution * c.approach } else { -allowed };
+        c.gives = body.gives(&c.arm);
+        c.inverse_effective = 1.0 / c.normal.dot(&(c.gives.place * c.normal));
+    }
+}
+
+fn warm_start(constraints: &mut [Constraint], warm: &Warm) {
+    for c in constraints {
+        if let Some((_, impulse)) = warm.kept.iter().find(|(key, _)| *key == c.key)
+            && c.approach <= BOUNCE_M_S
+        {
+            c.impulse = *impulse;
+        }
+    }
+}
+
+/// Projected Gauss-Seidel on normal and friction impulses; returns the velocities afterwards.
+fn solve(
+    constraints: &mut [Constraint],
+    body: &Body,
+    rigid: &RigidState,
+    model: &Model,
+    dt_s: f64,
+) -> (Vector3<f64>, Vector3<f64>) {
+    let mut v = rigid.velocity_m_s.raw();
+    let mut w = (rigid.attitude * rigid.rates_rad_s).raw();
+    for c in constraints.iter() {
+        v += c.impulse * body.inverse_mass;
+        w += c.gives.spin * c.impulse;
+    }
+    let settled = SETTLED * model.mass_kg * spandrel_model::math::GRAVITY_M_S2 * dt_s;
+    for _ in 0..ROUNDS {
+        let mut largest: f64 = 0.0;
+        for c in constraints.iter_mut() {
+            largest = largest.max(one_contact(c, body, &mut v, &mut w, model.friction));
+        }
+        if largest < settled {
+            break;
+        }
+    }
+    for c in constraints.iter_mut() {
+        c.active = c.impulse.dot(&c.normal) > 0.0;
+    }
+    (v, w)
+}
+
+/// One contact's turn; returns the size of its impulse change.
+fn one_contact(c: &mut Constraint, body: &Body, v: &mut Vector3<f64>, w: &mut Vector3<f64>, friction: f64) -> f64 {
+    let old = c.impulse;
+    let relative = *v + w.cross(&c.arm) - c.object_velocity;
+    let normal_old = old.dot(&c.normal);
+    let normal_new = (normal_old + (c.target - relative.dot(&c.normal)) * c.inverse_effective).max(0.0);
+    let relative = relative + c.gives.place * (c.normal * (normal_new - normal_old));
+    let slide = relative - c.normal * relative.dot(&c.normal);
+    let tangent_old = old - c.normal * normal_old;
+    let speed = slide.norm();
+    let mut tangent_new = tangent_old;
+    if speed > 0.0 {
+        let direction = slide / speed;
+        tangent_new -= direction * (speed / direction.dot(&(c.gives.place * direction)));
+    }
+    let limit = friction * normal_new;
+    let size = tangent_new.norm();
+    if size > limit {
+        tangent_new *= limit / size;
+    }
+    c.impulse = c.normal * normal_new + tangent_new;
+    let change = c.impulse - old;
+    *v += change * body.inverse_mass;
+    *w += c.gives.spin * change;
+    change.norm()
+}
+
+/// Shift that mends the deepest penetration, without giving speed.
+fn mend(constraints: &[Constraint]) -> Vec3<Ned> {
+    let deepest = constraints.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
+    deepest.filter(|c| c.gap < -SLOP_M).map_or(Vec3::zero(), |c| {
+        // FRAME: normals were turned into NED when gathered.
+        Vec3::assume(c.normal * (MEND * (-c.gap - SLOP_M)))
+    })
+}
+
+fn strike_rotors(constraints: &[Constraint], rigid: &mut RigidState, dt_s: f64) {
+    let keep = spandrel_model::math::exp(-dt_s / ROTOR_STRIKE_S);
+    for rotor in constraints.iter().filter(|c| c.active).filter_map(|c| c.rotor) {
+        rigid.rotor_rad_s[rotor] *= keep;
+    }
+}
+
+fn report(constraints: &[Constraint], dt_s: f64) -> Report {
+    let mut out = Report::default();
+    for c in constraints.iter().filter(|c| c.active && c.gap < TOUCH_M.max(c.approach * dt_s)) {
+        out.surface = Some(match out.surface {
+            Some((known, _)) if super::more_severe(known, c.surface) == known => out.surface.unwrap_or((known, c.object)),
+            _ => (c.surface, c.object),
+        });
+        out.impact_m_s = out.impact_m_s.max(c.approach);
+        out.normal_n += c.impulse.dot(&c.normal) / dt_s;
+    }
+    out
+}

@@ -1,0 +1,75 @@
+//! The aircraft's hull as convex probes: arms, rotor discs or cage, feet, body.
+
+use super::RigidState;
+use spandrel_model::frames::{Enu, Frd, Vec3};
+use spandrel_model::site::Probe;
+use spandrel_model::vehicle::Vehicle;
+
+/// Half thickness of arms and rotor discs, m (estimate).
+const THIN_M: f64 = 0.015;
+
+/// One convex part in body axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyProbe {
+    a_m: Vec3<Frd>,
+    b_m: Vec3<Frd>,
+    radius_m: f64,
+    /// The rotor that turns here, if any.
+    pub rotor: Option<usize>,
+}
+
+impl BodyProbe {
+    fn ball(centre_m: Vec3<Frd>, radius_m: f64) -> Self {
+        Self { a_m: centre_m, b_m: centre_m, radius_m, rotor: None }
+    }
+
+    fn capsule(a_m: Vec3<Frd>, b_m: Vec3<Frd>, radius_m: f64) -> Self {
+        Self { a_m, b_m, radius_m, rotor: None }
+    }
+
+    /// Farthest distance from the centre of mass, m.
+    #[must_use]
+    pub fn reach_m(&self) -> f64 {
+        self.a_m.norm().max(self.b_m.norm()) + self.radius_m
+    }
+
+    /// Placed in the site.
+    #[must_use]
+    pub fn placed(&self, rigid: &RigidState) -> Probe {
+        let place = |p: Vec3<Frd>| -> Vec3<Enu> { (rigid.position_m + rigid.attitude * p).enu() };
+        if self.a_m == self.b_m {
+            Probe::Ball { centre_m: place(self.a_m), radius_m: self.radius_m }
+        } else {
+            Probe::Capsule { a_m: place(self.a_m), b_m: place(self.b_m), radius_m: self.radius_m }
+        }
+    }
+}
+
+/// The parts of an aircraft. A caged one is a ball of its cage; an open one has arms, two crossed diameters and the outer edge of each
+/// rotor disc, feet and body.
+#[must_use]
+pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
+    let hull = &vehicle.hull;
+    let mut out: Vec<BodyProbe> = hull.feet_m.iter().map(|foot| BodyProbe::ball(*foot, THIN_M)).collect();
+    if hull.caged {
+        out.push(BodyProbe::ball(Vec3::zero(), 0.5 * hull.tip_to_tip_m));
+        return out;
+    }
+    let [forward, right, down] = hull.body_half_extent_m;
+    let radius = right.min(down);
+    let along = (forward - radius).max(0.0);
+    out.push(BodyProbe::capsule(Vec3::new(along, 0.0, 0.0), Vec3::new(-along, 0.0, 0.0), radius));
+    for (index, rotor) in vehicle.rotors.iter().enumerate() {
+        out.push(BodyProbe::capsule(Vec3::zero(), rotor.position_m, THIN_M));
+        out.extend(disc(rotor.position_m, vehicle.rotor.radius_m).map(|p| BodyProbe { rotor: Some(index), ..p }));
+    }
+    out
+}
+
+/// Two crossed diameters of a rotor disc, radial and tangential.
+fn disc(hub_m: Vec3<Frd>, radius_m: f64) -> [BodyProbe; 2] {
+    let radial = Vec3::new(hub_m.forward(), hub_m.right(), 0.0).unit();
+    let tangential = Vec3::new(-radial.right(), radial.forward(), 0.0);
+    let reach = radius_m - THIN_M;
+    [radial, tangential].map(|d| BodyProbe::capsule(hub_m - d * reach, hub_m + d * reach, THIN_M))
+}

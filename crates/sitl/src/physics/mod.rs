@@ -1,0 +1,333 @@
+//! Rigid body, rotors, surface effects, drag, battery, contact: state is plain data, models are functions.
+
+pub mod battery;
+pub mod contact;
+pub mod hull;
+pub mod rigid;
+pub mod surface_effects;
+
+use nalgebra::Vector3;
+use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::BatteryModel;
+use spandrel_model::site::{Contact, ObjectId, Probe, RayHit, Site, Surface};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::{Battery, Lamp, Rotor, RotorModel, Vehicle};
+
+/// Most rotors an aircraft may have.
+pub const MAX_ROTORS: usize = 8;
+
+/// The moving state of the aircraft: the truth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidState {
+    /// Centre of mass, m, local north-east-down.
+    pub position_m: Vec3<Ned>,
+    /// Velocity over ground, m/s.
+    pub velocity_m_s: Vec3<Ned>,
+    /// Attitude.
+    pub attitude: Rotation<Frd, Ned>,
+    /// Angular velocity of the body against the ground, rad/s.
+    pub rates_rad_s: Vec3<Frd>,
+    /// Rotor speeds, rad/s.
+    pub rotor_rad_s: [f64; MAX_ROTORS],
+}
+
+/// What the flight controller drives.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Actuators {
+    /// Motor commands, 0..1 of the speed range (idle to max), in rotor order; ignored when not armed.
+    pub motors: [f64; MAX_ROTORS],
+    /// Motors turn.
+    pub armed: bool,
+}
+
+/// Sea-level air density, kg/m³ (ISA, 15 °C, 1013.25 hPa).
+pub const AIR_DENSITY_KG_M3: f64 = 1.225;
+/// Nothing at the site moves faster, m/s: cars go at 35 m/s at most, the lane's speed differs by a tenth. Bounds how long a clearance may
+/// be trusted.
+pub const FASTEST_OBJECT_M_S: f64 = 38.5;
+/// Distance up to which the surroundings are asked for clearance, m.
+const CLEARANCE_REACH_M: f64 = 4.0;
+/// Surface effects are looked up this often, s.
+const EFFECT_PERIOD_S: f64 = 0.02;
+
+/// The air around the aircraft, held over one step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Air {
+    /// Wind at the aircraft, m/s.
+    pub velocity_m_s: Vec3<Ned>,
+    /// Density, kg/m³.
+    pub density_kg_m3: f64,
+    /// External force at the centre of mass, N (the paper's wind).
+    pub force_n: Vec3<Ned>,
+}
+
+impl Air {
+    /// Still air at sea level.
+    pub const STILL: Self = Self { velocity_m_s: Vec3::zero(), density_kg_m3: AIR_DENSITY_KG_M3, force_n: Vec3::zero() };
+}
+
+/// What the aircraft may touch. The site is one; tests bring planes and boxes of their own.
+pub trait Obstacles {
+    /// Appends contacts and near-contacts of a probe.
+    fn contacts(&self, probe: &Probe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>);
+    /// The nearest solid thing within `max_m`, pad included, or `None`.
+    fn clearance(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
+    /// The first thing along a ray.
+    fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit>;
+}
+
+impl Obstacles for Site {
+    fn contacts(&self, probe: &Probe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
+        Site::contacts(self, probe, margin_m, at, out);
+    }
+    fn clearance(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64> {
+        self.free_radius(position_m, max_m, at)
+    }
+    fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit> {
+        Site::ray(self, origin_m, direction, max_m, at)
+    }
+}
+
+/// No obstacle anywhere.
+#[derive(Debug, Clone, Copy)]
+pub struct OpenSky;
+
+impl Obstacles for OpenSky {
+    fn contacts(&self, _: &Probe, _: f64, _: SimTime, _: &mut Vec<Contact>) {}
+    fn clearance(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<f64> {
+        None
+    }
+    fn ray(&self, _: Vec3<Enu>, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<RayHit> {
+        None
+    }
+}
+
+/// An aircraft's constants in the form that the models use.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Mass, kg.
+    pub mass_kg: f64,
+    inverse_mass: f64,
+    inertia: Vector3<f64>,
+    inverse_inertia: Vector3<f64>,
+    /// 1 on earth; tests of torque-free motion switch gravity off.
+    pub gravity_scale: f64,
+    rotors: Vec<Rotor>,
+    rotor: RotorModel,
+    drag_area_m2: Vector3<f64>,
+    angular_damping: Vector3<f64>,
+    probes: Vec<hull::BodyProbe>,
+    hull_radius_m: f64,
+    restitution: f64,
+    friction: f64,
+    battery: Battery,
+    battery_model: BatteryModel,
+    lamp: Lamp,
+}
+
+/// The moving state: plain data, so that a clone is a snapshot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Rigid body and rotors.
+    pub rigid: RigidState,
+    /// Battery.
+    pub battery: battery::State,
+    /// Non-gravitational force over mass in the last step, m/s²: what an accelerometer feels.
+    pub specific_force_m_s2: Vec3<Frd>,
+    /// Contacts of the last step.
+    pub contact: contact::Report,
+    warm: contact::Warm,
+    effect: [f64; MAX_ROTORS],
+    effect_due: SimTime,
+    free: FreeBall,
+}
+
+/// A ball that was empty at an instant: no contact can happen deep inside it for a while.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct FreeBall {
+    centre_m: Vec3<Enu>,
+    radius_m: f64,
+    since: SimTime,
+}
+
+impl FreeBall {
+    /// Distance from `position` that is certainly free now, m.
+    fn left_m(&self, position_m: Vec3<Enu>, now: SimTime) -> f64 {
+        self.radius_m - (position_m - self.centre_m).norm() - FASTEST_OBJECT_M_S * (now - self.since).s()
+    }
+}
+
+impl State {
+    /// At rest at a place with a heading, motors off, battery full.
+    #[must_use]
+    pub fn at_rest(position_m: Vec3<Ned>, yaw_rad: f64) -> Self {
+        Self {
+            rigid: RigidState {
+                position_m,
+                velocity_m_s: Vec3::zero(),
+                attitude: Rotation::from_euler(0.0, 0.0, yaw_rad),
+                rates_rad_s: Vec3::zero(),
+                rotor_rad_s: [0.0; MAX_ROTORS],
+            },
+            battery: battery::State::FULL,
+            specific_force_m_s2: Vec3::new(0.0, 0.0, -math::GRAVITY_M_S2),
+            contact: contact::Report::default(),
+            warm: contact::Warm::default(),
+            effect: [1.0; MAX_ROTORS],
+            effect_due: SimTime::ZERO,
+            free: FreeBall { centre_m: Vec3::zero(), radius_m: -1.0, since: SimTime::ZERO },
+        }
+    }
+
+    /// Puts the aircraft somewhere else, level and at rest, rotors as they are.
+    pub fn place(&mut self, position_m: Vec3<Ned>, yaw_rad: f64) {
+        let fresh = Self::at_rest(position_m, yaw_rad);
+        let rotor_rad_s = self.rigid.rotor_rad_s;
+        self.rigid = RigidState { rotor_rad_s, ..fresh.rigid };
+        self.free = fresh.free;
+        self.warm = fresh.warm;
+        self.contact = fresh.contact;
+    }
+}
+
+impl Model {
+    /// From an aircraft and the battery that the job asks for.
+    #[must_use]
+    pub fn new(vehicle: &Vehicle, battery_model: BatteryModel) -> Self {
+        let inertia = Vector3::from(vehicle.inertia_kg_m2);
+        let probes = hull::probes(vehicle);
+        let hull_radius_m = probes.iter().map(hull::BodyProbe::reach_m).fold(0.0, f64::max);
+        Self {
+            mass_kg: vehicle.mass_kg,
+            inverse_mass: 1.0 / vehicle.mass_kg,
+            inertia,
+            inverse_inertia: inertia.map(|i| 1.0 / i),
+            gravity_scale: 1.0,
+            rotors: vehicle.rotors.clone(),
+            rotor: vehicle.rotor,
+            drag_area_m2: Vector3::from(vehicle.drag.area_m2),
+            angular_damping: Vector3::from(vehicle.drag.angular_n_m_s),
+            probes,
+            hull_radius_m,
+            restitution: vehicle.hull.restitution,
+            friction: vehicle.hull.friction,
+            battery: vehicle.battery.clone(),
+            battery_model,
+            lamp: vehicle.lamp,
+        }
+    }
+
+    fn decay(&self, dt_s: f64) -> f64 {
+        math::exp(-dt_s / self.rotor.time_constant_s)
+    }
+
+    fn decay_half(&self, dt_s: f64) -> f64 {
+        math::exp(-0.5 * dt_s / self.rotor.time_constant_s)
+    }
+
+    /// Rotor speed that carries the weight, rad/s.
+    #[must_use]
+    pub fn hover_rotor_rad_s(&self) -> f64 {
+        let per_rotor = self.mass_kg * math::GRAVITY_M_S2 / self.rotors.len() as f64;
+        (per_rotor / self.rotor.thrust_coefficient_n_s2).sqrt()
+    }
+
+    /// Motor command (0..1) at which the rotors carry the weight, with a full battery.
+    #[must_use]
+    pub fn hover_command(&self) -> f64 {
+        let speed = self.hover_rotor_rad_s();
+        (speed - self.rotor.idle_speed_rad_s) / (self.rotor.max_speed_rad_s - self.rotor.idle_speed_rad_s)
+    }
+
+    /// Rotor speeds that the motors strive for.
+    fn targets(&self, actuators: &Actuators, battery: &battery::State) -> [f64; MAX_ROTORS] {
+        let mut out = [0.0; MAX_ROTORS];
+        if !actuators.armed || battery.empty() {
+            return out;
+        }
+        let top = self.rotor.max_speed_rad_s * battery.speed_factor;
+        for (target, command) in out.iter_mut().zip(actuators.motors).take(self.rotors.len()) {
+            *target = self.rotor.idle_speed_rad_s + command.clamp(0.0, 1.0) * (top - self.rotor.idle_speed_rad_s).max(0.0);
+        }
+        out
+    }
+
+    /// One physics step, `now` at its start. `lamp_on` loads the battery, `airborne` drains the `paper` battery.
+    #[allow(clippy::too_many_arguments, reason = "a step's inputs, each of another kind")]
+    pub fn advance(
+        &self,
+        state: &mut State,
+        actuators: &Actuators,
+        air: &Air,
+        obstacles: &impl Obstacles,
+        load: Load,
+        now: SimTime,
+        dt: SimTime,
+    ) {
+        let dt_s = dt.s();
+        let targets = self.targets(actuators, &state.battery);
+        let position = state.rigid.position_m.enu();
+        self.refresh_clearance(state, obstacles, position, now);
+        self.refresh_effects(state, obstacles, now);
+        let start = state.rigid;
+        let before = start.velocity_m_s;
+        rigid::advance(self, &mut state.rigid, &targets, air, &state.effect, dt_s);
+        let reach = self.hull_radius_m + state.rigid.velocity_m_s.norm().max(before.norm()) * dt_s + contact::MARGIN_M;
+        if state.free.left_m(state.rigid.position_m.enu(), now + dt) <= reach {
+            contact::resolve(self, state, &start, obstacles, now + dt, dt_s);
+        } else if state.contact.touching() {
+            state.contact = contact::Report::default();
+            state.warm = contact::Warm::default();
+        }
+        let gravity = Vec3::<Ned>::new(0.0, 0.0, math::GRAVITY_M_S2 * self.gravity_scale);
+        let felt = (state.rigid.velocity_m_s - before) / dt_s - gravity;
+        state.specific_force_m_s2 = state.rigid.attitude.inverse() * felt;
+        battery::advance(self, state, load, dt_s);
+    }
+
+    fn refresh_clearance(&self, state: &mut State, obstacles: &impl Obstacles, position_m: Vec3<Enu>, now: SimTime) {
+        let speed = state.rigid.velocity_m_s.norm();
+        let need = self.hull_radius_m.max(surface_effects::reach_m(self)) + 0.05 + 0.002 * speed;
+        if state.free.left_m(position_m, now) > need {
+            return;
+        }
+        let radius_m = obstacles.clearance(position_m, CLEARANCE_REACH_M, now).unwrap_or(CLEARANCE_REACH_M);
+        state.free = FreeBall { centre_m: position_m, radius_m, since: now };
+    }
+
+    fn refresh_effects(&self, state: &mut State, obstacles: &impl Obstacles, now: SimTime) {
+        if now < state.effect_due {
+            return;
+        }
+        state.effect_due = now + SimTime::from_s(EFFECT_PERIOD_S);
+        let reach = surface_effects::reach_m(self);
+        let spinning = state.rigid.rotor_rad_s[0] > 0.0;
+        if !spinning || state.free.left_m(state.rigid.position_m.enu(), now) > reach + self.hull_radius_m {
+            state.effect = [1.0; MAX_ROTORS];
+            return;
+        }
+        state.effect = surface_effects::factors(self, &state.rigid, obstacles, now);
+    }
+}
+
+/// What else draws power and time in one step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Load {
+    /// The lamp is on.
+    pub lamp_on: bool,
+    /// Lift-off has happened (the `paper` battery's clock runs).
+    pub airborne: bool,
+}
+
+/// The most severe of two surfaces for reports: person, vehicle, bridge, terrain, water, other (design.md).
+#[must_use]
+pub fn more_severe(a: Surface, b: Surface) -> Surface {
+    const ORDER: [Surface; 7] =
+        [Surface::Person, Surface::Vehicle, Surface::Bridge, Surface::Terrain, Surface::Water, Surface::Other, Surface::Pad];
+    let rank = |s: Surface| ORDER.iter().position(|o| *o == s).unwrap_or(ORDER.len());
+    if rank(a) <= rank(b) { a } else { b }
+}
+
+/// Re-exported for reports.
+pub type Touched = ObjectId;

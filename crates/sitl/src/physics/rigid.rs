@@ -1,0 +1,147 @@
+//! Free flight: one classical Runge-Kutta step of rigid body and rotors. Rotor speeds follow their exact exponential inside the step,
+//! so that only the rigid body is integrated numerically.
+
+use super::{Air, MAX_ROTORS, Model, RigidState};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
+use spandrel_model::math::GRAVITY_M_S2;
+
+/// Force and torque about the centre of mass, gravity left out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wrench {
+    /// Force, N.
+    pub force_n: Vec3<Frd>,
+    /// Torque, N m.
+    pub torque_n_m: Vec3<Frd>,
+}
+
+/// The part of the state that is integrated numerically; the quaternion is not kept at unit length between stages.
+#[derive(Clone, Copy)]
+struct Stage {
+    p: Vector3<f64>,
+    v: Vector3<f64>,
+    q: Quaternion<f64>,
+    w: Vector3<f64>,
+}
+
+impl Stage {
+    fn plus(self, d: &Self, h: f64) -> Self {
+        Self { p: self.p + d.p * h, v: self.v + d.v * h, q: self.q + d.q * h, w: self.w + d.w * h }
+    }
+}
+
+/// What the rotors do at one instant of a step.
+#[derive(Clone, Copy)]
+struct RotorInstant {
+    speed: [f64; MAX_ROTORS],
+    acceleration: [f64; MAX_ROTORS],
+}
+
+/// Advances by `dt_s` with the rotors driven towards `target_rad_s`. Air and external force are held over the step.
+pub fn advance(
+    model: &Model,
+    state: &mut RigidState,
+    target_rad_s: &[f64; MAX_ROTORS],
+    air: &Air,
+    effect: &[f64; MAX_ROTORS],
+    dt_s: f64,
+) {
+    let y = Stage {
+        p: state.position_m.raw(),
+        v: state.velocity_m_s.raw(),
+        q: state.attitude.raw().into_inner(),
+        w: state.rates_rad_s.raw(),
+    };
+    let start = model.rotor_instant(state, target_rad_s, 1.0);
+    let half = model.rotor_instant(state, target_rad_s, model.decay_half(dt_s));
+    let end = model.rotor_instant(state, target_rad_s, model.decay(dt_s));
+    let k1 = derivative(model, &y, &start, air, effect);
+    let k2 = derivative(model, &y.plus(&k1, 0.5 * dt_s), &half, air, effect);
+    let k3 = derivative(model, &y.plus(&k2, 0.5 * dt_s), &half, air, effect);
+    let k4 = derivative(model, &y.plus(&k3, dt_s), &end, air, effect);
+    let sixth = dt_s / 6.0;
+    // FRAME: each component keeps the frame that it was taken from.
+    state.position_m = Vec3::assume(y.p + (k1.p + (k2.p + k3.p) * 2.0 + k4.p) * sixth);
+    state.velocity_m_s = Vec3::assume(y.v + (k1.v + (k2.v + k3.v) * 2.0 + k4.v) * sixth);
+    let q = y.q + (k1.q + (k2.q + k3.q) * 2.0 + k4.q) * sixth;
+    state.attitude = Rotation::assume(UnitQuaternion::new_normalize(q));
+    state.rates_rad_s = Vec3::assume(y.w + (k1.w + (k2.w + k3.w) * 2.0 + k4.w) * sixth);
+    state.rotor_rad_s = end.speed;
+}
+
+fn derivative(model: &Model, y: &Stage, rotors: &RotorInstant, air: &Air, effect: &[f64; MAX_ROTORS]) -> Stage {
+    let attitude = UnitQuaternion::new_normalize(y.q);
+    // FRAME: the stage's quaternion is the body's attitude, its velocity is over ground in NED.
+    let attitude = Rotation::<Frd, Ned>::assume(attitude);
+    let air_velocity = attitude.inverse() * (Vec3::assume(y.v) - air.velocity_m_s);
+    let wrench = wrench(model, air_velocity, Vec3::assume(y.w), rotors, air.density_kg_m3, effect);
+    let force = (attitude * wrench.force_n + air.force_n).raw();
+    let acceleration = force * model.inverse_mass + Vector3::new(0.0, 0.0, GRAVITY_M_S2 * model.gravity_scale);
+    let momentum = model.inertia.component_mul(&y.w) + model.rotor_momentum(&rotors.speed);
+    let spin = (wrench.torque_n_m.raw() - y.w.cross(&momentum)).component_mul(&model.inverse_inertia);
+    let q_dot = y.q * Quaternion::new(0.0, y.w.x, y.w.y, y.w.z) * 0.5;
+    Stage { p: y.v, v: acceleration, q: q_dot, w: spin }
+}
+
+fn wrench(
+    model: &Model,
+    air_velocity_m_s: Vec3<Frd>,
+    rates_rad_s: Vec3<Frd>,
+    rotors: &RotorInstant,
+    density_kg_m3: f64,
+    effect: &[f64; MAX_ROTORS],
+) -> Wrench {
+    let mut total = body_drag(model, air_velocity_m_s, rates_rad_s, density_kg_m3);
+    for (i, rotor) in model.rotors.iter().enumerate() {
+        let (speed, acceleration) = (rotors.speed[i], rotors.acceleration[i]);
+        let hub = air_velocity_m_s + rates_rad_s.cross(rotor.position_m);
+        let one = model.rotor_wrench(i, hub, speed, acceleration, effect[i]);
+        total.force_n += one.force_n;
+        total.torque_n_m += one.torque_n_m;
+    }
+    total
+}
+
+fn body_drag(model: &Model, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Vec3<Frd>, density_kg_m3: f64) -> Wrench {
+    let v = air_velocity_m_s.raw();
+    let k = -0.5 * density_kg_m3 * v.norm();
+    // FRAME: areas and damping are about the body axes.
+    Wrench {
+        force_n: Vec3::assume(v.component_mul(&model.drag_area_m2) * k),
+        torque_n_m: Vec3::assume(-rates_rad_s.raw().component_mul(&model.angular_damping)),
+    }
+}
+
+impl Model {
+    /// Rotor speeds and accelerations when the distance to the target has shrunk to `left` of what it was.
+    fn rotor_instant(&self, state: &RigidState, target_rad_s: &[f64; MAX_ROTORS], left: f64) -> RotorInstant {
+        let mut out = RotorInstant { speed: [0.0; MAX_ROTORS], acceleration: [0.0; MAX_ROTORS] };
+        let pairs = state.rotor_rad_s.iter().zip(target_rad_s).take(self.rotors.len());
+        for (i, (now, target)) in pairs.enumerate() {
+            let gap = (now - target) * left;
+            out.speed[i] = target + gap;
+            out.acceleration[i] = -gap / self.rotor.time_constant_s;
+        }
+        out
+    }
+
+    fn rotor_momentum(&self, speed: &[f64; MAX_ROTORS]) -> Vector3<f64> {
+        // Counter-clockwise seen from above is a rotation vector that points up, against the body's down axis.
+        let z: f64 = self.rotors.iter().zip(speed).map(|(r, w)| -r.spin * self.rotor.inertia_kg_m2 * w).sum();
+        Vector3::new(0.0, 0.0, z)
+    }
+
+    /// Wrench of one rotor about the centre of mass: thrust, in-plane drag, drag torque, reaction to its acceleration.
+    #[must_use]
+    pub fn rotor_wrench(&self, index: usize, hub_air_m_s: Vec3<Frd>, speed: f64, acceleration: f64, effect: f64) -> Wrench {
+        let rotor = &self.rotors[index];
+        let m = &self.rotor;
+        let squared = speed * speed;
+        let h = -m.drag_coefficient_n_s2_m * speed;
+        let force_n =
+            Vec3::new(h * hub_air_m_s.forward(), h * hub_air_m_s.right(), -m.thrust_coefficient_n_s2 * squared * effect);
+        let yaw = rotor.spin * (m.torque_coefficient_n_m_s2 * squared + m.inertia_kg_m2 * acceleration);
+        let torque_n_m = rotor.position_m.cross(force_n) + Vec3::new(0.0, 0.0, yaw);
+        Wrench { force_n, torque_n_m }
+    }
+}

@@ -1,0 +1,131 @@
+//! Ground and ceiling effect, per rotor, as a factor on thrust at a given rotor speed.
+
+use super::{MAX_ROTORS, Model, Obstacles, RigidState};
+use spandrel_model::frames::{Frd, Vec3};
+use spandrel_model::math;
+use spandrel_model::time::SimTime;
+
+/// Surfaces farther than this many rotor radii change thrust by less than 0.3 % (Cheeseman-Bennett at 5 R: 1.0025).
+const REACH_RADII: f64 = 5.0;
+
+/// How far surfaces matter, m.
+#[must_use]
+pub fn reach_m(model: &Model) -> f64 {
+    REACH_RADII * model.rotor.radius_m
+}
+
+/// Cheeseman and Bennett: thrust in ground effect over thrust out of it at equal power; valid for z > R/2, held there below.
+#[must_use]
+pub fn ground_factor(height_over_radius: f64) -> f64 {
+    let z = height_over_radius.max(0.5);
+    let r = 1.0 / (4.0 * z);
+    1.0 / (1.0 - r * r)
+}
+
+/// Hsiao and Chirarattananon's gamma: ratio of induced velocities without and with a ceiling at a distance; held below R/4 as the
+/// public Crazyflie firmware does.
+#[must_use]
+pub fn ceiling_gamma(distance_over_radius: f64) -> f64 {
+    let d = distance_over_radius.max(0.25);
+    0.5 + 0.5 * (1.0 + 1.0 / (8.0 * d * d)).sqrt()
+}
+
+/// Thrust at constant power under a ceiling over thrust in the open: gamma^(2/3).
+#[must_use]
+pub fn ceiling_factor(distance_over_radius: f64) -> f64 {
+    let g = math::cbrt(ceiling_gamma(distance_over_radius));
+    g * g
+}
+
+/// The factor for every rotor from what stands below and above its hub along the rotor axis.
+pub fn factors(model: &Model, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> [f64; MAX_ROTORS] {
+    let mut out = [1.0; MAX_ROTORS];
+    let down = (rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).enu();
+    let radius = model.rotor.radius_m;
+    for (i, rotor) in model.rotors.iter().enumerate() {
+        let hub = (rigid.position_m + rigid.attitude * rotor.position_m).enu();
+        if let Some(hit) = obstacles.ray(hub, down, reach_m(model), at) {
+            out[i] *= ground_factor(hit.distance_m / radius);
+        }
+        if let Some(hit) = obstacles.ray(hub, -down, reach_m(model), at) {
+            out[i] *= ceiling_factor(hit.distance_m / radius);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::frames::Enu;
+    use spandrel_model::site::{ObjectId, RayHit, Surface};
+
+    /// The printed values carry three decimals.
+    const PRINTED: f64 = 6e-4;
+
+    #[test]
+    fn val_ground_effect_passes_through_the_published_values() {
+        for (z, expected) in [(0.5, 1.333), (1.0, 1.067), (2.0, 1.016)] {
+            assert!((ground_factor(z) - expected).abs() < PRINTED, "{z}");
+        }
+        assert_eq!(ground_factor(0.1), ground_factor(0.5));
+    }
+
+    #[test]
+    fn val_ceiling_gamma_passes_through_the_published_values() {
+        for (d, expected) in [(0.25, 1.366), (0.5, 1.112)] {
+            assert!((ceiling_gamma(d) - expected).abs() < PRINTED, "{d}");
+        }
+        assert_eq!(ceiling_gamma(0.1), ceiling_gamma(0.25));
+        // domain.md 4a: thrust at constant power, two decimals.
+        for (d, expected) in [(0.25, 1.23), (0.5, 1.07), (1.0, 1.02)] {
+            assert!((ceiling_factor(d) - expected).abs() < 5e-3, "{d}: {}", ceiling_factor(d));
+        }
+    }
+
+    /// A floor and a ceiling, m up, over half of the plane each (north of the origin).
+    struct Slabs(f64, f64);
+
+    impl Obstacles for Slabs {
+        fn contacts(&self, _: &spandrel_model::site::Probe, _: f64, _: SimTime, _: &mut Vec<spandrel_model::site::Contact>) {}
+        fn clearance(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<f64> {
+            Some(0.0)
+        }
+        fn ray(&self, from: Vec3<Enu>, along: Vec3<Enu>, max_m: f64, _: SimTime) -> Option<RayHit> {
+            let height = if along.up() < 0.0 { self.0 } else { self.1 };
+            let distance_m = (height - from.up()) / along.up();
+            let hit = distance_m >= 0.0 && distance_m <= max_m && (from + along * distance_m).north() > 0.0;
+            let normal = Vec3::new(0.0, 0.0, -along.up().signum());
+            hit.then_some(RayHit { distance_m, normal, surface: Surface::Bridge, object: ObjectId(0) })
+        }
+    }
+
+    #[test]
+    fn exact_each_rotor_feels_what_stands_over_and_under_it() {
+        let text = include_str!("../../../../vehicle-params/phantom2.toml");
+        let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
+        let model = Model::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
+        let radius = vehicle.rotor.radius_m;
+        // The hubs lie 3 cm over the centre; ceiling and floor a radius and two away from them.
+        let slabs = Slabs(0.03 - 2.0 * radius, 0.03 + radius);
+        let state = crate::physics::State::at_rest(Vec3::zero(), 0.0);
+        let got = factors(&model, &state.rigid, &slabs, SimTime::ZERO);
+        let beside = ground_factor(2.0) * ceiling_factor(1.0);
+        for (i, rotor) in vehicle.rotors.iter().enumerate() {
+            let expected = if rotor.position_m.forward() > 0.0 { beside } else { 1.0 };
+            // Rounding.
+            assert!((got[i] - expected).abs() < 1e-12, "rotor {i}: {}, not {expected}", got[i]);
+        }
+    }
+
+    #[test]
+    fn exact_thrust_and_only_thrust_grows_by_the_factor() {
+        let text = include_str!("../../../../vehicle-params/phantom2.toml");
+        let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
+        let model = Model::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
+        let wrench = |effect| model.rotor_wrench(0, Vec3::zero(), 500.0, 0.0, effect);
+        let (open, near) = (wrench(1.0), wrench(1.25));
+        assert!((near.force_n - open.force_n * 1.25).norm() < 1e-12);
+        assert!((near.torque_n_m.down() - open.torque_n_m.down()).abs() < 1e-12);
+    }
+}

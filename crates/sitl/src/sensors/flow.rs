@@ -1,0 +1,62 @@
+//! Optical flow: horizontal velocity against any lit surface within the range finders' reach (below, above or beside: cameras look
+//! all around, as on today's inspection aircraft). Over far water or in the dark it gives nothing.
+
+use super::FlowReading;
+use crate::physics::RigidState;
+use spandrel_model::math;
+use spandrel_model::random::RandomStream;
+use spandrel_model::time::{Schedule, SimTime};
+use spandrel_model::vehicle;
+
+/// Least light for tracking texture, lx (makers of vision positioning ask for more than 15 lx).
+pub const LEAST_LUX: f64 = 15.0;
+/// Scale error of a session, as a share of the velocity (estimate).
+pub const SCALE_ERROR: f64 = 0.01;
+/// Rate, Hz (estimate: usual for on-board flow).
+const RATE_HZ: f64 = 20.0;
+
+/// State of the flow sensor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flow {
+    stream: RandomStream,
+    due: Schedule,
+    noise_m_s: f64,
+    reach_m: f64,
+    scale: f64,
+}
+
+impl Flow {
+    /// Never due when the aircraft has none.
+    #[must_use]
+    pub fn new(sensors: &vehicle::Sensors, seed: u64) -> Self {
+        let mut stream = RandomStream::new(seed, "flow");
+        let fitted = sensors.flow_velocity_m_s > 0.0;
+        Self {
+            due: Schedule::new(SimTime::ZERO, if fitted { RATE_HZ } else { 0.0 }),
+            noise_m_s: sensors.flow_velocity_m_s,
+            reach_m: sensors.range_max_m,
+            scale: 1.0 + SCALE_ERROR * stream.normal(),
+            stream,
+        }
+    }
+
+    /// True when a reading is due now; ask once a tick.
+    pub fn due(&mut self, now: SimTime) -> bool {
+        self.due.fire(now)
+    }
+
+    /// The reading for the nearest surface at `nearest_m` under `lux`; `None` when nothing can be tracked.
+    pub fn read(&mut self, rigid: &RigidState, nearest_m: f64, lux: f64) -> Option<FlowReading> {
+        let (a, b) = (self.stream.normal(), self.stream.normal());
+        if lux < LEAST_LUX || nearest_m >= self.reach_m {
+            return None;
+        }
+        let (s, c) = math::sin_cos(rigid.attitude.yaw_rad());
+        let v = rigid.velocity_m_s;
+        Some(FlowReading {
+            forward_m_s: (c * v.north() + s * v.east()) * self.scale + a * self.noise_m_s,
+            right_m_s: (c * v.east() - s * v.north()) * self.scale + b * self.noise_m_s,
+            quality: (lux / (4.0 * LEAST_LUX)).min(1.0) * (1.0 - 0.5 * nearest_m / self.reach_m),
+        })
+    }
+}

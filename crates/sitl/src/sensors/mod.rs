@@ -1,0 +1,353 @@
+//! Sensors: one file each, with noise, bias and a rate of its own. What they return is all that the autopilot ever sees.
+
+pub mod baro;
+pub mod flow;
+pub mod gnss;
+pub mod imu;
+pub mod magnetometer;
+pub mod rangefinder;
+
+use crate::physics::RigidState;
+use spandrel_model::frames::{Enu, Frd, Ned, Vec3};
+use spandrel_model::geodesy::Geo;
+use spandrel_model::math;
+use spandrel_model::site::Site;
+use spandrel_model::time::{Schedule, SimTime};
+use spandrel_model::vehicle::{Lamp, Vehicle};
+
+/// One reading of accelerometer and gyroscope.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImuReading {
+    /// Specific force, m/s² (at rest and level: down = -9.81).
+    pub specific_force_m_s2: Vec3<Frd>,
+    /// Angular rate, rad/s.
+    pub rates_rad_s: Vec3<Frd>,
+}
+
+/// One GNSS fix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GnssReading {
+    /// 0 none, 2 two-dimensional, 3 three-dimensional.
+    pub fix: u8,
+    /// Satellites used.
+    pub satellites: u8,
+    /// Position about the origin, m.
+    pub position_m: Vec3<Ned>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Ned>,
+    /// Horizontal dilution of precision.
+    pub hdop: f64,
+    /// Vertical dilution of precision.
+    pub vdop: f64,
+    /// Horizontal accuracy that the receiver claims, m (1 sigma).
+    pub eph_m: f64,
+    /// Vertical accuracy that the receiver claims, m (1 sigma).
+    pub epv_m: f64,
+}
+
+/// Readings that became available in one tick.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Readings {
+    /// Accelerometer and gyroscope.
+    pub imu: Option<ImuReading>,
+    /// GNSS.
+    pub gnss: Option<GnssReading>,
+    /// Barometric height over the origin, m up.
+    pub baro_up_m: Option<f64>,
+    /// Static pressure, Pa (for SCALED_PRESSURE and HIGHRES_IMU).
+    pub pressure_pa: Option<f64>,
+    /// Magnetic field, gauss.
+    pub mag_gauss: Option<Vec3<Frd>>,
+    /// Range finder downwards, m; `Some(f64::INFINITY)` when nothing is within reach.
+    pub range_down_m: Option<f64>,
+    /// Range finder upwards, m.
+    pub range_up_m: Option<f64>,
+    /// Horizontal ranges in eight sectors clockwise from the nose, m.
+    pub range_around_m: Option<[f64; 8]>,
+    /// Optical flow: velocity over ground in the body's heading frame (forward, right), m/s, with its quality 0..1.
+    pub flow: Option<FlowReading>,
+    /// Battery as measured.
+    pub battery: Option<BatteryReading>,
+}
+
+impl Readings {
+    /// Takes over what is new, keeps the rest: the last of every reading.
+    pub fn keep(&mut self, fresh: &Self) {
+        self.imu = fresh.imu.or(self.imu);
+        self.gnss = fresh.gnss.or(self.gnss);
+        self.baro_up_m = fresh.baro_up_m.or(self.baro_up_m);
+        self.pressure_pa = fresh.pressure_pa.or(self.pressure_pa);
+        self.mag_gauss = fresh.mag_gauss.or(self.mag_gauss);
+        self.range_down_m = fresh.range_down_m.or(self.range_down_m);
+        self.range_up_m = fresh.range_up_m.or(self.range_up_m);
+        self.range_around_m = fresh.range_around_m.or(self.range_around_m);
+        self.flow = fresh.flow.or(self.flow);
+        self.battery = fresh.battery.or(self.battery);
+    }
+}
+
+/// Optical-flow velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlowReading {
+    /// Forward velocity over the surface below, m/s.
+    pub forward_m_s: f64,
+    /// Velocity to the right, m/s.
+    pub right_m_s: f64,
+    /// 0 useless, 1 best.
+    pub quality: f64,
+}
+
+/// Battery as the power module measures it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BatteryReading {
+    /// Terminal voltage, V.
+    pub voltage_v: f64,
+    /// Current, A.
+    pub current_a: f64,
+    /// Remaining, %.
+    pub remaining_pct: f64,
+}
+
+/// What sensors ask of the world around the aircraft. The site is one; tests bring a flat plain of their own.
+pub trait Surroundings {
+    /// Distance to the first thing along a unit direction, m, within `max_m`.
+    fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
+    /// Nothing solid within `max_m` in any direction, pad included; false is always allowed, and only costs time.
+    fn nothing_within(&self, _position_m: Vec3<Enu>, _max_m: f64, _at: SimTime) -> bool {
+        false
+    }
+    /// Mean ambient light at a point in the air, lx.
+    fn lux(&self, position_m: Vec3<Enu>, at: SimTime) -> f64;
+}
+
+impl Surroundings for Site {
+    fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64> {
+        self.ray(origin_m, direction, max_m, at).map(|hit| hit.distance_m)
+    }
+    fn nothing_within(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> bool {
+        // The pad is left out of `nearest`; its level ground is what stands below.
+        position_m.up() - self.ground_up_m(position_m.east(), position_m.north()) > max_m
+            && self.nearest(position_m, max_m, at).is_none()
+    }
+    fn lux(&self, position_m: Vec3<Enu>, at: SimTime) -> f64 {
+        self.ambient_lux(position_m, None, at)
+    }
+}
+
+/// Level ground without end at one height, in daylight, under an open sky.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plain {
+    /// Height of the ground, m up.
+    pub up_m: f64,
+}
+
+impl Surroundings for Plain {
+    fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, _: SimTime) -> Option<f64> {
+        let distance = (self.up_m - origin_m.up()) / direction.up();
+        (distance.is_finite() && distance >= 0.0 && distance <= max_m).then_some(distance)
+    }
+    fn lux(&self, _: Vec3<Enu>, _: SimTime) -> f64 {
+        10_000.0
+    }
+}
+
+/// What the sensors need to know of the truth at one tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Truth<'a> {
+    /// Motion.
+    pub rigid: &'a RigidState,
+    /// The battery's terminals.
+    pub battery: BatteryReading,
+    /// The lamp shines.
+    pub lamp_on: bool,
+}
+
+/// All sensors of one aircraft: plain data.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensors {
+    imu_due: Schedule,
+    power_due: Schedule,
+    light_due: Schedule,
+    imu: imu::Imu,
+    gnss: gnss::Gnss,
+    baro: baro::Baro,
+    magnetometer: magnetometer::Magnetometer,
+    ranges: rangefinder::RangeFinders,
+    flow: flow::Flow,
+    lamp: Lamp,
+    nearest_m: f64,
+    ambient_lux: f64,
+}
+
+/// Rate of the power module, Hz (estimate).
+const POWER_RATE_HZ: f64 = 10.0;
+/// How often the light is looked up for the flow sensor, Hz.
+const LIGHT_RATE_HZ: f64 = 2.0;
+
+impl Sensors {
+    /// `origin` is the scenario's, `gnss_shadow` the rule of that name.
+    #[must_use]
+    pub fn new(vehicle: &Vehicle, gnss_shadow: bool, origin: Geo, seed: u64) -> Self {
+        let spec = &vehicle.sensors;
+        let fitted = spec.flow_velocity_m_s > 0.0;
+        Self {
+            imu_due: Schedule::new(SimTime::ZERO, spec.imu_rate_hz),
+            power_due: Schedule::new(SimTime::ZERO, POWER_RATE_HZ),
+            light_due: Schedule::new(SimTime::ZERO, if fitted { LIGHT_RATE_HZ } else { 0.0 }),
+            imu: imu::Imu::new(spec, seed),
+            gnss: gnss::Gnss::new(spec, gnss_shadow, seed),
+            baro: baro::Baro::new(spec, origin.altitude_m, seed),
+            magnetometer: magnetometer::Magnetometer::new(spec, origin, seed),
+            ranges: rangefinder::RangeFinders::new(spec, seed),
+            flow: flow::Flow::new(spec, seed),
+            lamp: vehicle.lamp,
+            nearest_m: f64::INFINITY,
+            ambient_lux: 0.0,
+        }
+    }
+
+    /// Call after every physics step with what the body felt in it, so that the inertial sensors miss nothing between two samples.
+    pub fn feel(&mut self, rigid: &RigidState, specific_force_m_s2: Vec3<Frd>, dt: SimTime) {
+        self.imu.feel(specific_force_m_s2, rigid.rates_rad_s, dt);
+    }
+
+    /// Every reading that is due at `now`.
+    pub fn sample<S: Surroundings>(&mut self, truth: &Truth<'_>, site: &S, now: SimTime) -> Readings {
+        let rigid = truth.rigid;
+        let position_m = rigid.position_m.enu();
+        let mut out = Readings::default();
+        if self.imu_due.fire(now) {
+            out.imu = self.imu.read();
+        }
+        out.gnss = self.gnss.read(rigid, site, now);
+        if let Some((up_m, pressure_pa)) = self.baro.read(position_m.up(), now) {
+            out.baro_up_m = Some(up_m);
+            out.pressure_pa = Some(pressure_pa);
+        }
+        out.mag_gauss = self.magnetometer.read(rigid, now);
+        if let Some(ranges) = self.ranges.read(rigid, site, now) {
+            out.range_down_m = Some(ranges.down_m);
+            out.range_up_m = Some(ranges.up_m);
+            out.range_around_m = Some(ranges.around_m);
+            self.nearest_m = ranges.shortest_m();
+        }
+        if self.light_due.fire(now) {
+            self.ambient_lux = site.lux(position_m, now);
+        }
+        if self.flow.due(now) {
+            let lux = self.ambient_lux + self.lamp_lux(truth.lamp_on);
+            out.flow = self.flow.read(rigid, self.nearest_m, lux);
+        }
+        if self.power_due.fire(now) {
+            out.battery = Some(truth.battery);
+        }
+        out
+    }
+
+    /// Light that the lamp throws on the nearest surface, lx, as if it looked there.
+    fn lamp_lux(&self, on: bool) -> f64 {
+        if !on || self.lamp.flux_lm <= 0.0 {
+            return 0.0;
+        }
+        let solid_angle = math::TAU * (1.0 - math::cos(0.5 * self.lamp.beam_rad));
+        self.lamp.flux_lm / solid_angle.max(1e-3) / self.nearest_m.max(0.5) / self.nearest_m.max(0.5)
+    }
+
+    /// The inertial sensors, for tests of the estimator.
+    #[must_use]
+    pub fn imu(&self) -> &imu::Imu {
+        &self.imu
+    }
+
+    /// The receiver, for tests of the estimator.
+    #[must_use]
+    pub fn gnss(&self) -> &gnss::Gnss {
+        &self.gnss
+    }
+
+    /// The barometer, for tests of the estimator.
+    #[must_use]
+    pub fn baro(&self) -> &baro::Baro {
+        &self.baro
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::physics::MAX_ROTORS;
+    use spandrel_model::frames::Rotation;
+    use spandrel_model::vehicle;
+
+    /// Sensors without error, for tests of single mechanisms.
+    pub(crate) fn perfect() -> vehicle::Sensors {
+        vehicle::Sensors {
+            imu_rate_hz: 400.0,
+            accel_noise_density: 0.0,
+            accel_bias_m_s2: 0.0,
+            gyro_noise_density: 0.0,
+            gyro_bias_rad_s: 0.0,
+            gnss_rate_hz: 5.0,
+            gnss_horizontal_m: 0.0,
+            gnss_vertical_m: 0.0,
+            gnss_velocity_m_s: 0.0,
+            baro_rate_hz: 50.0,
+            baro_noise_m: 0.0,
+            baro_drift_m_sqrt_s: 0.0,
+            mag_rate_hz: 50.0,
+            mag_noise_gauss: 0.0,
+            mag_bias_gauss: 0.0,
+            range_rate_hz: 10.0,
+            range_noise_m: 0.0,
+            range_bias_m: 0.0,
+            range_max_m: 40.0,
+            flow_velocity_m_s: 0.05,
+        }
+    }
+
+    /// At rest ten metres over the origin.
+    pub(crate) fn still() -> RigidState {
+        RigidState {
+            position_m: Vec3::new(0.0, 0.0, -10.0),
+            velocity_m_s: Vec3::zero(),
+            attitude: Rotation::identity(),
+            rates_rad_s: Vec3::zero(),
+            rotor_rad_s: [0.0; MAX_ROTORS],
+        }
+    }
+
+    #[test]
+    fn exact_range_finders_measure_the_plain_below() {
+        let mut finders = rangefinder::RangeFinders::new(&perfect(), 1);
+        let ranges = finders.read(&still(), &Plain { up_m: 2.0 }, SimTime::ZERO);
+        assert!(ranges.is_some_and(|r| (r.down_m - 8.0).abs() < 1e-12 && r.up_m.is_infinite()), "{ranges:?}");
+    }
+
+    #[test]
+    fn exact_each_range_finder_has_a_bias_of_its_own_that_stays() {
+        let biased = vehicle::Sensors { range_bias_m: 0.05, ..perfect() };
+        let mut finders = rangefinder::RangeFinders::new(&biased, 1);
+        let mut off = |ms| finders.read(&still(), &Plain { up_m: 2.0 }, SimTime::from_ms(ms)).expect("due").down_m - 8.0;
+        let (first, later) = (off(0), off(100));
+        assert!(first != 0.0 && first.abs() < 0.25 && first == later, "{first} {later}");
+        let mut all: Vec<f64> = (0..40)
+            .map(|seed| {
+                rangefinder::RangeFinders::new(&biased, seed)
+                    .read(&still(), &Plain { up_m: 2.0 }, SimTime::ZERO)
+                    .expect("due")
+                    .down_m
+            })
+            .collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        assert_eq!(all.len(), 40, "every session has another");
+    }
+
+    #[test]
+    fn exact_flow_needs_light_and_a_surface_within_reach() {
+        let mut flow = flow::Flow::new(&perfect(), 1);
+        assert!(flow.read(&still(), 5.0, 100.0).is_some());
+        assert!(flow.read(&still(), 5.0, 14.0).is_none());
+        assert!(flow.read(&still(), 41.0, 100.0).is_none());
+    }
+}

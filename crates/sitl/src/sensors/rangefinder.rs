@@ -1,0 +1,86 @@
+//! Range finders: down, up, and eight around in the body's plane, as rays into the site.
+
+use super::Surroundings;
+use crate::physics::RigidState;
+use spandrel_model::frames::{Frd, Vec3};
+use spandrel_model::math;
+use spandrel_model::random::RandomStream;
+use spandrel_model::time::{Schedule, SimTime};
+use spandrel_model::vehicle;
+
+/// What all range finders measured at one instant, m; infinite beyond reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ranges {
+    /// Along the body's down axis.
+    pub down_m: f64,
+    /// Against it.
+    pub up_m: f64,
+    /// Eight directions clockwise from the nose.
+    pub around_m: [f64; 8],
+}
+
+impl Ranges {
+    /// The shortest of all, m.
+    #[must_use]
+    pub fn shortest_m(&self) -> f64 {
+        self.around_m.iter().fold(self.down_m.min(self.up_m), |a, b| a.min(*b))
+    }
+}
+
+/// State of the range finders.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RangeFinders {
+    stream: RandomStream,
+    due: Schedule,
+    noise_m: f64,
+    /// Of each: down, up, around.
+    bias_m: [f64; 10],
+    max_m: f64,
+    around: [Vec3<Frd>; 8],
+}
+
+impl RangeFinders {
+    /// With the aircraft's rate, noise and reach.
+    #[must_use]
+    pub fn new(sensors: &vehicle::Sensors, seed: u64) -> Self {
+        let mut around = [Vec3::zero(); 8];
+        for (i, direction) in around.iter_mut().enumerate() {
+            let (s, c) = math::sin_cos(i as f64 * math::PI / 4.0);
+            *direction = Vec3::new(c, s, 0.0);
+        }
+        let mut stream = RandomStream::new(seed, "range");
+        Self {
+            bias_m: std::array::from_fn(|_| sensors.range_bias_m * stream.normal()),
+            stream,
+            due: Schedule::new(SimTime::ZERO, sensors.range_rate_hz),
+            noise_m: sensors.range_noise_m,
+            max_m: sensors.range_max_m,
+            around,
+        }
+    }
+
+    /// All ranges from the centre of mass, when due.
+    pub fn read<S: Surroundings>(&mut self, rigid: &RigidState, site: &S, now: SimTime) -> Option<Ranges> {
+        if !self.due.fire(now) {
+            return None;
+        }
+        if site.nothing_within(rigid.position_m.enu(), self.max_m, now) {
+            let far = f64::INFINITY;
+            return Some(Ranges { down_m: far, up_m: far, around_m: [far; 8] });
+        }
+        let [down, up, beside @ ..] = self.bias_m;
+        let down_m = self.one(rigid, (Vec3::new(0.0, 0.0, 1.0), down), site, now);
+        let up_m = self.one(rigid, (Vec3::new(0.0, 0.0, -1.0), up), site, now);
+        let mut around_m = [0.0; 8];
+        for (range, looks) in around_m.iter_mut().zip(self.around.into_iter().zip(beside)) {
+            *range = self.one(rigid, looks, site, now);
+        }
+        Some(Ranges { down_m, up_m, around_m })
+    }
+
+    /// One range along a direction, with its finder's bias.
+    fn one<S: Surroundings>(&mut self, rigid: &RigidState, (direction, bias_m): (Vec3<Frd>, f64), site: &S, now: SimTime) -> f64 {
+        let hit = site.ray_m(rigid.position_m.enu(), (rigid.attitude * direction).enu(), self.max_m, now);
+        hit.map_or(f64::INFINITY, |d| (d + bias_m + self.noise_m * self.stream.normal()).max(0.0))
+    }
+}

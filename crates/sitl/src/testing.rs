@@ -1,0 +1,395 @@
+//! A vehicle in process, for tests and scripts: no socket, no clock, as fast as the machine, and the same bits in every run.
+//!
+//! ```
+//! use spandrel_model::shipped;
+//! use spandrel_model::time::SimTime;
+//! use spandrel_sitl::testing::Vehicle;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut vehicle = Vehicle::builder().scenario(shipped::DRILL_HOVER).seed(7).build()?;
+//! vehicle.arm(SimTime::from_s(30.0))?;
+//! vehicle.take_off(5.0)?;
+//! vehicle.run_until(|v| v.height_m() > 4.5, SimTime::from_s(20.0))?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The vehicle is flown as any ground station flies it: by MAVLink frames, through the same interface. [`Vehicle::sim`] gives the simulator
+//! itself, for links of one's own, the truth and the digest.
+
+use crate::endpoint::flavour::{Flavour, px4};
+use crate::endpoint::{LinkId, LinkKind};
+use crate::sim::{Sim, SimConfig};
+use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::dialect::{
+    COMMAND_INT_DATA, COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavFrame, MavMessage, MavModeFlag, MavResult,
+};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{self, AfterCrash, Scenario};
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::toml::Problems;
+use spandrel_model::{shipped, vehicle};
+use std::sync::Arc;
+
+/// The link that the harness itself flies by.
+pub const STATION: LinkId = LinkId(1);
+/// MAVLink system and component id of the harness, as ground stations have them.
+const STATION_ID: (u8, u8) = (255, 190);
+/// A condition is looked at this often.
+const LOOK: SimTime = SimTime::from_ms(20);
+/// Frames kept for [`Vehicle::last`]: some twenty seconds of all streams.
+const KEPT_FRAMES: usize = 20_000;
+
+/// Something that the vehicle did not do.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Failure {
+    /// A command's answer was not "accepted".
+    #[error("{command:?} was answered {result:?}; the vehicle said: {said}")]
+    Refused {
+        /// The command.
+        command: MavCmd,
+        /// The answer.
+        result: MavResult,
+        /// The vehicle's newest text.
+        said: String,
+    },
+    /// No answer within a second of simulation time.
+    #[error("{0:?} was not answered")]
+    Silent(MavCmd),
+    /// A condition did not hold in time.
+    #[error("the condition did not hold within {limit_s} s of simulation time; the vehicle said: {said}")]
+    Late {
+        /// The limit, whole seconds.
+        limit_s: i64,
+        /// The vehicle's newest text.
+        said: String,
+    },
+}
+
+/// What a vehicle is made from. Without anything: the hover drill, the phantom2, seed 1, PX4's interface.
+#[derive(Debug, Clone)]
+pub struct Builder {
+    scenario: String,
+    vehicle: String,
+    seed: u64,
+    flavour: &'static Flavour,
+    after_crash: Option<AfterCrash>,
+}
+
+impl Default for Builder {
+    fn default() -> Self {
+        Self {
+            scenario: shipped::DRILL_HOVER.to_owned(),
+            vehicle: shipped::PHANTOM2.to_owned(),
+            seed: 1,
+            flavour: &px4::FLAVOUR,
+            after_crash: None,
+        }
+    }
+}
+
+impl Builder {
+    /// The job, as the text of a scenario file: one of [`shipped`] or one's own. A height field that it names is not read here.
+    #[must_use]
+    pub fn scenario(mut self, text: impl Into<String>) -> Self {
+        self.scenario = text.into();
+        self
+    }
+
+    /// The aircraft, as the text of a vehicle file.
+    #[must_use]
+    pub fn vehicle(mut self, text: impl Into<String>) -> Self {
+        self.vehicle = text.into();
+        self
+    }
+
+    /// Decides gusts, sensor noise, traffic and defects.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Whose interface it speaks.
+    #[must_use]
+    pub fn flavour(mut self, flavour: &'static Flavour) -> Self {
+        self.flavour = flavour;
+        self
+    }
+
+    /// What a crash leads to, in place of the scenario's rule.
+    #[must_use]
+    pub fn after_crash(mut self, rule: AfterCrash) -> Self {
+        self.after_crash = Some(rule);
+        self
+    }
+
+    /// The vehicle on its pad, motors off.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the scenario, or else with the vehicle, by line and key.
+    pub fn build(self) -> Result<Vehicle, Problems> {
+        let job = scenario::read("scenario.toml", &self.scenario, &|file| Err(format!("{file}: not read here")))?;
+        let aircraft = vehicle::read("vehicle.toml", &self.vehicle)?;
+        Ok(self.place(job, aircraft))
+    }
+
+    fn place(self, job: Scenario, aircraft: vehicle::Vehicle) -> Vehicle {
+        let site = Arc::new(Site::build(&job, self.seed));
+        let config = SimConfig {
+            scenario: Arc::new(job),
+            vehicle: Arc::new(aircraft),
+            seed: self.seed,
+            instance: 0,
+            flavour: self.flavour,
+            after_crash: self.after_crash,
+        };
+        let pad_up_m = config.scenario.ground_team.pad_m.up();
+        let mut sim = Sim::new(config, site);
+        sim.open_link(STATION, LinkKind::GroundStation, false);
+        Vehicle {
+            sim,
+            flavour: self.flavour,
+            pad_up_m,
+            encoder: Encoder::new(STATION_ID.0, STATION_ID.1),
+            decoder: Decoder::new(),
+            heard: Vec::new(),
+        }
+    }
+}
+
+/// A simulated vehicle and the ground station that flies it.
+#[derive(Debug, Clone)]
+pub struct Vehicle {
+    sim: Sim,
+    flavour: &'static Flavour,
+    pad_up_m: f64,
+    encoder: Encoder,
+    decoder: Decoder,
+    heard: Vec<Received>,
+}
+
+impl Vehicle {
+    /// Begins one.
+    #[must_use]
+    pub fn builder() -> Builder {
+        Builder::default()
+    }
+
+    /// The simulator itself.
+    #[must_use]
+    pub fn sim(&self) -> &Sim {
+        &self.sim
+    }
+
+    /// Simulation time.
+    #[must_use]
+    pub fn now(&self) -> SimTime {
+        self.sim.now()
+    }
+
+    /// Everything heard from the vehicle and not yet dropped, oldest first.
+    #[must_use]
+    pub fn heard(&self) -> &[Received] {
+        &self.heard
+    }
+
+    /// The newest message that a filter likes.
+    pub fn last<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Option<T> {
+        self.heard.iter().rev().filter_map(|frame| frame.message.as_ref()).find_map(pick)
+    }
+
+    /// The vehicle's newest text; empty while it has said nothing.
+    #[must_use]
+    pub fn said(&self) -> String {
+        let text =
+            |m: &MavMessage| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None };
+        self.last(text).unwrap_or_default()
+    }
+
+    /// Armed, by the autopilot's heartbeat.
+    #[must_use]
+    pub fn armed(&self) -> bool {
+        let beats = self.heard.iter().rev().filter(|frame| frame.component_id == 1);
+        let armed = |frame: &Received| match &frame.message {
+            Some(MavMessage::HEARTBEAT(beat)) => Some(beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)),
+            _ => None,
+        };
+        beats.into_iter().find_map(armed).unwrap_or(false)
+    }
+
+    /// The true position, m, in the scenario's frame.
+    #[must_use]
+    pub fn position_m(&self) -> Vec3<Enu> {
+        self.sim.truth().rigid.position_m.enu()
+    }
+
+    /// True height over the pad, m.
+    #[must_use]
+    pub fn height_m(&self) -> f64 {
+        self.position_m().up() - self.pad_up_m
+    }
+
+    /// Sends a message as the ground station does; it acts at the next tick.
+    pub fn send(&mut self, message: &MavMessage) {
+        let bytes = self.encoder.encode(message);
+        self.sim.handle_datagram(STATION, &bytes);
+    }
+
+    /// Lets simulation time pass.
+    pub fn run(&mut self, time: SimTime) {
+        self.sim.handle_timeout(self.sim.now() + time);
+        while let Some(transmit) = self.sim.poll_transmit() {
+            self.heard.extend(self.decoder.datagram(&transmit.bytes));
+        }
+        if self.heard.len() > 2 * KEPT_FRAMES {
+            self.heard.drain(..self.heard.len() - KEPT_FRAMES);
+        }
+    }
+
+    /// Runs until a condition holds; returns how long that took.
+    ///
+    /// # Errors
+    /// When it does not hold in time.
+    pub fn run_until(&mut self, mut holds: impl FnMut(&Self) -> bool, limit: SimTime) -> Result<SimTime, Failure> {
+        let start = self.now();
+        while !holds(self) {
+            if self.now() - start >= limit {
+                return Err(Failure::Late { limit_s: limit.ms() / 1000, said: self.said() });
+            }
+            self.run(LOOK);
+        }
+        Ok(self.now() - start)
+    }
+
+    /// Sends a command to the autopilot; parameters that are not given are 0.
+    ///
+    /// # Errors
+    /// When it is refused, or not answered within a second.
+    pub fn command(&mut self, command: MavCmd, params: &[f32]) -> Result<(), Failure> {
+        let p = |k: usize| params.get(k).copied().unwrap_or(0.0);
+        self.ask(
+            command,
+            &MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+                command,
+                param1: p(0),
+                param2: p(1),
+                param3: p(2),
+                param4: p(3),
+                param5: p(4),
+                param6: p(5),
+                param7: p(6),
+                target_system: 1,
+                target_component: 1,
+                confirmation: 0,
+            }),
+        )
+    }
+
+    fn ask(&mut self, command: MavCmd, message: &MavMessage) -> Result<(), Failure> {
+        let before = self.heard.len();
+        self.send(message);
+        let answer = |heard: &[Received]| {
+            heard.iter().find_map(|frame| match &frame.message {
+                Some(MavMessage::COMMAND_ACK(ack)) if ack.command == command => Some(ack.result),
+                _ => None,
+            })
+        };
+        let limit = self.now() + SimTime::from_ms(1_000);
+        while self.now() < limit {
+            self.run(SimTime::from_ms(1));
+            match answer(self.heard.get(before..).unwrap_or(&self.heard)) {
+                None | Some(MavResult::MAV_RESULT_IN_PROGRESS) => {}
+                Some(MavResult::MAV_RESULT_ACCEPTED) => return Ok(()),
+                Some(result) => return Err(Failure::Refused { command, result, said: self.said() }),
+            }
+        }
+        Err(Failure::Silent(command))
+    }
+
+    /// Arms as soon as the vehicle lets it.
+    ///
+    /// # Errors
+    /// The last refusal, when it does not within the limit.
+    pub fn arm(&mut self, limit: SimTime) -> Result<(), Failure> {
+        let end = self.now() + limit;
+        loop {
+            let result = self.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, &[1.0]);
+            if result.is_ok() || self.now() >= end {
+                return result;
+            }
+            self.run(SimTime::from_ms(500));
+        }
+    }
+
+    /// Takes off to a height over the pad, m; as ArduCopter, in GUIDED.
+    ///
+    /// # Errors
+    /// When it is refused.
+    pub fn take_off(&mut self, height_m: f64) -> Result<(), Failure> {
+        if let Some(guided) = self.flavour.errands {
+            self.command(MavCmd::MAV_CMD_DO_SET_MODE, &[1.0, guided as f32])?;
+            return self.command(MavCmd::MAV_CMD_NAV_TAKEOFF, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height_m as f32]);
+        }
+        let place = self.place_at(self.position_m() + Vec3::new(0.0, 0.0, height_m - self.height_m()));
+        let command = MavCmd::MAV_CMD_NAV_TAKEOFF;
+        self.ask(command, &at(command, place, [0.0, 0.0, 0.0, f32::NAN]))
+    }
+
+    /// Flies to a place of the scenario's frame, m, and stays there.
+    ///
+    /// # Errors
+    /// When it is refused.
+    pub fn go_to(&mut self, place_m: Vec3<Enu>) -> Result<(), Failure> {
+        let command = MavCmd::MAV_CMD_DO_REPOSITION;
+        let place = self.place_at(place_m);
+        // Parameter 2, bit 0: change to the mode that flies there.
+        self.ask(command, &at(command, place, [-1.0, 1.0, 0.0, f32::NAN]))
+    }
+
+    /// Lands where it is.
+    ///
+    /// # Errors
+    /// When it is refused.
+    pub fn land(&mut self) -> Result<(), Failure> {
+        self.command(MavCmd::MAV_CMD_NAV_LAND, &[0.0, 0.0, 0.0, f32::NAN])
+    }
+
+    /// Holds the sticks once: forward, right and yaw from -1 to 1, up from 0 to 1 with 0.5 to hold. To be sent at 2 Hz at least.
+    pub fn sticks(&mut self, forward: f64, right: f64, up: f64, yaw: f64) {
+        let axis = |share: f64| (1000.0 * share.clamp(-1.0, 1.0)).round() as i16;
+        self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
+            target: 1,
+            x: axis(forward),
+            y: axis(right),
+            z: axis(up),
+            r: axis(yaw),
+            ..MANUAL_CONTROL_DATA::default()
+        }));
+    }
+
+    /// Latitude and longitude, 1e-7 deg, and height over the sea, m.
+    fn place_at(&self, place_m: Vec3<Enu>) -> (i32, i32, f32) {
+        let geo = self.sim.site().plane().geo_from_enu(place_m);
+        ((1e7 * geo.latitude_deg).round() as i32, (1e7 * geo.longitude_deg).round() as i32, geo.altitude_m as f32)
+    }
+}
+
+/// A command at a place over the sea.
+fn at(command: MavCmd, (x, y, z): (i32, i32, f32), params: [f32; 4]) -> MavMessage {
+    MavMessage::COMMAND_INT(COMMAND_INT_DATA {
+        command,
+        frame: MavFrame::MAV_FRAME_GLOBAL,
+        param1: params[0],
+        param2: params[1],
+        param3: params[2],
+        param4: params[3],
+        x,
+        y,
+        z,
+        target_system: 1,
+        target_component: 1,
+        ..COMMAND_INT_DATA::default()
+    })
+}

@@ -1,0 +1,265 @@
+//! Scores of a group: distributions, people, crashes, repetitions and their tests.
+
+use super::{OVERALL, Pick, Runs, SCORES};
+use crate::record::{Crashes, Record};
+use crate::statistics::{
+    Bin, BoxPlot, Homogeneity, Paired, Summary, Tails, box_plot, histogram, holm, homogeneity, paired_t, quantile, summary,
+};
+use serde::Serialize;
+
+/// Bars of a score's histogram.
+const BARS: usize = 20;
+
+/// One score over the first sessions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Distribution {
+    /// Score.
+    pub score: String,
+    /// Its figures.
+    pub summary: Summary,
+    /// Bars over the score's whole range.
+    pub histogram: Vec<Bin>,
+}
+
+/// One person's first session.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Individual {
+    /// Who.
+    pub trainee: String,
+    /// Session.
+    pub session: String,
+    /// `practice` or `assessment`, where somebody chose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub purpose: Option<String>,
+    /// 0 to 100.
+    pub conformity: Option<f64>,
+    /// 0 to 100.
+    pub efficiency: f64,
+    /// 0 to 100.
+    pub safety: f64,
+    /// 0 to 100.
+    pub accuracy: Option<f64>,
+    /// Sum.
+    pub overall: f64,
+    /// Flight time, s.
+    pub seconds: f64,
+    /// On-path and speeding by task.
+    pub tasks: Vec<TaskShare>,
+}
+
+/// What a task adds to conformity and takes from it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TaskShare {
+    /// Number.
+    pub id: u32,
+    /// Name.
+    pub name: String,
+    /// Entered.
+    pub attempted: bool,
+    /// P_p, 0 to 1.
+    pub on_path: f64,
+    /// P_s.
+    pub speeding: f64,
+}
+
+/// Crashes of the first sessions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CrashTable {
+    /// All.
+    pub total: usize,
+    /// By kind.
+    pub by_kind: Crashes,
+    /// Task numbers; each row has one count for each, and one for outside.
+    pub tasks: Vec<u32>,
+    /// Sum over people by task, the last outside all tasks.
+    pub by_task: Vec<usize>,
+    /// People.
+    pub rows: Vec<CrashRow>,
+}
+
+/// Crashes of one person.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CrashRow {
+    /// Who.
+    pub trainee: String,
+    /// By task, the last outside all tasks.
+    pub by_task: Vec<usize>,
+    /// All.
+    pub total: usize,
+}
+
+/// One score in one repetition of the group.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RepetitionBox {
+    /// Score.
+    pub score: String,
+    /// 1, 2, ...
+    pub repetition: usize,
+    /// Its figures.
+    pub plot: BoxPlot,
+}
+
+/// One score, two repetitions of the group.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Score.
+    pub score: String,
+    /// Earlier repetition.
+    pub earlier: usize,
+    /// Later repetition.
+    pub later: usize,
+    /// Later less earlier.
+    #[serde(flatten)]
+    pub test: Paired,
+    /// p values after Holm's correction, each tail by itself; the four scores' comparisons are one family, the overall's another.
+    pub p_holm: Option<Tails>,
+}
+
+/// Whether the group's first sessions spread over low, middle and high as the others' do.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GroupTest {
+    /// Score.
+    pub score: String,
+    /// Upper ends of low and middle: the thirds of all first sessions.
+    pub cuts: [f64; 2],
+    /// The group's counts.
+    pub group: Vec<usize>,
+    /// The others' counts.
+    pub others: Vec<usize>,
+    /// The test.
+    #[serde(flatten)]
+    pub test: Homogeneity,
+}
+
+fn values(records: &[&Record], pick: Pick) -> Vec<f64> {
+    records.iter().filter_map(|record| pick(record)).collect()
+}
+
+pub fn distributions(firsts: &[&Record]) -> Vec<Distribution> {
+    let most = |score: &str| if score == OVERALL.0 { 400.0 } else { 100.0 };
+    let one = |(score, pick): (&str, Pick)| {
+        let values = values(firsts, pick);
+        let histogram = histogram(&values, (0.0, most(score)), BARS);
+        Some(Distribution { score: score.to_owned(), summary: summary(&values).ok()?, histogram })
+    };
+    SCORES.into_iter().filter_map(one).collect()
+}
+
+pub fn individual(record: &Record) -> Individual {
+    let share = |task: &crate::record::TaskRecord| TaskShare {
+        id: task.id,
+        name: task.name.clone(),
+        attempted: task.attempted,
+        on_path: task.on_path,
+        speeding: task.speeding,
+    };
+    Individual {
+        trainee: record.trainee.clone(),
+        session: record.id.clone(),
+        purpose: record.purpose.clone(),
+        conformity: record.scores.conformity,
+        efficiency: record.scores.efficiency,
+        safety: record.scores.safety,
+        accuracy: record.scores.accuracy,
+        overall: record.scores.overall,
+        seconds: record.seconds,
+        tasks: record.tasks.iter().map(share).collect(),
+    }
+}
+
+pub fn crash_table(firsts: &[&Record]) -> CrashTable {
+    let mut tasks: Vec<u32> = firsts.iter().flat_map(|record| record.task_ids()).collect();
+    tasks.sort_unstable();
+    tasks.dedup();
+    let row = |record: &&Record| {
+        let in_task = |id: &u32| record.tasks.iter().find(|task| task.id == *id).map_or(0, |task| task.crashes.total());
+        let by_task = tasks.iter().map(in_task).chain([record.crashes_outside.total()]).collect();
+        CrashRow { trainee: record.trainee.clone(), by_task, total: record.crashes().total() }
+    };
+    let rows: Vec<CrashRow> = firsts.iter().map(row).collect();
+    CrashTable {
+        total: rows.iter().map(|row| row.total).sum(),
+        by_kind: firsts.iter().map(|record| record.crashes()).fold(Crashes::default(), Crashes::plus),
+        by_task: (0..=tasks.len()).map(|k| rows.iter().map(|row| row.by_task[k]).sum()).collect(),
+        tasks,
+        rows,
+    }
+}
+
+pub fn boxes(group: &Runs<'_>, repetitions: usize) -> Vec<RepetitionBox> {
+    let mut boxes = Vec::new();
+    for (score, pick) in SCORES {
+        for k in 0..repetitions {
+            let records: Vec<&Record> = group.values().map(|sessions| sessions[k]).collect();
+            if let Ok(plot) = box_plot(&values(&records, pick)) {
+                boxes.push(RepetitionBox { score: score.to_owned(), repetition: k + 1, plot });
+            }
+        }
+    }
+    boxes
+}
+
+pub fn comparisons(group: &Runs<'_>, repetitions: usize, warnings: &mut Vec<String>) -> Vec<Comparison> {
+    let mut tests = Vec::new();
+    for (score, pick) in SCORES {
+        for later in 1..repetitions {
+            for earlier in 0..later {
+                let pairs = group.values().filter_map(|sessions| pick(sessions[earlier]).zip(pick(sessions[later])));
+                let (before, after): (Vec<f64>, Vec<f64>) = pairs.unzip();
+                match paired_t(&before, &after) {
+                    Ok(test) => tests.push(Comparison {
+                        score: score.to_owned(),
+                        earlier: earlier + 1,
+                        later: later + 1,
+                        test,
+                        p_holm: None,
+                    }),
+                    Err(error) => warnings.push(format!("{score}, {} against {}: no test: {error}", later + 1, earlier + 1)),
+                }
+            }
+        }
+    }
+    for overall in [false, true] {
+        correct(tests.iter_mut().filter(|test| (test.score == OVERALL.0) == overall).collect());
+    }
+    tests
+}
+
+/// Holm's correction of one family, tail by tail.
+fn correct(mut family: Vec<&mut Comparison>) {
+    family.retain(|test| test.test.p.is_some());
+    let tail = |pick: fn(&Tails) -> f64| {
+        let p: Vec<f64> = family.iter().filter_map(|test| test.test.p.as_ref()).map(pick).collect();
+        holm(&p)
+    };
+    let (upper, lower, two) = (tail(|p| p.upper), tail(|p| p.lower), tail(|p| p.two));
+    for (k, test) in family.into_iter().enumerate() {
+        test.p_holm = Some(Tails { upper: upper[k], lower: lower[k], two: two[k] });
+    }
+}
+
+pub fn homogeneity_of(firsts: &[&Record], group: &Runs<'_>, warnings: &mut Vec<String>) -> Vec<GroupTest> {
+    let mut tests = Vec::new();
+    if group.is_empty() || group.len() == firsts.len() {
+        return tests;
+    }
+    for (score, pick) in SCORES {
+        let mut sorted = values(firsts, pick);
+        sorted.sort_by(f64::total_cmp);
+        let (Some(low), Some(middle)) = (quantile(&sorted, 1.0 / 3.0), quantile(&sorted, 2.0 / 3.0)) else { continue };
+        let count = |in_group: bool| {
+            let mut counts = vec![0; 3];
+            let those = firsts.iter().filter(|record| group.contains_key(record.trainee.as_str()) == in_group);
+            for value in those.filter_map(|record| pick(record)) {
+                counts[usize::from(value > low) + usize::from(value > middle)] += 1;
+            }
+            counts
+        };
+        let (own, others) = (count(true), count(false));
+        match homogeneity(&[own.clone(), others.clone()]) {
+            Ok(test) => tests.push(GroupTest { score: score.to_owned(), cuts: [low, middle], group: own, others, test }),
+            Err(error) => warnings.push(format!("{score}: the group cannot be compared with the others: {error}")),
+        }
+    }
+    tests
+}

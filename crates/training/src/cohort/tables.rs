@@ -1,0 +1,281 @@
+//! The cohort as tables: CSV (RFC 4180), one file per table, numbers with the fewest digits that read back to the same bits.
+
+use super::Cohort;
+use crate::statistics::{Regression, Tails};
+use std::fmt::Display;
+
+/// File names of all tables.
+pub const TABLES: [&str; 16] = [
+    "distributions.csv",
+    "histograms.csv",
+    "individuals.csv",
+    "conformity_by_task.csv",
+    "crashes.csv",
+    "repetitions.csv",
+    "t_tests.csv",
+    "homogeneity.csv",
+    "likert.csv",
+    "self_rating.csv",
+    "contradictions.csv",
+    "causal.csv",
+    "progress.csv",
+    "learning_curves.csv",
+    "learning_of_the_group.csv",
+    "warnings.csv",
+];
+
+/// One table by its file name; `None` when there is none of this name.
+#[must_use]
+pub fn table(cohort: &Cohort, name: &str) -> Option<String> {
+    Some(match name {
+        "distributions.csv" => distributions(cohort),
+        "histograms.csv" => histograms(cohort),
+        "individuals.csv" => individuals(cohort),
+        "conformity_by_task.csv" => conformity(cohort),
+        "crashes.csv" => crashes(cohort),
+        "repetitions.csv" => repetitions(cohort),
+        "t_tests.csv" => t_tests(cohort),
+        "homogeneity.csv" => homogeneity(cohort),
+        "likert.csv" => likert(cohort),
+        "self_rating.csv" => self_rating(cohort),
+        "contradictions.csv" => contradictions(cohort),
+        "causal.csv" => causal(cohort),
+        "progress.csv" => progress(cohort),
+        "learning_curves.csv" => curves(cohort),
+        "learning_of_the_group.csv" => learning(cohort),
+        "warnings.csv" => Table::new(&["warning"]).rows(cohort.warnings.iter().map(|words| vec![text(words)])),
+        _ => return None,
+    })
+}
+
+/// File names and contents.
+#[must_use]
+pub fn tables(cohort: &Cohort) -> Vec<(&'static str, String)> {
+    TABLES.iter().filter_map(|name| Some((*name, table(cohort, name)?))).collect()
+}
+
+struct Table(String);
+
+impl Table {
+    fn new(columns: &[&str]) -> Self {
+        Self(columns.join(",") + "\n")
+    }
+
+    fn rows(mut self, rows: impl Iterator<Item = Vec<String>>) -> String {
+        for row in rows {
+            self.0.push_str(&row.join(","));
+            self.0.push('\n');
+        }
+        self.0
+    }
+}
+
+/// A field of text: quoted when it must be; a spreadsheet takes no field for a formula.
+fn text(value: &str) -> String {
+    let formula = value.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    let value = if formula { format!("'{value}") } else { value.to_owned() };
+    if value.contains([',', '"', '\n', '\r']) { format!("\"{}\"", value.replace('"', "\"\"")) } else { value }
+}
+
+fn number(value: impl Display) -> String {
+    value.to_string()
+}
+
+fn maybe(value: Option<f64>) -> String {
+    value.map_or(String::new(), number)
+}
+
+fn distributions(cohort: &Cohort) -> String {
+    let columns = ["score", "n", "mean", "sd", "min", "q1", "median", "q3", "max", "range", "skewness"];
+    Table::new(&columns).rows(cohort.distributions.iter().map(|one| {
+        let s = &one.summary;
+        let figures = [s.min, s.q1, s.median, s.q3, s.max, s.range].map(number);
+        [vec![text(&one.score), number(s.n), number(s.mean), maybe(s.sd)], figures.to_vec(), vec![maybe(s.skewness)]].concat()
+    }))
+}
+
+fn histograms(cohort: &Cohort) -> String {
+    let bars = cohort.distributions.iter().flat_map(|one| one.histogram.iter().map(|bar| (&one.score, bar)));
+    let row =
+        |(score, bar): (&String, &crate::statistics::Bin)| vec![text(score), number(bar.from), number(bar.to), number(bar.count)];
+    Table::new(&["score", "from", "to", "count"]).rows(bars.map(row))
+}
+
+fn individuals(cohort: &Cohort) -> String {
+    let columns = ["trainee", "session", "conformity", "efficiency", "safety", "accuracy", "overall", "seconds", "purpose"];
+    Table::new(&columns).rows(cohort.individuals.iter().map(|one| {
+        let purpose = one.purpose.as_deref().map_or(String::new(), text);
+        let scores = [one.conformity, Some(one.efficiency), Some(one.safety), one.accuracy, Some(one.overall), Some(one.seconds)];
+        [vec![text(&one.trainee), text(&one.session)], scores.map(maybe).to_vec(), vec![purpose]].concat()
+    }))
+}
+
+fn conformity(cohort: &Cohort) -> String {
+    let rows = cohort.individuals.iter().flat_map(|one| one.tasks.iter().map(|task| (&one.trainee, task)));
+    Table::new(&["trainee", "task", "name", "attempted", "on_path", "speeding"]).rows(rows.map(|(trainee, task)| {
+        let attempted = u8::from(task.attempted);
+        vec![text(trainee), number(task.id), text(&task.name), number(attempted), number(task.on_path), number(task.speeding)]
+    }))
+}
+
+fn crashes(cohort: &Cohort) -> String {
+    let tasks: Vec<String> = cohort.crashes.tasks.iter().map(|id| format!("task_{id}")).collect();
+    let columns: Vec<&str> =
+        ["trainee"].into_iter().chain(tasks.iter().map(String::as_str)).chain(["outside", "total"]).collect();
+    let sum = (&"all".to_owned(), &cohort.crashes.by_task, cohort.crashes.total);
+    let people = cohort.crashes.rows.iter().map(|row| (&row.trainee, &row.by_task, row.total));
+    Table::new(&columns).rows(people.chain([sum]).map(|(who, by_task, total)| {
+        let counts = by_task.iter().map(number);
+        [text(who)].into_iter().chain(counts).chain([number(total)]).collect()
+    }))
+}
+
+fn repetitions(cohort: &Cohort) -> String {
+    let columns = ["score", "repetition", "n", "mean", "low_whisker", "q1", "median", "q3", "high_whisker", "outliers"];
+    Table::new(&columns).rows(cohort.boxes.iter().map(|one| {
+        let p = &one.plot;
+        let outliers: Vec<String> = p.outliers.iter().map(number).collect();
+        let figures = [p.mean, p.low_whisker, p.q1, p.median, p.q3, p.high_whisker].map(number);
+        [vec![text(&one.score), number(one.repetition), number(p.n)], figures.to_vec(), vec![outliers.join(" ")]].concat()
+    }))
+}
+
+fn t_tests(cohort: &Cohort) -> String {
+    let columns = [
+        "score",
+        "earlier",
+        "later",
+        "n",
+        "mean_difference",
+        "sd_difference",
+        "low_95",
+        "high_95",
+        "df",
+        "t",
+        "p_upper",
+        "p_lower",
+        "p_two",
+        "effect_size_dz",
+        "p_upper_holm",
+        "p_lower_holm",
+        "p_two_holm",
+    ];
+    Table::new(&columns).rows(cohort.tests.iter().map(|one| {
+        let t = &one.test;
+        let tails = |p: &Option<Tails>| [p.map(|p| p.upper), p.map(|p| p.lower), p.map(|p| p.two)].map(maybe).to_vec();
+        let figures = [t.mean_difference, t.sd_difference, t.interval_95[0], t.interval_95[1]].map(number);
+        let start = vec![text(&one.score), number(one.earlier), number(one.later), number(t.n)];
+        let test = vec![number(t.df), maybe(t.t)];
+        [start, figures.to_vec(), test, tails(&t.p), vec![maybe(t.effect_size_dz)], tails(&one.p_holm)].concat()
+    }))
+}
+
+fn homogeneity(cohort: &Cohort) -> String {
+    let columns = [
+        "score",
+        "low_up_to",
+        "middle_up_to",
+        "group_low",
+        "group_middle",
+        "group_high",
+        "others_low",
+        "others_middle",
+        "others_high",
+        "chi_squared",
+        "df",
+        "p",
+        "smallest_expected",
+    ];
+    Table::new(&columns).rows(cohort.homogeneity.iter().map(|one| {
+        let counts = one.group.iter().chain(&one.others).map(number).collect();
+        let test = &one.test;
+        let test = vec![number(test.chi_squared), number(test.df), number(test.p), number(test.smallest_expected)];
+        [vec![text(&one.score), number(one.cuts[0]), number(one.cuts[1])], counts, test].concat()
+    }))
+}
+
+fn likert(cohort: &Cohort) -> String {
+    let columns =
+        ["question", "repetition", "strongly_agree", "agree", "neutral", "disagree", "strongly_disagree", "n", "agreeing"];
+    Table::new(&columns).rows(cohort.likert.iter().map(|one| {
+        let repetition = one.repetition.map_or("all first".to_owned(), number);
+        [vec![text(&one.question), repetition], one.counts.map(number).to_vec(), vec![number(one.n), number(one.agree)]].concat()
+    }))
+}
+
+fn self_rating(cohort: &Cohort) -> String {
+    let people = cohort.self_rating.people.iter();
+    let row = |one: &super::SelfRatingPair| vec![text(&one.trainee), number(one.self_rating), number(one.measured_pct)];
+    Table::new(&["trainee", "self_rating", "measured_pct"]).rows(people.map(row))
+}
+
+fn contradictions(cohort: &Cohort) -> String {
+    let found = cohort.self_rating.contradictions.iter();
+    Table::new(&["trainee", "words"]).rows(found.map(|one| vec![text(&one.trainee), text(&one.words)]))
+}
+
+fn causal(cohort: &Cohort) -> String {
+    let columns = ["model", "term", "estimate", "standard_error", "t", "p", "low_95", "high_95"];
+    let Some(model) = &cohort.causal else { return Table::new(&columns).rows(std::iter::empty()) };
+    let terms = |name: &'static str, regression: &Regression| {
+        let row = move |one: &crate::statistics::Coefficient| {
+            let start = vec![name.to_owned(), text(&one.name), number(one.estimate), number(one.standard_error)];
+            [start, vec![maybe(one.t), maybe(one.p), number(one.interval_95[0]), number(one.interval_95[1])]].concat()
+        };
+        regression.coefficients.iter().map(row).collect::<Vec<_>>()
+    };
+    let effects = model.indirect.iter().map(|one| (format!("indirect at feedback {}", one.feedback), one));
+    let effects = effects.chain([("moderation of the indirect effect".to_owned(), &model.moderation)]).map(|(name, one)| {
+        let ends = one.interval_95.map_or([String::new(), String::new()], |ends| ends.map(number));
+        let none = String::new;
+        [vec!["resampled".to_owned(), text(&name), number(one.effect), none(), none(), none()], ends.to_vec()].concat()
+    });
+    let rows = [terms("strain", &model.strain), terms("performance", &model.performance), effects.collect()].concat();
+    Table::new(&columns).rows(rows.into_iter())
+}
+
+fn progress(cohort: &Cohort) -> String {
+    let tasks: Vec<String> = cohort.crashes.tasks.iter().map(|id| format!("on_path_{id}")).collect();
+    let start = ["trainee", "repetition", "session", "conformity", "efficiency", "safety", "accuracy", "overall", "seconds"];
+    let end = ["bridge", "terrain", "water", "other", "vehicle", "person"];
+    let columns: Vec<&str> = start.into_iter().chain(tasks.iter().map(String::as_str)).chain(end).collect();
+    let rows = cohort.progress.iter().flat_map(|one| one.repetitions.iter().map(|repetition| (&one.trainee, repetition)));
+    Table::new(&columns).rows(rows.map(|(trainee, one)| {
+        let scores = [one.conformity, Some(one.efficiency), Some(one.safety), one.accuracy, Some(one.overall), Some(one.seconds)];
+        let on_path = |id: &u32| maybe(one.on_path.iter().find(|(task, _)| task == id).and_then(|(_, share)| *share));
+        let crashes = one.crashes.by_kind().map(|(_, count)| number(count)).to_vec();
+        let paths = cohort.crashes.tasks.iter().map(on_path).collect();
+        [vec![text(trainee), number(one.number), text(&one.session)], scores.map(maybe).to_vec(), paths, crashes].concat()
+    }))
+}
+
+fn curves(cohort: &Cohort) -> String {
+    let rows = cohort.progress.iter().flat_map(|one| one.curves.iter().map(|curve| (&one.trainee, curve)));
+    Table::new(&["trainee", "score", "n", "first", "exponent", "r_squared", "next"]).rows(rows.map(|(trainee, one)| {
+        let c = &one.curve;
+        let figures = vec![number(c.n), number(c.first), number(c.exponent), maybe(c.r_squared), number(c.next)];
+        [vec![text(trainee), text(&one.score)], figures].concat()
+    }))
+}
+
+fn learning(cohort: &Cohort) -> String {
+    let columns = ["score", "people", "repetition", "mean", "fitted", "first", "exponent", "r_squared"];
+    let rows = cohort.learning.iter().flat_map(|one| one.means.iter().enumerate().map(move |(k, mean)| (one, k + 1, *mean)));
+    Table::new(&columns).rows(rows.map(|(one, repetition, mean)| {
+        let c = &one.curve;
+        let curve = vec![number(c.at(repetition as f64)), number(c.first), number(c.exponent), maybe(c.r_squared)];
+        [vec![text(&one.score), number(one.people), number(repetition), number(mean)], curve].concat()
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_fields_are_quoted_and_no_formula_gets_through() {
+        assert_eq!(text("plain"), "plain");
+        assert_eq!(text("a,b \"c\"\n"), "\"a,b \"\"c\"\"\n\"");
+        assert_eq!(text("=1+1"), "'=1+1");
+    }
+}

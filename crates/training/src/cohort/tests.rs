@@ -1,0 +1,240 @@
+use super::*;
+use crate::questionnaire::{Aspect, Item, Overall, Phase};
+use crate::testing::{broken_off, faultless};
+use spandrel_model::random::RandomStream;
+
+/// 22 people, the first eight of them three times, with scores and answers by chance: demand raises strain, strain lowers safety.
+fn pilot() -> Vec<Record> {
+    let mut stream = RandomStream::new(11, "made-up cohort");
+    let mut records = Vec::new();
+    for person in 0..22usize {
+        for repetition in 0..if person < 8 { 3 } else { 1 } {
+            let mut record = faultless(&format!("p{person:02}"), repetition + 1);
+            let demand = stream.range(1.0, 5.0);
+            let strain = (0.7 * demand + stream.range(0.0, 1.5)).clamp(1.0, 5.0);
+            let answers = record.answers.as_mut().unwrap();
+            for item in Item::all(&[1, 2, 3, 4]) {
+                let value = match item {
+                    Item::Overall(Overall::TimePressure | Overall::Frustration) => strain,
+                    Item::Overall(Overall::Feedback) => stream.range(1.0, 3.4),
+                    Item::Phase(_, Aspect::Performance) => stream.range(1.0, 4.0),
+                    Item::Phase(_, Aspect::MentalDemand | Aspect::PhysicalDemand) => demand + stream.range(-0.5, 0.5),
+                };
+                answers.given.insert(item, value.round().clamp(1.0, 5.0) as u8);
+            }
+            record.scores.conformity = Some(stream.range(60.0, 80.0) + 5.0 * repetition as f64);
+            record.scores.safety = (100.0 - 12.0 * strain + stream.range(-5.0, 5.0)).clamp(0.0, 100.0);
+            record.scores.overall = record.scores.conformity.unwrap() + 100.0 + record.scores.safety + 100.0;
+            record.tasks[2].crashes.bridge = stream.below(4);
+            record.crashes_outside.water = stream.below(2);
+            record.seconds = stream.range(600.0, 1500.0);
+            records.push(record);
+        }
+    }
+    records
+}
+
+fn worked(records: &[Record]) -> Cohort {
+    cohort(records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: Incomplete::LeaveOut })
+}
+
+#[test]
+fn exact_the_papers_design_gives_the_papers_tables() {
+    let cohort = worked(&pilot());
+    assert_eq!((cohort.trainees, cohort.sessions, cohort.group.len()), (22, 38, 8));
+    assert_eq!(cohort.scenarios, ["two-bridges"]);
+    assert_eq!(cohort.distributions.len(), 5);
+    assert!(cohort.distributions.iter().all(|one| one.summary.n == 22));
+    assert_eq!(cohort.distributions[4].histogram.iter().map(|bar| bar.count).sum::<usize>(), 22);
+    assert_eq!(cohort.boxes.len(), 15);
+    assert_eq!(cohort.tests.len(), 15);
+    // 24 questions: of all first sessions, and of each of the three repetitions.
+    assert_eq!(cohort.likert.len(), 96);
+    assert_eq!(cohort.crashes.rows.len(), 22);
+    assert_eq!(cohort.crashes.total, cohort.crashes.by_task.iter().sum::<usize>());
+    assert_eq!(cohort.crashes.total, cohort.crashes.by_kind.total());
+    assert_eq!(cohort.progress[0].repetitions.len(), 3);
+    assert!(cohort.progress.iter().all(|one| one.curves.is_empty()), "three repetitions make no curve");
+    assert!(cohort.warnings.iter().any(|words| words.contains("22 people") && words.contains("78")), "{:?}", cohort.warnings);
+}
+
+#[test]
+fn exact_repetitions_follow_time_and_compare_the_same_people() {
+    let mut records = pilot();
+    let expected = worked(&records);
+    records.reverse();
+    assert_eq!(worked(&records), expected, "the order of the records does not matter");
+    let test = expected.tests.iter().find(|test| test.score == "conformity" && (test.earlier, test.later) == (1, 3)).unwrap();
+    assert_eq!(test.test.n, 8);
+    let of = |k: usize| {
+        let scores: Vec<f64> = expected.progress[..8].iter().filter_map(|one| one.repetitions[k].conformity).collect();
+        scores.iter().sum::<f64>() / 8.0
+    };
+    assert!((test.test.mean_difference - (of(2) - of(0))).abs() < 1e-9);
+    let holm = test.p_holm.unwrap();
+    assert!(holm.upper >= test.test.p.unwrap().upper && holm.two <= 1.0);
+    // Efficiency is 100 in all: no t, and no part in the family.
+    let flat = expected.tests.iter().find(|test| test.score == "efficiency").unwrap();
+    assert_eq!((flat.test.t, flat.p_holm), (None, None));
+}
+
+#[test]
+fn exact_the_causal_model_finds_what_made_the_data() {
+    let model = worked(&pilot()).causal.unwrap();
+    let of = |model: &crate::statistics::Regression, name: &str| {
+        model.coefficients.iter().find(|one| one.name == name).unwrap().estimate
+    };
+    assert_eq!(model.n, 22);
+    assert!((of(&model.strain, "demand") - 0.7).abs() < 0.25, "{:?}", model.strain.coefficients);
+    // 12 points of 400 per step of strain are 3 %.
+    assert!((of(&model.performance, "strain") + 3.0).abs() < 1.5, "{:?}", model.performance.coefficients);
+    let middle = model.indirect[1];
+    let interval = middle.interval_95.unwrap();
+    assert!(interval[0] < middle.effect && middle.effect < interval[1] && interval[1] < 0.0, "{middle:?}");
+    assert_eq!(worked(&pilot()).causal.unwrap(), model, "the resampling is the same in every run");
+}
+
+#[test]
+fn exact_contradictions_of_the_papers_kinds_are_found() {
+    let mut records: Vec<Record> = (0..8).map(|k| faultless(&format!("p{k}"), 1)).collect();
+    for (k, record) in records.iter_mut().enumerate() {
+        record.scores.overall = 400.0 - 10.0 * k as f64;
+        record.seconds = 800.0 + 50.0 * k as f64;
+    }
+    records[0].answers.as_mut().unwrap().given.insert(Item::Overall(Overall::TimePressure), 4);
+    let found = worked(&records).self_rating.contradictions;
+    let of = |who: &str| found.iter().filter(|one| one.trainee == who).map(|one| one.words.as_str()).collect::<Vec<_>>();
+    assert!(of("p0").iter().any(|words| words.starts_with("felt time pressure")));
+    assert!(of("p7").iter().any(|words| words.contains("among the lowest quarter")));
+    assert!(of("p7").iter().any(|words| words.contains("among the slowest quarter")));
+    assert!(of("p3").is_empty() && of("p4").is_empty());
+}
+
+#[test]
+fn exact_four_repetitions_make_a_learning_curve() {
+    let mut records: Vec<Record> = (1..=5).map(|k| faultless("anna", k)).collect();
+    for (k, record) in records.iter_mut().enumerate() {
+        record.scores.safety = 40.0 * spandrel_model::math::pow((k + 1) as f64, 0.4);
+        record.scores.accuracy = None;
+    }
+    let cohort = worked(&records);
+    let curve = cohort.progress[0].curves.iter().find(|curve| curve.score == "safety").unwrap();
+    assert!((curve.curve.exponent - 0.4).abs() < 1e-9);
+    assert!(!cohort.progress[0].curves.iter().any(|curve| curve.score == "accuracy"));
+}
+
+#[test]
+fn exact_the_groups_curve_goes_through_the_means_of_those_who_flew_often_enough() {
+    let safety = |first: f64, k: usize| first * spandrel_model::math::pow(k as f64, 0.3);
+    let mut records = Vec::new();
+    // Two people with curves of one exponent: their mean has it, too. Of the longer series only what both flew counts; a third person
+    // flew too seldom, a fourth has no accuracy once.
+    for (who, first, times) in [("anna", 30.0, 6), ("ben", 50.0, 4), ("cleo", 90.0, 3), ("dan", 40.0, 4)] {
+        for k in 1..=times {
+            let mut record = faultless(who, k);
+            record.scores.safety = safety(first, k);
+            if who == "dan" && k == 2 {
+                record.scores.accuracy = None;
+            }
+            records.push(record);
+        }
+    }
+    let learning = worked(&records).learning;
+    let of = |score: &str| learning.iter().find(|one| one.score == score).unwrap();
+    assert_eq!((of("safety").people, of("safety").means.len(), of("accuracy").people), (3, 4, 2));
+    assert!((of("safety").curve.exponent - 0.3).abs() < 1e-9 && (of("safety").curve.first - 40.0).abs() < 1e-6);
+    assert!((of("safety").curve.at(3.0) - of("safety").means[2]).abs() < 1e-6);
+    assert!(worked(&pilot()).learning.is_empty(), "three repetitions make no curve");
+}
+
+#[test]
+fn exact_one_trainees_jobs_are_kept_apart() {
+    let mut records: Vec<Record> = (1..=9).map(|k| faultless("anna", k)).collect();
+    for record in records.iter_mut().step_by(2) {
+        record.scenario = "drill-gap".into();
+        record.tasks.truncate(1);
+        record.scores.safety = 10.0;
+    }
+    records.reverse();
+    let jobs = by_job(&records, Incomplete::LeaveOut);
+    let told: Vec<(&str, usize, usize)> =
+        jobs.iter().map(|job| (job.scenario.as_str(), job.tasks.len(), job.progress.repetitions.len())).collect();
+    assert_eq!(told, [("two-bridges", 4, 4), ("drill-gap", 1, 5)], "the job before its drills");
+    assert!(jobs[0].progress.repetitions.iter().all(|one| one.safety == 100.0));
+    assert!(jobs[1].progress.repetitions.windows(2).all(|pair| pair[0].started_unix_us < pair[1].started_unix_us));
+    assert_eq!((jobs[0].progress.curves.len(), jobs[1].progress.curves.len()), (5, 5));
+    assert!(by_job(&[], Incomplete::LeaveOut).is_empty());
+}
+
+#[test]
+fn exact_small_and_empty_cohorts_are_described_and_warned_of() {
+    let none = worked(&[]);
+    assert_eq!((none.trainees, none.causal, none.tests.len()), (0, None, 0));
+    assert!(!none.warnings.is_empty());
+    let one = worked(&[faultless("anna", 1)]);
+    assert_eq!((one.trainees, one.distributions.len(), one.distributions[0].summary.sd), (1, 5, None));
+    assert!(one.warnings.iter().any(|words| words.contains("no estimate")));
+    for (name, table) in tables(&one) {
+        let columns = table.lines().next().unwrap().split(',').count();
+        assert!(
+            table
+                .lines()
+                .all(|line| name == "contradictions.csv" || name == "warnings.csv" || line.split(',').count() == columns),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn exact_other_jobs_do_not_count_unless_asked_for() {
+    let mut records = pilot();
+    let mut drill = faultless("p00", 9);
+    drill.scenario = "drill-gap".into();
+    records.push(drill);
+    assert_eq!(worked(&records).sessions, 38);
+    let both =
+        Selection { scenarios: vec!["two-bridges".into(), "drill-gap".into()], repetitions: 3, incomplete: Incomplete::LeaveOut };
+    assert_eq!(cohort(&records, &both).sessions, 39);
+}
+
+#[test]
+fn exact_a_task_is_rated_against_its_own_path() {
+    let mut records: Vec<Record> = (0..6).map(|k| faultless(&format!("p{k}"), 1)).collect();
+    for (k, record) in records.iter_mut().enumerate() {
+        record.tasks[2].on_path = 0.3 + 0.1 * k as f64;
+        let answer = 5 - (k as u8).min(4);
+        record.answers.as_mut().unwrap().given.insert(Item::Phase(Phase::Task(3), Aspect::Performance), answer);
+    }
+    let rating = worked(&records).self_rating;
+    let third = rating.tasks.iter().find(|(id, _)| *id == 3).and_then(|(_, correlation)| *correlation).unwrap();
+    assert!(third.r > 0.95, "{third:?}");
+    assert_eq!(rating.tasks.iter().find(|(id, _)| *id == 1).unwrap().1, None, "all answered alike");
+}
+
+#[test]
+fn regress_an_abort_is_no_first_session_unless_asked_for() {
+    let records = vec![broken_off("anna", 1), faultless("anna", 2), faultless("ben", 1), broken_off("cleo", 1)];
+    let of = |incomplete: Incomplete| cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete });
+    let (without, with) = (of(Incomplete::LeaveOut), of(Incomplete::Include));
+    assert_eq!((without.trainees, without.sessions, without.left_out), (2, 2, 2));
+    assert_eq!(
+        without.individuals.iter().map(|one| one.session.as_str()).collect::<Vec<_>>(),
+        ["session-anna-002", "session-ben-001"]
+    );
+    assert_eq!(without.progress[0].repetitions.len(), 1);
+    assert_eq!((with.trainees, with.sessions, with.left_out), (3, 4, 0));
+    assert_eq!(with.individuals[0].session, "session-anna-001");
+    let older = vec![Record { completion: None, ..faultless("anna", 1) }];
+    let older = cohort(&older, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut });
+    assert_eq!((older.sessions, older.left_out), (0, 1), "a record that does not say so is not taken for complete");
+}
+
+#[test]
+fn regress_learning_curves_leave_incomplete_sessions_out() {
+    let mut records: Vec<Record> = (1..=4).map(|k| faultless("anna", k)).collect();
+    records.push(broken_off("anna", 5));
+    let (without, with) = (&by_job(&records, Incomplete::LeaveOut)[0], &by_job(&records, Incomplete::Include)[0]);
+    assert_eq!((without.progress.repetitions.len(), without.left_out), (4, 1));
+    assert_eq!((with.progress.repetitions.len(), with.left_out), (5, 0));
+    assert!(without.progress.curves.iter().all(|curve| curve.curve.n == 4));
+}

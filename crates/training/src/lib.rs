@@ -1,0 +1,25 @@
+//! What comes after a scored flight, as pure functions: a record of each session ([`record`]), statistics ([`statistics`]), what to fly next
+//! ([`plan`]), how a group does ([`cohort`]), what trainees say of themselves ([`questionnaire`]), statements for learning record stores
+//! ([`xapi`]), the report of one session ([`report`]) and the pages of the server ([`web`]). The program reads folders, keeps the database and
+//! serves the pages.
+//!
+//! ```
+//! use spandrel_training::statistics::paired_t;
+//!
+//! // Scores of the same six trainees in their first and second session.
+//! let (first, second) = ([212.0, 250.5, 198.0, 301.0, 240.0, 222.5], [260.0, 255.0, 240.5, 310.0, 281.0, 263.0]);
+//! let change = paired_t(&first, &second).expect("six pairs that differ");
+//! assert!(change.mean_difference > 0.0);
+//! ```
+
+pub mod cohort;
+pub mod plan;
+pub mod questionnaire;
+pub mod record;
+pub mod report;
+pub mod statistics;
+pub mod trainee;
+pub mod web;
+pub mod xapi;
+
+pub mod testing;

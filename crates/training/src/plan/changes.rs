@@ -1,0 +1,61 @@
+//! What changed since last time.
+
+use crate::record::Record;
+use serde::Serialize;
+
+/// Smaller changes of a score are not worth a word, points.
+const WORTH_A_WORD: f64 = 0.05;
+
+/// The newest session against the one before on the same job.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Changes {
+    /// Session compared with.
+    pub since: String,
+    /// What differs, scores first.
+    pub changes: Vec<Change>,
+}
+
+/// One measure, then and now.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Change {
+    /// What.
+    pub what: String,
+    /// Then.
+    pub before: f64,
+    /// Now.
+    pub now: f64,
+    /// Better, worse; absent when equal.
+    pub better: Option<bool>,
+}
+
+/// Compares the newest record with the newest earlier one of its scenario.
+pub fn changes(records: &[Record]) -> Option<Changes> {
+    let (last, earlier) = records.split_last()?;
+    let before = earlier.iter().rev().find(|record| record.scenario == last.scenario)?;
+    let mut changes = Vec::new();
+    let mut add = |what: String, before: Option<f64>, now: Option<f64>, more_is_better: bool| {
+        if let (Some(before), Some(now)) = (before, now) {
+            let same = (now - before).abs() < WORTH_A_WORD;
+            changes.push(Change { what, before, now, better: (!same).then_some((now > before) == more_is_better) });
+        }
+    };
+    let (then, now) = (&before.scores, &last.scores);
+    add("overall".into(), Some(then.overall), Some(now.overall), true);
+    add("conformity".into(), then.conformity, now.conformity, true);
+    add("efficiency".into(), Some(then.efficiency), Some(now.efficiency), true);
+    add("safety".into(), Some(then.safety), Some(now.safety), true);
+    add("accuracy".into(), then.accuracy, now.accuracy, true);
+    for task in &last.tasks {
+        let Some(then) = before.tasks.iter().find(|other| other.id == task.id) else { continue };
+        add(format!("{}: on the path, %", task.name), Some(100.0 * then.on_path), Some(100.0 * task.on_path), true);
+        add(format!("{}: over the speed limit, s", task.name), Some(then.speeding_s), Some(task.speeding_s), false);
+        let crashes = (then.crashes.total() as f64, task.crashes.total() as f64);
+        add(format!("{}: crashes", task.name), Some(crashes.0), Some(crashes.1), false);
+    }
+    for ((kind, then), (_, now)) in before.crashes().by_kind().into_iter().zip(last.crashes().by_kind()) {
+        if then + now > 0 {
+            add(format!("crashes: {kind}"), Some(then as f64), Some(now as f64), false);
+        }
+    }
+    Some(Changes { since: before.id.clone(), changes })
+}

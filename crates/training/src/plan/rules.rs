@@ -1,0 +1,192 @@
+//! The rules file.
+
+use spandrel_model::toml::{Problems, Reader, Section};
+
+/// The shipped rules.
+pub const RULES: &str = include_str!("rules.toml");
+
+/// Format of the file.
+const FORMAT: i64 = 1;
+
+/// What a rule looks at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// Share of a task's time off its path.
+    OffPath,
+    /// Mean vertical distance from a task's path while off it, m.
+    OffHeight,
+    /// Share of a task's time over the speed limit.
+    Speeding,
+    /// Crashes in a task's window.
+    Crashes,
+    /// Crashes in no window.
+    CrashesOutside,
+    /// Crashes anywhere.
+    CrashesAll,
+    /// 1 for a task that was left out.
+    NotAttempted,
+    /// Share of the defects that no picture shows.
+    Missed,
+    /// Missed defects in condition state 3 (poor) or worse.
+    MissedSevere,
+    /// Longest time that a missed defect was in plain view, s; known in a session's report alone.
+    MissedInView,
+    /// Share of the pictures without a new defect.
+    FalseSnapshots,
+    /// Flight time beyond that for full efficiency, minutes.
+    Overtime,
+    /// 1 when the flight did not end on the pad.
+    NotLanded,
+    /// 1 when the battery was below 20 % at the end.
+    BatteryLow,
+}
+
+const MEASURES: &[(&str, Measure)] = &[
+    ("off_path", Measure::OffPath),
+    ("off_height", Measure::OffHeight),
+    ("speeding", Measure::Speeding),
+    ("crashes", Measure::Crashes),
+    ("crashes_outside", Measure::CrashesOutside),
+    ("crashes_all", Measure::CrashesAll),
+    ("not_attempted", Measure::NotAttempted),
+    ("missed", Measure::Missed),
+    ("missed_severe", Measure::MissedSevere),
+    ("missed_in_view", Measure::MissedInView),
+    ("false_snapshots", Measure::FalseSnapshots),
+    ("overtime", Measure::Overtime),
+    ("not_landed", Measure::NotLanded),
+    ("battery_low", Measure::BatteryLow),
+];
+const TASKS: &[(&str, Option<&str>)] = &[
+    ("any", None),
+    ("slab_side", Some("slab_side")),
+    ("arch_bottom", Some("arch_bottom")),
+    ("interlayer", Some("interlayer")),
+    ("pier_circle", Some("pier_circle")),
+    ("free", Some("free")),
+];
+const WITH: &[(&str, Option<&str>)] = &[
+    ("any", None),
+    ("bridge", Some("bridge")),
+    ("terrain", Some("terrain")),
+    ("water", Some("water")),
+    ("other", Some("other")),
+    ("vehicle", Some("vehicle")),
+    ("person", Some("person")),
+];
+
+/// One rule.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rule {
+    /// Name, unique.
+    pub name: String,
+    /// What it looks at.
+    pub measure: Measure,
+    /// Kind of task, or any.
+    pub task: Option<&'static str>,
+    /// What was hit, or anything.
+    pub with: Option<&'static str>,
+    /// What a missed defect's best picture lacked; empty for whatever.
+    pub lacked: String,
+    /// The rule fires above this.
+    pub limit: f64,
+    /// How much it counts beside others.
+    pub weight: f64,
+    /// What to fly.
+    pub scenario: String,
+    /// Why, with places for values.
+    pub reason: String,
+}
+
+/// All rules.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rules {
+    /// Longest pause, days.
+    pub retention_days: f64,
+    /// What to fly after a longer one.
+    pub retention_scenario: String,
+    /// Why.
+    pub retention_reason: String,
+    /// Shortest pause, days.
+    pub rest_days: f64,
+    /// What to fly when nothing stands out.
+    pub job: String,
+    /// Why.
+    pub job_reason: String,
+    /// Most scenarios that a plan names.
+    pub steps: usize,
+    /// The rules, in file order.
+    pub rules: Vec<Rule>,
+}
+
+/// Reads rules.
+///
+/// # Errors
+/// Everything that is wrong with the file.
+pub fn read_rules(file: &str, text: &str) -> Result<Rules, Problems> {
+    let mut reader = Reader::new(file, text);
+    let rules = reader.parse().map(|document| {
+        let mut root = reader.root(&document);
+        read(&mut reader, &mut root)
+    });
+    match rules {
+        Some(rules) if reader.problems.is_empty() => Ok(rules),
+        Some(_) | None => Err(Problems(reader.problems)),
+    }
+}
+
+fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Rules {
+    reader.whole(root, "format", (FORMAT, FORMAT), None);
+    let steps = reader.whole(root, "steps", (1, 20), Some(3));
+    let mut rules: Vec<Rule> = Vec::new();
+    for mut section in reader.sections(root, "rules") {
+        let rule = one(reader, &mut section);
+        if rules.iter().any(|other| other.name == rule.name) {
+            reader.complain(&section, "name", &rule.name, "a name of its own", "two rules of one name");
+        }
+        reader.finish(&section);
+        rules.push(rule);
+    }
+    let rules = Rules {
+        retention_days: reader.number(root, "retention_days", (1.0, 3650.0), None),
+        retention_scenario: reader.text(root, "retention_scenario", None),
+        retention_reason: reader.text(root, "retention_reason", None),
+        rest_days: reader.number(root, "rest_days", (0.0, 365.0), None),
+        job: reader.text(root, "job", None),
+        job_reason: reader.text(root, "job_reason", None),
+        steps: usize::try_from(steps).unwrap_or(1),
+        rules,
+    };
+    reader.finish(root);
+    rules
+}
+
+fn one(reader: &mut Reader<'_>, section: &mut Section<'_>) -> Rule {
+    Rule {
+        name: reader.text(section, "name", None),
+        measure: reader.choice(section, "measure", MEASURES, None),
+        task: reader.choice(section, "task", TASKS, Some(0)),
+        with: reader.choice(section, "with", WITH, Some(0)),
+        lacked: reader.text(section, "lacked", Some("")),
+        limit: reader.number(section, "limit", (0.001, 1000.0), None),
+        weight: reader.number(section, "weight", (0.01, 100.0), Some(1.0)),
+        scenario: reader.text(section, "scenario", None),
+        reason: reader.text(section, "reason", None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_shipped_rules_are_valid_and_a_wrong_one_is_told_by_line_and_key() {
+        assert!(read_rules("rules.toml", RULES).unwrap().rules.len() > 20);
+        let wrong =
+            RULES.replacen("measure = \"off_path\"", "measure = \"elegance\"", 1).replacen("limit = 0.1\n", "limit = -1\n", 1);
+        let told = read_rules("rules.toml", &wrong).unwrap_err().to_string();
+        assert!(told.contains("measure = \"elegance\"") && told.contains("limit = -1"), "{told}");
+        let twice = RULES.replace("name = \"into the water\"", "name = \"hit a person\"");
+        assert!(read_rules("rules.toml", &twice).unwrap_err().to_string().contains("two rules of one name"));
+    }
+}

@@ -1,0 +1,123 @@
+//! The languages that the questionnaire is asked in: shipped ones, and a site's own; and which of them somebody understands.
+
+use super::wording::{Wording, read_wording};
+use spandrel_model::toml::Problems;
+
+/// File names and texts of the shipped wordings.
+pub const SHIPPED: [(&str, &str); 3] =
+    [("en.toml", include_str!("en.toml")), ("de.toml", include_str!("de.toml")), ("es.toml", include_str!("es.toml"))];
+/// Longest language tag, characters (BCP 47 asks for 35).
+const TAG_MAX: usize = 35;
+/// Languages of an Accept-Language header that are looked at.
+const ACCEPTED_MOST: usize = 20;
+
+/// A language tag, by its form alone.
+#[must_use]
+pub fn is_tag(tag: &str) -> bool {
+    let parts = || tag.split('-');
+    tag.len() <= TAG_MAX && parts().all(|part| (1..=8).contains(&part.len()) && part.chars().all(|c| c.is_ascii_alphanumeric()))
+}
+
+/// All languages; the first one is asked in when nothing is known of a person.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Languages(Vec<Wording>);
+
+impl Languages {
+    /// A site's own wordings, in their order, then the shipped ones; a language that is there keeps its first wording.
+    ///
+    /// # Errors
+    /// Never in practice: tests read what is shipped.
+    pub fn with(own: Vec<Wording>) -> Result<Self, Problems> {
+        let mut all = own;
+        for (file, text) in SHIPPED {
+            let shipped = read_wording(file, text)?;
+            if !all.iter().any(|known| known.language.eq_ignore_ascii_case(&shipped.language)) {
+                all.push(shipped);
+            }
+        }
+        Ok(Self(all))
+    }
+
+    /// All of them.
+    #[must_use]
+    pub fn all(&self) -> &[Wording] {
+        &self.0
+    }
+
+    /// The wording in a language, or in the same language of another country.
+    #[must_use]
+    pub fn of(&self, tag: &str) -> Option<&Wording> {
+        let primary = |tag: &str| tag.split('-').next().unwrap_or_default().to_ascii_lowercase();
+        let exactly = self.0.iter().find(|known| known.language.eq_ignore_ascii_case(tag));
+        exactly.or_else(|| self.0.iter().find(|known| primary(&known.language) == primary(tag)))
+    }
+
+    /// The wording that an Accept-Language header likes best (RFC 9110, 12.5.4); the first one when it likes none.
+    #[must_use]
+    pub fn accepted(&self, header: &str) -> &Wording {
+        let mut wanted: Vec<(&str, f64)> = header.split(',').take(ACCEPTED_MOST).filter_map(wish).collect();
+        // Equal ones stay in the browser's order.
+        wanted.sort_by(|a, b| b.1.total_cmp(&a.1));
+        wanted.into_iter().find_map(|(tag, _)| self.of(tag)).unwrap_or(&self.0[0])
+    }
+}
+
+/// A tag and how much it is wished for; nothing for what is not wanted or is no tag.
+fn wish(part: &str) -> Option<(&str, f64)> {
+    let (tag, parameter) = part.split_once(';').unwrap_or((part, "q=1"));
+    let weight: f64 = parameter.trim().strip_prefix("q=")?.parse().ok()?;
+    let tag = tag.trim();
+    (is_tag(tag) && weight > 0.0 && weight <= 1.0).then_some((tag, weight))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn languages() -> Languages {
+        Languages::with(Vec::new()).unwrap()
+    }
+
+    #[test]
+    fn exact_browsers_get_what_they_like_best_of_what_there_is() {
+        let all = languages();
+        for (header, expected) in [
+            ("", "en"),
+            ("de", "de"),
+            ("de-CH, de;q=0.9, en;q=0.8", "de"),
+            ("fr-FR,fr;q=0.9,es;q=0.4,en;q=0.3", "es"),
+            ("en;q=0.3, es-MX;q=0.7", "es"),
+            ("DE;q=0, es;q=0.1", "es"),
+            ("fr, it", "en"),
+            ("*", "en"),
+            ("de;q=nan, es;q=0.5", "es"),
+            (";;;,,=,<script>", "en"),
+        ] {
+            assert_eq!(all.accepted(header).language, expected, "{header}");
+        }
+    }
+
+    #[test]
+    fn exact_a_sites_own_wording_comes_first_and_replaces_the_shipped_one() {
+        let swiss = SHIPPED[1].1.replace("language = \"de\"", "language = \"de-CH\"");
+        let english = SHIPPED[0].1.replace("After the flight", "Debriefing");
+        let own = [("ch.toml", swiss), ("ours.toml", english)].map(|(file, text)| read_wording(file, &text).unwrap());
+        let all = Languages::with(own.to_vec()).unwrap();
+        let names: Vec<&str> = all.all().iter().map(|wording| wording.language.as_str()).collect();
+        assert_eq!(names, ["de-CH", "en", "de", "es"]);
+        assert_eq!((all.of("en").unwrap().title.as_str(), all.of("EN-gb").unwrap().title.as_str()), ("Debriefing", "Debriefing"));
+        assert_eq!(all.accepted("de").language, "de");
+        assert_eq!(all.accepted("de-AT").language, "de-CH", "the first of the same language");
+        assert_eq!(all.accepted("fr").language, "de-CH", "what the site named first");
+    }
+
+    #[test]
+    fn exact_tags_are_told_from_what_is_none() {
+        for good in ["en", "de-CH", "zh-Hant-TW", "es-419"] {
+            assert!(is_tag(good), "{good}");
+        }
+        for bad in ["", "-", "de-", "de_CH", "d\u{e4}", "<b>", "waytoolongtag", &"ab-".repeat(20)] {
+            assert!(!is_tag(bad), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! The words of the questionnaire, from a TOML file.
+
+use super::language::is_tag;
+use super::{Aspect, Item, Overall, Phase, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx};
+use spandrel_model::toml::{Problems, Reader, Section};
+
+/// Format of the file.
+const FORMAT: i64 = 1;
+/// Places for a task's number and name.
+const NUMBER: &str = "{number}";
+const NAME: &str = "{name}";
+/// The questionnaire in one language.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Wording {
+    /// Language (BCP 47), for records and browsers.
+    pub language: String,
+    /// The language's name for those who speak it.
+    pub language_name: String,
+    /// Title.
+    pub title: String,
+    /// Said before the first question.
+    pub introduction: String,
+    /// The five answers, from strongly agree to strongly disagree.
+    pub scale: [String; 5],
+    /// Heading of the questions on the whole.
+    pub overall_heading: String,
+    overall: [String; 3],
+    aspects: [String; 3],
+    calibration: String,
+    taking_off: String,
+    task: String,
+    landing: String,
+    /// Title of NASA-TLX.
+    pub tlx_title: String,
+    /// Said before its first scale.
+    pub tlx_introduction: String,
+    tlx: [String; 6],
+    tlx_ends: [String; 4],
+    /// What stands around the questions.
+    pub form: Form,
+}
+
+/// What stands around the questions: buttons, messages, the terminal's words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Form {
+    /// How many are answered; `{answered}` and `{all}` are still to be filled in.
+    pub answered: String,
+    /// That nothing is lost.
+    pub at_once: String,
+    /// It is saved.
+    pub saved: String,
+    /// It is not.
+    pub not_saved: String,
+    /// The button.
+    pub save: String,
+    /// The way back.
+    pub back: String,
+    /// Before the choice of languages.
+    pub choose_language: String,
+    /// Its button.
+    pub change_language: String,
+    /// What the keys of the terminal do.
+    pub keys: String,
+    please_whole: String,
+    please_steps: String,
+    /// How to go on in the terminal.
+    pub later: String,
+}
+
+/// Reads a wording.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub fn read_wording(file: &str, text: &str) -> Result<Wording, Problems> {
+    let mut reader = Reader::new(file, text);
+    let wording = reader.parse().map(|document| {
+        let mut root = reader.root(&document);
+        read(&mut reader, &mut root)
+    });
+    match wording {
+        Some(wording) if reader.problems.is_empty() => Ok(wording),
+        Some(_) | None => Err(Problems(reader.problems)),
+    }
+}
+
+fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
+    reader.whole(root, "format", (FORMAT, FORMAT), None);
+    let [language, language_name, title, introduction] =
+        texts(reader, root, ["language", "language_name", "title", "introduction"]);
+    if root.has("language") && !is_tag(&language) {
+        reader.complain(root, "language", &language, "a language tag such as de or pt-BR", "no such tag");
+    }
+    let mut scale = reader.section(root, "scale");
+    let answers = texts(reader, &mut scale, ["strongly_agree", "agree", "neutral", "disagree", "strongly_disagree"]);
+    let mut overall = reader.section(root, "overall");
+    let [overall_heading] = texts(reader, &mut overall, ["heading"]);
+    let statements = texts(reader, &mut overall, Overall::ALL.map(Overall::key));
+    let mut by_phase = reader.section(root, "by_phase");
+    let aspects = texts(reader, &mut by_phase, Aspect::ALL.map(Aspect::key));
+    let mut phases = reader.section(root, "phases");
+    let [calibration, taking_off, task, landing] = texts(reader, &mut phases, ["calibration", "taking_off", "task", "landing"]);
+    if phases.has("task") && !task.contains(NUMBER) {
+        reader.complain(&phases, "task", &task, "text with {number}, and {name} if you like", "tasks would look alike");
+    }
+    let mut tlx = reader.section(root, "tlx");
+    let [tlx_title, tlx_introduction] = texts(reader, &mut tlx, ["title", "introduction"]);
+    let scales = texts(reader, &mut tlx, Tlx::ALL.map(Tlx::key));
+    let tlx_ends = texts(reader, &mut tlx, ["low", "high", "best", "worst"]);
+    let mut around = reader.section(root, "form");
+    let form = form(reader, &mut around);
+    for section in [&scale, &overall, &by_phase, &phases, &tlx, &around, root] {
+        reader.finish(section);
+    }
+    Wording {
+        language,
+        language_name,
+        title,
+        introduction,
+        scale: answers,
+        overall_heading,
+        overall: statements,
+        aspects,
+        calibration,
+        taking_off,
+        task,
+        landing,
+        tlx_title,
+        tlx_introduction,
+        tlx: scales,
+        tlx_ends,
+        form,
+    }
+}
+
+/// Texts around the questions, each with the places where something is filled in.
+fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> Form {
+    let mut text = |key: &'static str, filled_in: &[&str]| {
+        let text = reader.text(section, key, None);
+        let is_missing = filled_in.iter().any(|word| !text.contains(word));
+        if section.has(key) && is_missing {
+            reader.complain(section, key, &text, &format!("text with {}", filled_in.join(" and ")), "a number would be missing");
+        }
+        text
+    };
+    Form {
+        answered: text("answered", &["{answered}", "{all}"]),
+        at_once: text("at_once", &[]),
+        saved: text("saved", &[]),
+        not_saved: text("not_saved", &[]),
+        save: text("save", &[]),
+        back: text("back", &[]),
+        choose_language: text("choose_language", &[]),
+        change_language: text("change_language", &[]),
+        keys: text("keys", &[]),
+        please_whole: text("please_whole", &["{from}", "{to}"]),
+        please_steps: text("please_steps", &["{from}", "{to}", "{step}"]),
+        later: text("later", &[]),
+    }
+}
+
+impl Form {
+    /// How many of all questions are answered.
+    #[must_use]
+    pub fn answered(&self, answered: usize, all: usize) -> String {
+        self.answered.replace("{answered}", &answered.to_string()).replace("{all}", &all.to_string())
+    }
+
+    /// What may be typed to a statement.
+    #[must_use]
+    pub fn please_whole(&self) -> String {
+        self.please_whole.replace("{from}", &STRONGLY_AGREE.to_string()).replace("{to}", &STRONGLY_DISAGREE.to_string())
+    }
+
+    /// What may be typed to a scale of NASA-TLX.
+    #[must_use]
+    pub fn please_steps(&self) -> String {
+        let text = self.please_steps.replace("{from}", "0").replace("{to}", &TLX_MAX.to_string());
+        text.replace("{step}", &TLX_STEP.to_string())
+    }
+}
+
+fn texts<const N: usize>(reader: &mut Reader<'_>, section: &mut Section<'_>, keys: [&'static str; N]) -> [String; N] {
+    keys.map(|key| reader.text(section, key, None))
+}
+
+impl Wording {
+    /// The statement of a question.
+    #[must_use]
+    pub fn statement(&self, item: Item) -> &str {
+        match item {
+            Item::Overall(Overall::TimePressure) => &self.overall[0],
+            Item::Overall(Overall::Frustration) => &self.overall[1],
+            Item::Overall(Overall::Feedback) => &self.overall[2],
+            Item::Phase(_, Aspect::Performance) => &self.aspects[0],
+            Item::Phase(_, Aspect::MentalDemand) => &self.aspects[1],
+            Item::Phase(_, Aspect::PhysicalDemand) => &self.aspects[2],
+        }
+    }
+
+    /// What a question is about: the whole, or its phase. `name` tells a task's name by its number.
+    pub fn heading(&self, item: Item, name: impl Fn(u32) -> String) -> String {
+        match item {
+            Item::Overall(_) => self.overall_heading.clone(),
+            Item::Phase(phase, _) => self.phase(phase, name),
+        }
+    }
+
+    /// A phase in words. `name` tells a task's name by its number.
+    pub fn phase(&self, phase: Phase, name: impl Fn(u32) -> String) -> String {
+        match phase {
+            Phase::Calibration => self.calibration.clone(),
+            Phase::TakingOff => self.taking_off.clone(),
+            Phase::Task(id) => self.task.replace(NUMBER, &id.to_string()).replace(NAME, &name(id)),
+            Phase::Landing => self.landing.clone(),
+        }
+    }
+
+    /// A NASA-TLX scale: question, words at 0, words at 100.
+    #[must_use]
+    pub fn tlx(&self, scale: Tlx) -> (&str, &str, &str) {
+        let [low, high, best, worst] = &self.tlx_ends;
+        match scale {
+            Tlx::MentalDemand => (&self.tlx[0], low, high),
+            Tlx::PhysicalDemand => (&self.tlx[1], low, high),
+            Tlx::TemporalDemand => (&self.tlx[2], low, high),
+            Tlx::Performance => (&self.tlx[3], best, worst),
+            Tlx::Effort => (&self.tlx[4], low, high),
+            Tlx::Frustration => (&self.tlx[5], low, high),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::language::SHIPPED;
+    use super::*;
+
+    const ENGLISH: &str = SHIPPED[0].1;
+
+    #[test]
+    fn exact_shipped_wordings_are_whole_and_no_two_questions_read_alike() {
+        for (file, text) in SHIPPED {
+            let wording = read_wording(file, text).unwrap();
+            let name = |id: u32| format!("no. {id}");
+            let mut seen: Vec<String> =
+                Item::all(&[1, 2, 3, 4]).into_iter().map(|item| wording.heading(item, name) + wording.statement(item)).collect();
+            seen.extend(Tlx::ALL.map(|scale| wording.tlx(scale).0.to_owned()));
+            seen.extend(wording.scale.clone());
+            seen.sort();
+            seen.dedup();
+            assert_eq!(seen.len(), 24 + 6 + 5, "{file}");
+            assert!(wording.phase(Phase::Task(3), name).contains("3: no. 3"), "{file}");
+            assert_eq!(file, format!("{}.toml", wording.language));
+        }
+        let wording = read_wording("en.toml", ENGLISH).unwrap();
+        assert_eq!(wording.tlx(Tlx::Performance).1, "perfectly");
+        assert_eq!(wording.form.answered(3, 24), "3 of 24 answered");
+        assert_eq!(wording.form.please_steps(), "Please 0 to 100 in steps of 5, Enter, b or q.");
+    }
+
+    #[test]
+    fn exact_no_translation_left_an_english_text_behind() {
+        let texts = |text: &str| -> Vec<String> {
+            let lines = text.lines().filter(|line| !line.starts_with('#')).filter_map(|line| line.split_once(" = "));
+            lines.filter(|(key, _)| !matches!(*key, "format" | "neutral")).map(|(_, value)| value.to_owned()).collect()
+        };
+        let english = texts(ENGLISH);
+        for (file, text) in &SHIPPED[1..] {
+            let left: Vec<String> = texts(text).into_iter().filter(|value| english.contains(value)).collect();
+            assert!(left.is_empty(), "{file}: {left:?}");
+        }
+    }
+
+    #[test]
+    fn exact_a_translation_that_leaves_a_text_out_is_refused_by_line_and_key() {
+        let half = ENGLISH.replace("agree = \"agree\"\n", "").replace("task = \"Task {number}: {name}\"", "task = \"Aufgabe\"");
+        let half = half.replace("{answered} of {all} answered", "{answered} beantwortet").replace("\"en\"", "\"Deutsch!\"");
+        let problems = read_wording("de.toml", &half).unwrap_err().to_string();
+        assert!(problems.contains("scale.agree: missing"), "{problems}");
+        assert!(problems.contains("phases.task = ") && problems.contains("{number}"), "{problems}");
+        assert!(problems.contains("form.answered = ") && problems.contains("{answered} and {all}"), "{problems}");
+        let line = 1 + half.lines().position(|line| line.starts_with("language = ")).unwrap();
+        assert!(problems.contains(&format!("de.toml:{line}: language = ")), "{problems}");
+        assert!(read_wording("x.toml", "format = 2").is_err());
+        assert!(read_wording("x.toml", "format = ").is_err());
+    }
+}

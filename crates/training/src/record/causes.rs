@@ -1,0 +1,130 @@
+//! What a session suffered from: read off its frames, task by task.
+
+use super::{Crashes, DefectRecord, Source, TaskRecord, kind_word};
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::site::catalogue::kind_name;
+use spandrel_monitor::assessment::SnapshotCounts;
+use spandrel_monitor::measures::crash::{self, Crash};
+use spandrel_monitor::measures::on_path::{OnPath, Paths, Window};
+use spandrel_monitor::measures::on_speed;
+
+/// Farther from the path than this the drone is elsewhere, not off the path, m (assessment.md, feedback `off path`).
+const OFF_PATH_WITHIN_M: f64 = 8.0;
+
+/// Everything of a record that is read off the frames.
+pub struct Causes {
+    /// Tasks in file order.
+    pub tasks: Vec<TaskRecord>,
+    /// Crashes outside all windows.
+    pub crashes_outside: Crashes,
+    /// Defects in placing order.
+    pub defects: Vec<DefectRecord>,
+}
+
+struct Flown<'a> {
+    frames: &'a [Frame],
+    paths: Paths,
+    on_path: OnPath,
+    crashes: Vec<Crash>,
+    speeding: Vec<bool>,
+    frame_s: f64,
+}
+
+/// Reads the causes.
+pub fn causes(source: &Source<'_>) -> Causes {
+    let (scenario, frames) = (source.scenario, &source.graded.frames);
+    let paths = Paths::new(scenario);
+    let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
+    let speeds: Vec<f64> = frames.iter().map(Frame::speed_m_s).collect();
+    let flown = Flown {
+        frames,
+        crashes: crash::crashes(frames, &on_path),
+        speeding: on_speed::speeding(&speeds, &on_path.windows, scenario.scoring.speed_limit_m_s),
+        frame_s: 1.0 / scenario.scoring.frame_rate_hz,
+        paths,
+        on_path,
+    };
+    let defects = defects(source, &flown.paths);
+    Causes {
+        tasks: (0..scenario.tasks.len()).map(|task| one_task(source, &flown, task, &defects)).collect(),
+        crashes_outside: crashes(&flown, None),
+        defects,
+    }
+}
+
+fn one_task(source: &Source<'_>, flown: &Flown<'_>, task: usize, defects: &[DefectRecord]) -> TaskRecord {
+    let (described, result) = (&source.scenario.tasks[task], &source.graded.assessment.tasks[task]);
+    let window = flown.on_path.windows[task];
+    let range = window.map_or(0..0, |window| window.first..window.last + 1);
+    let speeding = flown.speeding[range.clone()].iter().filter(|speeding| **speeding).count();
+    let off = window.map(|window| off_path(flown, task, window)).unwrap_or_default();
+    let mean = |pick: fn(&(f64, f64)) -> f64| (!off.is_empty()).then(|| off.iter().map(pick).sum::<f64>() / off.len() as f64);
+    let own = || defects.iter().filter(|defect| defect.task == Some(described.id));
+    TaskRecord {
+        id: described.id,
+        name: described.name.clone(),
+        kind: kind_word(described.kind).to_owned(),
+        attempted: result.attempted,
+        state: Some(result.state),
+        covered: Some(result.covered),
+        seconds: window.map_or(0, |window| window.frames()) as f64 * flown.frame_s,
+        on_path: result.on_path,
+        speeding: result.speeding,
+        speeding_s: speeding as f64 * flown.frame_s,
+        fastest_m_s: flown.frames[range].iter().map(Frame::speed_m_s).fold(0.0, f64::max),
+        off_path_s: off.len() as f64 * flown.frame_s,
+        off_sideways_m: mean(|(sideways, _)| *sideways),
+        off_height_m: mean(|(_, height)| *height),
+        crashes: crashes(flown, Some(task)),
+        defects_placed: own().count(),
+        defects_found: own().filter(|defect| defect.found).count(),
+    }
+}
+
+/// Horizontal and vertical distance from the path, m, of the frames in the window that are on no path but within 8 m of this one.
+fn off_path(flown: &Flown<'_>, task: usize, window: Window) -> Vec<(f64, f64)> {
+    let frames = (window.first..=window.last).filter(|k| flown.on_path.task[*k].is_none());
+    let offset = |k: usize| {
+        let position_m = flown.frames[k].position_m;
+        flown.paths.path(task).foot(position_m).map(|foot_m| position_m - foot_m)
+    };
+    let near = frames.filter_map(offset).filter(|offset| offset.norm() <= OFF_PATH_WITHIN_M);
+    near.map(|offset: Vec3<Enu>| (offset.horizontal_norm(), offset.up().abs())).collect()
+}
+
+fn crashes(flown: &Flown<'_>, task: Option<usize>) -> Crashes {
+    let mut counts = Crashes::default();
+    for crash in flown.crashes.iter().filter(|crash| crash.task == task) {
+        counts.add(crash.with);
+    }
+    counts
+}
+
+fn defects(source: &Source<'_>, paths: &Paths) -> Vec<DefectRecord> {
+    let pictures = &source.graded.assessment.snapshots;
+    source.placed.iter().map(|defect| one_defect(source, paths, defect, pictures)).collect()
+}
+
+fn one_defect(source: &Source<'_>, paths: &Paths, defect: &PlacedDefect, pictures: &SnapshotCounts) -> DefectRecord {
+    let found = pictures.each.iter().any(|picture| picture.found.contains(&defect.id));
+    let views = pictures.each.iter().flat_map(|picture| &picture.views).filter(|view| view.defect == defect.id && !view.shown);
+    let best = views.min_by_key(|view| view.fails.len());
+    DefectRecord {
+        id: defect.id,
+        kind: defect.kind,
+        kind_name: kind_name(defect.kind).to_owned(),
+        element: defect.element,
+        condition_state: defect.condition_state,
+        task: nearest_task(paths, defect.position_m).map(|task| source.scenario.tasks[task].id),
+        found,
+        lacked: best.filter(|_| !found).map(|view| view.fails.clone()).unwrap_or_default(),
+        in_view_s: None,
+    }
+}
+
+fn nearest_task(paths: &Paths, position_m: Vec3<Enu>) -> Option<usize> {
+    let distance = |task: &usize| paths.path(*task).exact(position_m).map_or(f64::INFINITY, |nearest| nearest.distance_m);
+    (0..paths.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+}

@@ -1,0 +1,93 @@
+//! What a page carries with it: our style and script, and two libraries from npm as their makers published them. The page's policy names
+//! every script and style by its hash and allows no request.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use sha2::{Digest, Sha256};
+
+/// Style of our pages.
+pub const STYLE: &str = include_str!("assets/report.css");
+/// What the scripts of our pages share.
+pub const COMMON: &str = include_str!("assets/common.js");
+/// Script of a session's page.
+pub const SCRIPT: &str = include_str!("assets/report.js");
+/// Script of the page that compares two sessions.
+pub const COMPARE: &str = include_str!("assets/compare.js");
+/// uPlot 1.6.32 (MIT, assets/uPlot.LICENSE): `dist/uPlot.iife.min.js` of the npm package `uplot`.
+pub const UPLOT: &str = include_str!("assets/uPlot.iife.min.js");
+/// Its style, `dist/uPlot.min.css`.
+pub const UPLOT_STYLE: &str = include_str!("assets/uPlot.min.css");
+/// three.js r184 (MIT, assets/three.LICENSE): `build/three.core.min.js` of the npm package `three` 0.184.0.
+pub const THREE_CORE: &str = include_str!("assets/three.core.min.js");
+/// Its renderer, `build/three.module.min.js`; imports the core by [`THREE_CORE_NAME`].
+pub const THREE: &str = include_str!("assets/three.module.min.js");
+/// How the renderer names the core. The page's script puts the core's own address in its place.
+pub const THREE_CORE_NAME: &str = "./three.core.min.js";
+
+/// Base64 of some bytes.
+#[must_use]
+pub fn base64(bytes: &[u8]) -> String {
+    STANDARD.encode(bytes)
+}
+
+/// Content security policy of a page with these scripts and styles: nothing but them, and pictures that the page holds itself. `blob:` lets
+/// the page's own script start the model's library, which lies in the page as text.
+#[must_use]
+pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
+    let hashes = |texts: &[&str]| {
+        let hash = |text: &&str| format!("'sha256-{}'", base64(&Sha256::digest(text.as_bytes())));
+        texts.iter().map(hash).collect::<Vec<_>>().join(" ")
+    };
+    format!(
+        "default-src 'none'; script-src {} blob:; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'",
+        hashes(scripts),
+        hashes(styles)
+    )
+}
+
+/// Policy of the pages that this version writes.
+#[must_use]
+pub fn page_policy() -> String {
+    policy(&[UPLOT, COMMON, SCRIPT, COMPARE], &[STYLE, UPLOT_STYLE])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_monitor::folder::sha256_hex;
+
+    #[test]
+    fn val_libraries_are_as_their_makers_published_them() {
+        // SHA-256 of the files in the npm packages uplot-1.6.32.tgz and three-0.184.0.tgz.
+        let published = [
+            (UPLOT, "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f"),
+            (UPLOT_STYLE, "df630c6a8d6f8eeaff264b50f73ce5b114f646ffd9a0bb74f049b0a00135fa04"),
+            (THREE_CORE, "6486aa0d719cfa87ec88dc47223b59b1fb8417a1a407fc0e52467c943e2f8cc9"),
+            (THREE, "36a60b0120335f89a80a0dab70292292b0ec414b3d05e83cd09a3ea428c6712a"),
+        ];
+        for (text, hash) in published {
+            assert_eq!(sha256_hex(text.as_bytes()), hash, "{}", &text[..40]);
+        }
+        assert!(THREE.contains(THREE_CORE_NAME));
+    }
+
+    #[test]
+    fn exact_nothing_in_the_assets_ends_its_element() {
+        for text in [COMMON, SCRIPT, COMPARE, UPLOT, THREE_CORE, THREE] {
+            assert!(!text.contains("</script") && !text.contains("<!--"));
+        }
+        for text in [STYLE, UPLOT_STYLE] {
+            assert!(!text.contains("</style") && !text.contains("url(") && !text.contains("@import"));
+        }
+    }
+
+    #[test]
+    fn exact_the_policy_names_what_runs_and_nothing_else() {
+        // SHA-256 of the empty text, base64.
+        let empty = "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='";
+        let policy = policy(&[""], &[""]);
+        assert!(policy.starts_with("default-src 'none'; "));
+        assert_eq!(policy.matches(empty).count(), 2);
+        assert!(!policy.contains("unsafe") && !policy.contains("http"));
+    }
+}

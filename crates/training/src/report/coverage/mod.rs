@@ -1,0 +1,183 @@
+//! Surface coverage: which share of what could be inspected from the reference paths the pictures show well enough, what the rest of it
+//! lacked, and how much of it the camera had in view while flying. Size, angle and light are judged by the score's own functions.
+
+mod element;
+mod fate;
+mod patches;
+
+pub use element::{Coverage, Element, Typical};
+pub use fate::Fate;
+
+use super::Scene;
+use super::pictures::{Picture, exposure_s};
+use element::Best;
+use patches::{Patch, inspectable};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::site::CameraPose;
+use spandrel_model::site::look::{INCIDENCE_MAX_RAD, LINE_WIDTH_MIN_PX, lamp_lux, needed_lux};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Camera;
+use spandrel_monitor::measures::attention;
+use std::collections::BTreeMap;
+
+/// A crack of this width separates condition states 2 and 3 of reinforced concrete (0.05 in, AASHTO MBEI), m.
+const CRACK_M: f64 = 0.001_27;
+/// Size of a pixel on the surface at which that crack covers the half pixel that a hit needs, m.
+pub const REQUIRED_GSD_M: f64 = CRACK_M / LINE_WIDTH_MIN_PX;
+/// Smear beyond this is blurred, px (published practice for detection: one pixel).
+pub const BLUR_MAX_PX: f64 = 1.0;
+/// Beyond so many times the distance at which a pixel has the required size, surface is background and no picture of it.
+const BACKGROUND: f64 = 3.0;
+/// A sight line ends so far before the surface, m.
+const CLEAR_M: f64 = 0.02;
+/// The camera's view while flying is asked this often.
+const VIEW_STEP: SimTime = SimTime::from_ms(2_000);
+/// Patches of one orientation within this distance share their ambient light, m.
+const LIGHT_CELL_M: f64 = 5.0;
+
+/// A patch and what became of it.
+struct Piece {
+    patch: Patch,
+    in_view: bool,
+    best: Option<Best>,
+}
+
+/// Works out the coverage of a session.
+#[must_use]
+pub fn covered(scene: &Scene<'_>, pictures: &[Picture]) -> Coverage {
+    let whole = inspectable(scene).into_iter().map(|patch| Piece { patch, in_view: false, best: None });
+    let mut pieces: Vec<Piece> = whole.collect();
+    let mut light = Light { scene, cells: BTreeMap::new() };
+    for picture in pictures {
+        see_picture(&mut pieces, picture, &mut light);
+    }
+    see_flight(&mut pieces, scene);
+    let mut elements: BTreeMap<u32, Element> = BTreeMap::new();
+    for piece in &pieces {
+        let Patch { element, area_m2, .. } = piece.patch;
+        let sum = elements.entry(element).or_insert(Element { element, ..Element::default() });
+        sum.add(area_m2, piece.fate(), piece.best.as_ref());
+    }
+    Coverage { elements: elements.into_values().collect() }
+}
+
+impl Piece {
+    fn fate(&self) -> Fate {
+        let unpictured = if self.in_view { Fate::Unpictured } else { Fate::Unseen };
+        self.best.map_or(unpictured, |best| best.fate)
+    }
+}
+
+/// Distance at which a pixel covers the required size, m.
+#[must_use]
+pub fn reach_m(camera: &Camera) -> f64 {
+    REQUIRED_GSD_M * camera.focal_px()
+}
+
+fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &Scene<'_>) -> bool {
+    let line = to - from;
+    let reach = line.norm() - CLEAR_M;
+    reach <= 0.0 || scene.site.geometry().ray(from, line.unit(), reach).is_none()
+}
+
+/// Distance, m, and cosine of the angle off square of a patch that is inside the image and turned to the camera; sight lines are not asked.
+fn framed(patch: &Patch, pose: &CameraPose, camera: &Camera, farthest_m: f64) -> Option<(f64, f64)> {
+    let to = patch.point_m - pose.position_m;
+    let away_m = to.norm();
+    let cosine = -to.dot(patch.normal) / away_m.max(f64::MIN_POSITIVE);
+    if away_m > farthest_m || cosine <= 0.0 {
+        return None;
+    }
+    let depth = to.dot(pose.forward);
+    let down = pose.forward.cross(pose.right);
+    let half = |px: u32| 0.5 * f64::from(px) / camera.focal_px();
+    let inside = depth > 0.0
+        && to.dot(pose.right).abs() <= half(camera.width_px) * depth
+        && to.dot(down).abs() <= half(camera.height_px) * depth;
+    inside.then_some((away_m, cosine))
+}
+
+fn see_picture(pieces: &mut [Piece], picture: &Picture, light: &mut Light<'_>) {
+    let (pose, camera) = (&picture.pose, &picture.camera);
+    let reach = reach_m(camera);
+    for piece in pieces {
+        let Some((away_m, cosine)) = framed(&piece.patch, pose, camera, BACKGROUND * reach) else { continue };
+        // The best that this picture can be for the patch: when a better one is there, no sight line is asked.
+        let most = if away_m > reach {
+            Fate::TooFar
+        } else if cosine < math::cos(INCIDENCE_MAX_RAD) {
+            Fate::TooOblique
+        } else {
+            Fate::Shown
+        };
+        let gsd_m = away_m / camera.focal_px();
+        let worse = |best: &Best| (best.fate, -best.gsd_m) < (most, -gsd_m);
+        if !piece.best.as_ref().is_none_or(worse) || !is_clear(pose.position_m, piece.patch.above_m, light.scene) {
+            continue;
+        }
+        let incidence_rad = math::acos(cosine.min(1.0));
+        let mut now = Best { fate: most, incidence_rad, gsd_m, blur_px: 0.0, lux: 0.0 };
+        if most == Fate::Shown {
+            (now.lux, now.blur_px) = light.and_blur(&piece.patch, picture);
+            now.fate = judged(now.lux, now.blur_px, picture);
+        }
+        if piece.best.is_none_or(|best| (best.fate, -best.gsd_m) < (now.fate, -now.gsd_m)) {
+            piece.best = Some(now);
+        }
+    }
+}
+
+/// What a picture near and square enough is worth by its light and smear.
+fn judged(lux: f64, blur_px: f64, picture: &Picture) -> Fate {
+    if lux < needed_lux(&picture.camera) {
+        if picture.pose.lamp_on { Fate::DarkLampOn } else { Fate::DarkLampOff }
+    } else if blur_px > BLUR_MAX_PX {
+        Fate::Blurred
+    } else {
+        Fate::Shown
+    }
+}
+
+fn see_flight(pieces: &mut [Piece], scene: &Scene<'_>) {
+    let stride = (VIEW_STEP.s() * scene.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;
+    let steepest = math::cos(INCIDENCE_MAX_RAD);
+    for frame in scene.frames.iter().step_by(stride) {
+        let Some(pose) = attention::pose(scene.flight, frame.time, scene.vehicle) else { continue };
+        let camera = attention::camera(scene.flight, frame.time, &scene.vehicle.camera);
+        // Of what a picture shows its picture is told.
+        for piece in pieces.iter_mut().filter(|piece| !piece.in_view && piece.best.is_none()) {
+            let near = framed(&piece.patch, &pose, &camera, reach_m(&camera));
+            piece.in_view =
+                near.is_some_and(|(_, cosine)| cosine >= steepest) && is_clear(pose.position_m, piece.patch.above_m, scene);
+        }
+    }
+}
+
+/// Ambient light, asked for once per neighbourhood and orientation.
+struct Light<'a> {
+    scene: &'a Scene<'a>,
+    cells: BTreeMap<[i64; 6], f64>,
+}
+
+impl Light<'_> {
+    /// Light on a patch in a picture, lamp included, lx, and its smear, px, at the shortest exposure that this light allows.
+    fn and_blur(&mut self, patch: &Patch, picture: &Picture) -> (f64, f64) {
+        let (pose, camera) = (&picture.pose, &picture.camera);
+        let lamp = lamp_lux(&self.scene.vehicle.lamp, pose, patch.point_m, patch.normal);
+        let lux = lamp + self.ambient_lux(patch, picture.time);
+        let velocity = self.scene.flight.between(picture.time).map_or(Vec3::zero(), |state| state.velocity_m_s);
+        let to = patch.point_m - pose.position_m;
+        let ray = to.unit();
+        let across_m_s = (velocity - ray * velocity.dot(ray)).norm();
+        (lux, across_m_s * exposure_s(camera, lux) * camera.focal_px() / to.norm())
+    }
+
+    fn ambient_lux(&mut self, patch: &Patch, time: SimTime) -> f64 {
+        let (p, n) = (patch.point_m.array(), patch.normal.array());
+        let key =
+            std::array::from_fn(|k| if k < 3 { (p[k] / LIGHT_CELL_M).floor() as i64 } else { (2.0 * n[k - 3]).round() as i64 });
+        let scene = self.scene;
+        *self.cells.entry(key).or_insert_with(|| scene.site.ambient_lux(patch.point_m, Some(patch.normal), time))
+    }
+}

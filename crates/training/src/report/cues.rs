@@ -1,0 +1,171 @@
+//! The feedback that was given, found by letting the sidecar hear the log again, and what the trainee's hands did about it.
+
+use super::Scene;
+use super::track::Step;
+use spandrel_mavlink::telemetry::log_stream::Log;
+use spandrel_model::time::SimTime;
+use spandrel_monitor::feedback::cue;
+use spandrel_monitor::watch::build_site;
+use spandrel_monitor::{Monitor, MonitorConfig, Record};
+use std::ops::ControlFlow;
+
+/// A stick that moves this far from where it was when the cue came is an answer, full travel = 1 (estimate: beyond any hand's tremor, below
+/// any correction).
+const STICK_MOVE: f64 = 0.1;
+/// What comes later is no answer to the cue, s (estimate).
+const ANSWER_WITHIN_S: f64 = 5.0;
+
+/// The cues in the order of their rows.
+pub const KINDS: [Kind; 6] = [
+    Kind { bit: cue::CRASH, name: "crash", wants_answer: true },
+    Kind { bit: cue::TOO_CLOSE, name: "too close", wants_answer: true },
+    Kind { bit: cue::SPEEDING, name: "speeding", wants_answer: true },
+    Kind { bit: cue::OFF_PATH, name: "off path", wants_answer: true },
+    Kind { bit: cue::BATTERY_YELLOW, name: "battery yellow", wants_answer: false },
+    Kind { bit: cue::BATTERY_RED, name: "battery red", wants_answer: false },
+];
+
+/// One kind of cue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kind {
+    /// Its bit.
+    pub bit: i32,
+    /// Its name.
+    pub name: &'static str,
+    /// The sticks can do something about it.
+    pub wants_answer: bool,
+}
+
+/// One time that a cue was on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Episode {
+    /// Index into [`KINDS`].
+    pub kind: usize,
+    /// Since lift-off, s.
+    pub from_s: f64,
+    /// Until, s.
+    pub to_s: f64,
+    /// Until a stick moved, s; `None` when none did in time.
+    pub answer_s: Option<f64>,
+    /// Index of the task then flown.
+    pub task: Option<usize>,
+}
+
+/// What was said.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Said {
+    /// Cues, by the time at which they came on.
+    pub episodes: Vec<Episode>,
+    /// Texts with their times, s since lift-off.
+    pub texts: Vec<(f64, String)>,
+    /// What an instructor noted, with its time, s since lift-off; before it below zero. No trainee's screen showed it.
+    pub notes: Vec<(f64, String)>,
+}
+
+/// Plays a log to the monitor and collects its feedback.
+///
+/// # Errors
+/// When the log cannot be read.
+pub fn said(log: &(impl Log + ?Sized), scene: &Scene<'_>, track: &[Step]) -> std::io::Result<Said> {
+    let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return Ok(Said::default()) };
+    let end_s = (last.time - first.time).s();
+    let mut said = Said::default();
+    let mut open: [Option<f64>; KINDS.len()] = [None; KINDS.len()];
+    for (time_s, event) in events(log, scene)? {
+        let t_s = time_s - first.time.s();
+        if let Some(note) = event["text"].as_str().filter(|_| event["event"] == "note") {
+            said.notes.push((t_s, note.to_owned()));
+            continue;
+        }
+        if !(0.0..=end_s).contains(&t_s) {
+            continue;
+        }
+        if let Some(text) = event["text"].as_str() {
+            said.texts.push((t_s, text.to_owned()));
+        }
+        let Some(mask) = event["cues"].as_i64() else { continue };
+        for (kind, since) in open.iter_mut().enumerate() {
+            let on = mask & i64::from(KINDS[kind].bit) != 0;
+            match *since {
+                None if on => *since = Some(t_s),
+                Some(from_s) if !on => {
+                    said.episodes.push(episode(kind, (from_s, t_s), scene, track));
+                    *since = None;
+                }
+                None | Some(_) => {}
+            }
+        }
+    }
+    for (kind, since) in open.iter().enumerate() {
+        said.episodes.extend(since.map(|from_s| episode(kind, (from_s, end_s), scene, track)));
+    }
+    said.episodes.sort_by(|a, b| a.from_s.total_cmp(&b.from_s).then(a.kind.cmp(&b.kind)));
+    Ok(said)
+}
+
+/// The sidecar's events with their simulation times, s.
+fn events(log: &(impl Log + ?Sized), scene: &Scene<'_>) -> std::io::Result<Vec<(f64, serde_json::Value)>> {
+    let mut monitor = Monitor::new(MonitorConfig {
+        scenario: scene.scenario.clone(),
+        vehicle: scene.vehicle.clone(),
+        trainee: String::new(),
+        purpose: None,
+        started_unix_us: 0,
+        system_id: 1,
+        seed: None,
+        build: build_site,
+    });
+    let mut events = Vec::new();
+    log.each(&mut |record| {
+        monitor.handle_datagram(record.frame);
+        while monitor.poll_transmit().is_some() {}
+        while let Some(record) = monitor.poll_record() {
+            if let Record::Event(line) = record
+                && let Ok(event) = serde_json::from_str::<serde_json::Value>(&line)
+                && let Some(t_s) = event["t_s"].as_f64()
+            {
+                events.push((t_s, event));
+            }
+        }
+        if monitor.finished().is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    Ok(events)
+}
+
+fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &Scene<'_>, track: &[Step]) -> Episode {
+    let first = scene.frames[0].time;
+    let onset = first + SimTime::from_s(from_s);
+    let at = scene.frames.partition_point(|frame| frame.time < onset).min(scene.frames.len() - 1);
+    let before = scene.frames[at].sticks;
+    let until = onset + SimTime::from_s(ANSWER_WITHIN_S);
+    let moved = |sticks: [f64; 4]| sticks.iter().zip(before).any(|(now, then)| (now - then).abs() >= STICK_MOVE);
+    let answer = scene.frames[at..].iter().take_while(|frame| frame.time <= until).find(|frame| moved(frame.sticks));
+    Episode {
+        kind,
+        from_s,
+        to_s,
+        answer_s: answer.filter(|_| KINDS[kind].wants_answer).map(|frame| (frame.time - onset).s().max(0.0)),
+        task: track.get(at).filter(|step| step.inside).and_then(|step| step.task),
+    }
+}
+
+/// The middle of some values; `None` of none.
+#[must_use]
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    let upper = *values.get(middle)?;
+    Some(if values.len() % 2 == 1 { upper } else { 0.5 * (values[middle - 1] + upper) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_median_of_odd_even_and_nothing() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), Some(2.5));
+        assert_eq!(median(Vec::new()), None);
+    }
+}

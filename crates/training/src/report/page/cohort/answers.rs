@@ -1,0 +1,84 @@
+//! The questionnaire's answers, and how they stand to what was measured.
+
+use super::super::{figure, legend, scrolling};
+use super::{many, people_shown};
+use crate::cohort::{Cohort, Likert};
+use crate::questionnaire::{Item, SHIPPED, read_wording};
+use crate::report::plots::likert::{Question, likert};
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use maud::{Markup, html};
+
+/// The five answers.
+const ANSWERS: [(&str, &str); 5] = [
+    ("answer-1", "strongly agree"),
+    ("answer-2", "agree"),
+    ("answer-3", "neutral"),
+    ("answer-4", "disagree"),
+    ("answer-5", "strongly disagree"),
+];
+
+/// Likert charts.
+pub fn answers(cohort: &Cohort) -> Markup {
+    let key: Vec<(&str, String)> = ANSWERS.iter().map(|(class, words)| (*class, (*words).to_owned())).collect();
+    let of = |repetition: Option<usize>| -> Vec<Question> {
+        let those = cohort.likert.iter().filter(|one| one.repetition == repetition);
+        those.map(|one| Question { name: asked(one), counts: one.counts }).collect()
+    };
+    let later: Vec<(usize, Vec<Question>)> =
+        (1..=cohort.repetitions).map(|k| (k, of(Some(k)))).filter(|(_, questions)| !questions.is_empty()).collect();
+    let first = of(None);
+    html! {
+        (legend(&key))
+        (figure(&format!("All first sessions, {} answers at most", cohort.trainees), &chart(&first, "Answers of all first sessions")))
+        @for (k, questions) in &later {
+            details.numbers { summary { "Those who repeated, repetition " (k) } (chart(questions, &format!("Answers in repetition {k}"))) }
+        }
+    }
+}
+
+fn chart(questions: &[Question], title: &str) -> Markup {
+    scrolling(title, &likert(questions, title))
+}
+
+/// A question in the shipped words; its key when they have none.
+fn asked(one: &Likert) -> String {
+    let wording = read_wording(SHIPPED[0].0, SHIPPED[0].1).ok();
+    match (Item::from_key(&one.question), wording) {
+        (Some(item), Some(wording)) => {
+            let statement = wording.statement(item);
+            if matches!(item, Item::Overall(_)) {
+                statement.to_owned()
+            } else {
+                format!("{}: {statement}", wording.heading(item, |_| String::new()).trim_end_matches([':', ' ']))
+            }
+        }
+        (_, _) => one.question.clone(),
+    }
+}
+
+/// Self-rating beside the measured share.
+pub fn self_rating(cohort: &Cohort) -> Markup {
+    let rating = &cohort.self_rating;
+    html! {
+        @if let Some(overall) = &rating.overall {
+            p { "Spearman's correlation of self-rating and overall score: " (words::number(overall.r, 2)) ", " (overall.n) " people." }
+        }
+        @if people_shown(cohort) {
+            @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.words) } } } }
+            (rated(cohort).folded())
+        } @else { (many::self_rating(cohort)) }
+    }
+}
+
+fn rated(cohort: &Cohort) -> Table {
+    let people = cohort.self_rating.people.iter();
+    let rows =
+        people.map(|one| vec![one.trainee.clone().into(), Cell::Number(one.self_rating, 2), Cell::Number(one.measured_pct, 1)]);
+    Table {
+        name: "self_rating",
+        caption: "self-rating and measured share",
+        columns: vec!["trainee", "self-rating, 1 to 5", "measured, %"],
+        rows: rows.collect(),
+    }
+}

@@ -1,0 +1,108 @@
+//! The causal model: demand on strain on performance, with feedback as moderator.
+
+use super::super::{figure, scrolling};
+use crate::cohort::{Causal, Cohort, Indirect, SENSIBLE_N};
+use crate::report::plots::intervals::{Estimate, intervals};
+use crate::report::plots::model::{Effect, Effects, model};
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use crate::statistics::{Coefficient, Regression};
+use maud::{Markup, html};
+
+/// The section.
+pub fn causal(cohort: &Cohort) -> Markup {
+    html! {
+        p { "Does a demanding flight strain, does strain cost performance, and does feedback during the flight soften the first of the two? Estimated from the first sessions of all who answered." }
+        @match &cohort.causal {
+            Some(model) => (estimated(model)),
+            None => p.caution { "No estimate can be made from these people: too few answered, or their answers do not vary. At least " (SENSIBLE_N) " people with whole answers are sensible." },
+        }
+    }
+}
+
+fn estimated(model_: &Causal) -> Markup {
+    html! {
+        @if model_.n < SENSIBLE_N {
+            p.caution { b { (model_.n) " people with whole answers." } " With fewer than " (SENSIBLE_N) " the model misses effects of medium size: read it as a description of these people, and as no proof." }
+        }
+        (figure("The model; an arrow is dashed where zero lies in the 95 % interval of its effect", &scrolling("The causal model", &model(&effects(model_), "Demand, state, performance, and feedback"))))
+        p.note { "Demand, strain and feedback are answers from 1 to 5; performance is the overall score in % of what could be had." }
+        (figure("Points of performance that a step of demand costs or brings by way of strain, by how much feedback helped, with 95 % intervals", &scrolling("Indirect effects", &intervals(&indirect(model_), "% of the overall score per step of demand", "Indirect effect of demand by helpfulness of feedback"))))
+        (effects_table(model_).shown())
+        (coefficients(model_).folded())
+    }
+}
+
+fn named(at: usize) -> &'static str {
+    ["feedback helped little", "feedback at the mean", "feedback helped much"].get(at).copied().unwrap_or_default()
+}
+
+fn indirect(model: &Causal) -> Vec<Estimate> {
+    let estimate = |(k, one): (usize, &Indirect)| Estimate {
+        name: format!("{} ({})", named(k), words::number(one.feedback, 1)),
+        value: one.effect,
+        interval: one.interval_95,
+    };
+    model.indirect.iter().enumerate().map(estimate).collect()
+}
+
+fn effects(model: &Causal) -> Effects {
+    Effects {
+        on_strain: effect(&model.strain, "demand"),
+        on_performance: effect(&model.performance, "strain"),
+        direct: effect(&model.performance, "demand"),
+        moderation: effect(&model.strain, "demand x feedback"),
+    }
+}
+
+fn effect(regression: &Regression, name: &str) -> Effect {
+    let Some(one) = regression.coefficients.iter().find(|one| one.name == name) else {
+        return Effect { words: "–".into(), may_be_none: true };
+    };
+    let [low, high] = one.interval_95;
+    let number = |value: f64| words::number(value, 2).replace('-', "−");
+    Effect {
+        words: format!("{} [{}, {}]", number(one.estimate), number(low), number(high)),
+        may_be_none: low <= 0.0 && high >= 0.0,
+    }
+}
+
+fn effects_table(model: &Causal) -> Table {
+    let ends = |one: &Indirect, k: usize| one.interval_95.map_or(Cell::Empty, |ends| Cell::Number(ends[k], 2));
+    let row = |name: &str, one: &Indirect| {
+        vec![name.into(), Cell::Number(one.feedback, 2), Cell::Number(one.effect, 2), ends(one, 0), ends(one, 1)]
+    };
+    let mut rows: Vec<Vec<Cell>> = model.indirect.iter().enumerate().map(|(k, one)| row(named(k), one)).collect();
+    rows.push(row("moderation: change per step of feedback", &model.moderation));
+    Table {
+        name: "indirect_effects",
+        caption: "performance per step of demand by way of strain; intervals by resampling people",
+        columns: vec!["where", "feedback", "effect, %", "95 % from", "to"],
+        rows,
+    }
+}
+
+fn coefficients(model: &Causal) -> Table {
+    let maybe = |value: Option<f64>, digits: usize| value.map_or(Cell::Empty, |value| Cell::Number(value, digits));
+    let row = |of: &'static str, one: &Coefficient| {
+        vec![
+            of.into(),
+            one.name.clone().into(),
+            Cell::Number(one.estimate, 3),
+            Cell::Number(one.standard_error, 3),
+            maybe(one.t, 2),
+            maybe(one.p, 3),
+            Cell::Number(one.interval_95[0], 3),
+            Cell::Number(one.interval_95[1], 3),
+        ]
+    };
+    let of = |name: &'static str, regression: &Regression| {
+        regression.coefficients.iter().map(move |one| row(name, one)).collect::<Vec<_>>()
+    };
+    Table {
+        name: "causal_model",
+        caption: "coefficients of the two regressions",
+        columns: vec!["outcome", "term", "estimate", "standard error", "t", "p", "95 % from", "to"],
+        rows: [of("strain", &model.strain), of("performance", &model.performance)].concat(),
+    }
+}

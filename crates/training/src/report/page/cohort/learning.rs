@@ -1,0 +1,101 @@
+//! Practice: the group's learning curves, and those who repeated one by one.
+
+use super::super::progress::{most, pictures, too_few};
+use super::super::{figure, legend};
+use crate::cohort::{Cohort, GroupCurve, Progress};
+use crate::report::plots::practice::{Practice, practice};
+use crate::report::table::{Cell, Table};
+use crate::statistics::LearningCurve;
+use maud::{Markup, html};
+
+/// Curves of single people that are drawn behind the group's; more are a grey patch.
+const CURVES_SHOWN: usize = 40;
+/// People who are shown one by one.
+const ONE_BY_ONE: usize = 24;
+
+/// The group's curves, or why there are none.
+pub fn curves(cohort: &Cohort) -> Markup {
+    let key = [
+        ("dot-1", "mean".to_owned()),
+        ("fitted-key", "curve through the means".into()),
+        ("one-of-many-key", "one person".into()),
+    ];
+    html! {
+        @if cohort.learning.is_empty() {
+            p.calm { (too_few()) " Nobody has flown it so often." }
+        } @else {
+            (legend(&key))
+            div.trio {
+                @for one in &cohort.learning {
+                    @let others = of_people(cohort, &one.score);
+                    @let drawn = Practice { values: &one.means, curve: &one.curve, others: &others, most: most(&one.score) };
+                    (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
+                }
+            }
+            p.note { "Power laws of practice; the ring is what the curve expects of the next repetition. The curve through the means is no single person's: it bends less." }
+            (numbers(&cohort.learning).shown())
+        }
+    }
+}
+
+fn people(count: usize) -> String {
+    if count == 1 { "one person".to_owned() } else { format!("{count} people") }
+}
+
+fn of_people(cohort: &Cohort, score: &str) -> Vec<LearningCurve> {
+    let all: Vec<LearningCurve> = cohort
+        .progress
+        .iter()
+        .flat_map(|one| &one.curves)
+        .filter(|curve| curve.score == score)
+        .map(|curve| curve.curve)
+        .collect();
+    if all.len() > CURVES_SHOWN { Vec::new() } else { all }
+}
+
+fn numbers(curves: &[GroupCurve]) -> Table {
+    let row = |one: &GroupCurve| {
+        let c = &one.curve;
+        vec![
+            one.score.clone().into(),
+            one.people.into(),
+            c.n.into(),
+            Cell::Number(one.means.first().copied().unwrap_or_default(), 1),
+            Cell::Number(one.means.last().copied().unwrap_or_default(), 1),
+            Cell::Number(c.exponent, 3),
+            c.r_squared.map_or(Cell::Empty, |value| Cell::Number(value, 2)),
+            Cell::Number(c.next.min(most(&one.score)), 1),
+        ]
+    };
+    Table {
+        name: "learning_of_the_group",
+        caption: "learning curves through the means",
+        columns: vec!["score", "people", "repetitions", "first mean", "last mean", "exponent", "R²", "next"],
+        rows: curves.iter().map(row).collect(),
+    }
+}
+
+/// Those who flew more than once, each with his repetitions.
+pub fn one_by_one(cohort: &Cohort) -> Markup {
+    let repeated: Vec<&Progress> = repeated(cohort).collect();
+    html! {
+        @if repeated.len() > ONE_BY_ONE {
+            p.calm { (repeated.len()) " people flew more than once; more than " (ONE_BY_ONE) " are not shown one by one. The file progress.csv holds them all." }
+        } @else {
+            @for one in repeated {
+                details.numbers { summary { (one.trainee) ", " (one.repetitions.len()) " times" } (pictures(one, &tasks(cohort, one))) }
+            }
+        }
+    }
+}
+
+/// Those who flew more than once.
+pub fn repeated(cohort: &Cohort) -> impl Iterator<Item = &Progress> {
+    cohort.progress.iter().filter(|one| one.repetitions.len() > 1)
+}
+
+/// The tasks as the first session names them.
+fn tasks(cohort: &Cohort, one: &Progress) -> Vec<(u32, String)> {
+    let first = cohort.individuals.iter().find(|first| first.trainee == one.trainee);
+    first.map(|first| first.tasks.iter().map(|task| (task.id, task.name.clone())).collect()).unwrap_or_default()
+}

@@ -1,0 +1,223 @@
+//! What a group of trainees shows, as one page or as sections of another: the paper's figures with the numbers behind them. Of more people
+//! than anybody reads the page shows distributions, and the files hold each of them.
+
+mod answers;
+mod causal;
+mod first;
+mod learning;
+mod many;
+mod repetitions;
+
+use super::{Moves, document};
+use crate::cohort::{Cohort, TABLES, tables};
+use crate::record::left_out_words;
+use crate::report::table::download;
+use maud::{Markup, html};
+
+/// People who are listed one by one.
+pub const PEOPLE_SHOWN: usize = 60;
+
+/// Where the tables are as files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Files<'a> {
+    /// In the page, as far as their people are listed in it.
+    Inside,
+    /// Served: the address is this, the file's name, and a query.
+    At(&'a str, &'a str),
+}
+
+/// The page lists people one by one.
+fn people_shown(cohort: &Cohort) -> bool {
+    cohort.trainees <= PEOPLE_SHOWN
+}
+
+/// The page that opens offline.
+#[must_use]
+pub fn cohort(cohort: &Cohort) -> String {
+    let sections = sections(cohort, Files::Inside);
+    document(
+        "Cohort report",
+        &Moves::Nothing,
+        &html! {
+            header { div { p.kicker { "Cohort report" } h1 { (cohort.scenarios.join(", ")) } (in_short(cohort)) } }
+            nav aria-label="Sections" { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
+            main {
+                @for (id, name, body) in &sections {
+                    section id=(id) aria-labelledby={ (id) "-head" } { h2 id={ (id) "-head" } { (name) } (body) }
+                }
+            }
+        },
+    )
+}
+
+/// Who flew what.
+#[must_use]
+pub fn in_short(cohort: &Cohort) -> Markup {
+    html! {
+        p { (cohort.trainees) " trainees, " (cohort.sessions) " sessions of " (cohort.scenarios.join(", ")) ". "
+            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " of them flew " (cohort.repetitions) " times or more." }
+            @if let Some(words) = left_out_words(cohort.left_out) { " " (words) "." } }
+    }
+}
+
+/// Id, name and body of each section; those with nothing to show are left out.
+#[must_use]
+pub fn sections(cohort: &Cohort, files_at: Files<'_>) -> Vec<(&'static str, &'static str, Markup)> {
+    let mut sections = Vec::new();
+    if !cohort.warnings.is_empty() {
+        sections.push(("mind", "To keep in mind", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
+    }
+    sections.push(("distributions", "Scores of the first sessions", first::distributions(cohort)));
+    sections.push(("people", "People and tasks", first::people(cohort)));
+    sections.push(("crashes", "Crashes", first::crashes(cohort)));
+    if !cohort.boxes.is_empty() && cohort.repetitions > 1 {
+        sections.push(("repetitions", "Repetitions", repetitions::repetitions(cohort)));
+    }
+    if learning::repeated(cohort).next().is_some() {
+        sections.push(("learning", "Learning curves", learning::curves(cohort)));
+        sections.push(("one-by-one", "Who repeated, one by one", learning::one_by_one(cohort)));
+    }
+    if !cohort.likert.is_empty() {
+        sections.push(("answers", "Answers", answers::answers(cohort)));
+    }
+    if !cohort.self_rating.people.is_empty() {
+        sections.push(("self-rating", "Self-rating and measurement", answers::self_rating(cohort)));
+    }
+    if !cohort.likert.is_empty() {
+        sections.push(("causal", "Demand, state, performance", causal::causal(cohort)));
+    }
+    sections.push(("files", "All tables as files", files(cohort, files_at)));
+    sections
+}
+
+/// Tables that grow with the number of people.
+const BY_PERSON: [&str; 7] = [
+    "individuals.csv",
+    "conformity_by_task.csv",
+    "crashes.csv",
+    "self_rating.csv",
+    "contradictions.csv",
+    "progress.csv",
+    "learning_curves.csv",
+];
+
+fn files(cohort: &Cohort, at: Files<'_>) -> Markup {
+    match at {
+        Files::At(address, query) => html! {
+            ul.actions { @for name in TABLES { li { a href={ (address) (name) (query) } { (name) } } } }
+        },
+        Files::Inside => {
+            let inside = |name: &str| people_shown(cohort) || !BY_PERSON.contains(&name);
+            html! {
+                ul.actions { @for (name, csv) in tables(cohort).into_iter().filter(|(name, _)| inside(name)) { li { (download(name, &csv, name)) } } }
+                @if !people_shown(cohort) {
+                    p.note { "Files with a line for each of " (cohort.trainees) " people would make this page too large: " code { "spandrel cohort --csv FOLDER" } " writes " (BY_PERSON.join(", ")) "." }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cohort::{Selection, cohort as of};
+    use crate::record::{Incomplete, Record};
+    use crate::testing::faultless;
+
+    fn group() -> Vec<Record> {
+        let mut records = Vec::new();
+        for person in 0..6 {
+            for number in 1..=2 {
+                let mut record = faultless(&format!("t{person}"), number);
+                record.scores.safety = 70.0 + 3.0 * f64::from(person) + number as f64;
+                record.tasks[0].crashes.bridge = number;
+                records.push(record);
+            }
+        }
+        records[0].trainee = "<script>alert(1)</script>".into();
+        records
+    }
+
+    #[test]
+    fn exact_the_page_shows_every_figure_and_escapes_names() {
+        let cohort = of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: Incomplete::LeaveOut });
+        let page = super::cohort(&cohort);
+        assert!(!page.contains("<script>alert") && page.contains("&lt;script&gt;"));
+        for figure in
+            ["class=\"histogram\"", "class=\"boxes\"", "class=\"likert\"", "Crashes by kind", "t_tests.csv", "8 crashes"]
+        {
+            assert!(page.contains(figure), "{figure}");
+        }
+        assert!(!page.contains(" style=") && !page.contains("NaN"));
+    }
+
+    #[test]
+    fn exact_a_group_without_answers_or_repetitions_leaves_those_sections_out() {
+        let mut records = group();
+        records.iter_mut().for_each(|record| record.answers = None);
+        let cohort = of(&records[..1], &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut });
+        let ids: Vec<&str> = sections(&cohort, Files::Inside).into_iter().map(|(id, _, _)| id).collect();
+        assert!(!ids.contains(&"answers") && !ids.contains(&"repetitions") && ids.contains(&"files"), "{ids:?}");
+        assert!(!ids.contains(&"causal") && !ids.contains(&"learning"), "{ids:?}");
+    }
+
+    #[test]
+    fn exact_the_causal_model_is_drawn_with_its_warning_or_the_page_says_why_not() {
+        // The made-up answers are all alike: nothing can be estimated.
+        let page =
+            super::cohort(&of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: Incomplete::LeaveOut }));
+        assert!(page.contains("No estimate can be made") && !page.contains("class=\"model-drawing\""));
+        let mut records: Vec<Record> = (0..20).map(|person| faultless(&format!("t{person}"), 1)).collect();
+        let mut chance = spandrel_model::random::RandomStream::new(3, "made-up answers");
+        for record in &mut records {
+            for answer in record.answers.as_mut().unwrap().given.values_mut() {
+                *answer = 1 + chance.below(5) as u8;
+            }
+            record.scores.overall = chance.range(200.0, 400.0);
+        }
+        let cohort = of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut });
+        assert!(cohort.causal.is_some(), "{:?}", cohort.warnings);
+        let page = super::cohort(&cohort);
+        assert!(page.contains("class=\"model-drawing\"") && page.contains("With fewer than 78"), "no warning");
+        assert_eq!(page.matches("class=\"intervals\"").count(), 1);
+        assert!(!page.contains("NaN"));
+    }
+
+    #[test]
+    fn exact_the_learning_curve_stands_where_somebody_flew_often_enough() {
+        let flown = |times: usize| {
+            let records: Vec<Record> = (1..=times).flat_map(|k| [faultless("anna", k), faultless("ben", k)]).collect();
+            super::cohort(&of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: Incomplete::LeaveOut }))
+        };
+        let (three, four) = (flown(3), flown(4));
+        assert!(three.contains("needs 4 repetitions") && !three.contains("class=\"practice\""));
+        assert_eq!((four.matches("class=\"practice\"").count(), four.matches("one-of-many\"").count()), (5, 10));
+        assert!(three.contains("anna, 3 times") && four.contains("overall, 2 people"));
+    }
+
+    #[test]
+    fn exact_of_many_people_the_page_shows_distributions_and_stays_small() {
+        let people = |count: usize| {
+            let records: Vec<Record> =
+                (0..count).flat_map(|k| [faultless(&format!("p{k}"), 1), faultless(&format!("p{k}"), 2)]).collect();
+            of(&records, &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: Incomplete::LeaveOut })
+        };
+        let few = super::cohort(&people(PEOPLE_SHOWN));
+        assert!(few.contains("Person by person") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
+        let (some, many) = (super::cohort(&people(PEOPLE_SHOWN + 1)), super::cohort(&people(20 * PEOPLE_SHOWN)));
+        assert!(
+            !some.contains("Person by person") && !some.contains(">p59<") && some.contains("61 people are not listed one by one")
+        );
+        assert!(!some.contains("individuals.csv\" href") && some.contains("t_tests.csv\" href"));
+        assert!(some.contains("Histogram of crashes by person") && some.contains("On the path by task"));
+        assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());
+        // Served, every file has its address.
+        let cohort = people(PEOPLE_SHOWN + 1);
+        let (_, _, files) = sections(&cohort, Files::At("/cohort/", "?repetitions=2")).pop().unwrap();
+        let files = files.into_string();
+        let names: Vec<&str> = tables(&cohort).into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, TABLES);
+        assert!(names.iter().all(|name| files.contains(&format!("href=\"/cohort/{name}?repetitions=2\""))));
+    }
+}

@@ -1,0 +1,82 @@
+//! What changed from one repetition to the next.
+
+use super::super::figure;
+use crate::cohort::{Cohort, Comparison};
+use crate::report::plots::boxes::{Named, boxes};
+use crate::report::table::{Cell, Table};
+use maud::{Markup, html};
+
+/// Scores in the order of showing, with the most that each can be.
+const SCORES: [(&str, f64); 5] =
+    [("conformity", 100.0), ("efficiency", 100.0), ("safety", 100.0), ("accuracy", 100.0), ("overall", 400.0)];
+
+/// Box plots and tests by repetition.
+pub fn repetitions(cohort: &Cohort) -> Markup {
+    html! {
+        div.trio {
+            @for (score, most) in SCORES {
+                @let named: Vec<Named<'_>> = cohort.boxes.iter().filter(|one| one.score == score).map(|one| Named { name: one.repetition.to_string(), plot: &one.plot }).collect();
+                @if !named.is_empty() { (figure(score, &boxes(&named, most, &format!("Box plots of {score} by repetition")))) }
+            }
+        }
+        p.note { "Boxes from the lower to the upper quartile with the median; the cross is the mean; whiskers reach to the last value within 1.5 interquartile ranges." }
+        @if !cohort.tests.is_empty() { (t_tests(&cohort.tests).shown()) }
+        @if !cohort.homogeneity.is_empty() { (homogeneity(cohort).shown()) }
+    }
+}
+
+fn t_tests(tests: &[Comparison]) -> Table {
+    let maybe = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, 3));
+    let row = |one: &Comparison| {
+        let (t, p) = (&one.test, one.test.p);
+        vec![
+            one.score.clone().into(),
+            format!("{} vs. {}", one.earlier, one.later).into(),
+            t.n.into(),
+            Cell::Number(t.mean_difference, 2),
+            Cell::Number(t.interval_95[0], 2),
+            Cell::Number(t.interval_95[1], 2),
+            maybe(t.t),
+            maybe(p.map(|p| p.upper)),
+            maybe(p.map(|p| p.lower)),
+            maybe(p.map(|p| p.two)),
+            maybe(one.p_holm.map(|p| p.two)),
+            maybe(t.effect_size_dz),
+        ]
+    };
+    let columns = vec![
+        "score",
+        "repetitions",
+        "pairs",
+        "change",
+        "95 % from",
+        "to",
+        "t",
+        "p upper",
+        "p lower",
+        "p two",
+        "p two, Holm",
+        "d_z",
+    ];
+    Table { name: "t_tests", caption: "paired t tests, later less earlier", columns, rows: tests.iter().map(row).collect() }
+}
+
+fn homogeneity(cohort: &Cohort) -> Table {
+    let counted = |counts: &[usize]| counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(" / ");
+    let rows = cohort.homogeneity.iter().map(|one| {
+        vec![
+            one.score.clone().into(),
+            counted(&one.group).into(),
+            counted(&one.others).into(),
+            Cell::Number(one.test.chi_squared, 2),
+            one.test.df.into(),
+            Cell::Number(one.test.p, 3),
+        ]
+    });
+    Table {
+        name: "homogeneity",
+        caption: "first sessions of those who repeated against the others (low / middle / high)",
+        columns: vec!["score", "who repeated", "others", "chi-squared", "df", "p"],
+        rows: rows.collect(),
+    }
+}

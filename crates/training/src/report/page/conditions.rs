@@ -1,0 +1,77 @@
+//! The certification profile beside the paper's scores: gates, and what its scores are made of.
+
+use crate::report::Review;
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_model::site::catalogue::kind_name;
+use spandrel_monitor::score::completion::verdict;
+
+/// The section.
+pub fn section(review: &Review) -> Markup {
+    let c = &review.assessment.certification;
+    let gates = [
+        ("session complete", c.gates.session_complete),
+        ("every task attempted", c.gates.all_tasks_attempted),
+        ("no person and no vehicle hit", c.gates.no_person_or_vehicle_hit),
+        ("landed near the ground team", c.gates.landed_at_home),
+        ("at least 20 % battery left at landing", c.gates.battery_reserve),
+    ];
+    html! {
+        p { "A second profile with gates that close the paper's loopholes; it stands beside the four scores, never instead of them. "
+            b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet)) "." } } }
+        ul.gates {
+            @for (words, open) in gates {
+                li { span class={ "badge " (if open { "v-hit" } else { "v-false" }) } { (if open { "met" } else { "not met" }) } " " (words) }
+            }
+        }
+        @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }
+        p { "Closer than " (words::number(review.scenario.scoring.clearance_m, 1)) " m to something for " (words::number(c.exposure_s, 1))
+            " s; " (c.crash_onsets) " contacts, " (c.crashes.len()) " when those less than a second apart count as one; "
+            (words::number(c.battery_at_end_pct, 0)) " % battery at the end." }
+        (visits(review).folded())
+        (detection(review).folded())
+    }
+}
+
+fn visits(review: &Review) -> Table {
+    let row = |task: &spandrel_monitor::score::certification::TaskVisits| {
+        vec![
+            task.id.into(),
+            task.visits.len().into(),
+            Cell::Number(100.0 * task.coverage, 1),
+            Cell::Number(100.0 * task.on_path, 1),
+            Cell::Number(task.speeding, 3),
+        ]
+    };
+    Table {
+        name: "visits",
+        caption: "tasks by visits",
+        columns: vec!["task", "visits", "path flown, %", "on path, %", "speeding loss"],
+        rows: review.assessment.certification.tasks.iter().map(row).collect(),
+    }
+}
+
+fn detection(review: &Review) -> Table {
+    let mut rows = Vec::new();
+    let mut put = |by: &str, name: String, found: usize, placed: usize| {
+        rows.push(vec![by.into(), name.into(), found.into(), placed.into()]);
+    };
+    let fates = &review.defects;
+    let mut tell = |by: &str, key: &dyn Fn(&spandrel_model::scenario::PlacedDefect) -> u32, name: &dyn Fn(u32) -> String| {
+        let keys: std::collections::BTreeSet<u32> = fates.iter().map(|fate| key(&fate.defect)).collect();
+        for k in keys {
+            let mine: Vec<_> = fates.iter().filter(|fate| key(&fate.defect) == k).collect();
+            put(by, name(k), mine.iter().filter(|fate| fate.found_by.is_some()).count(), mine.len());
+        }
+    };
+    tell("element", &|defect| defect.element, &|k| format!("{k} {}", words::element(k)));
+    tell("kind", &|defect| defect.kind, &|k| kind_name(k).to_owned());
+    tell("condition state", &|defect| u32::from(defect.condition_state), &|k| k.to_string());
+    Table {
+        name: "detection",
+        caption: "defects found by element, kind and condition state",
+        columns: vec!["by", "which", "found", "placed"],
+        rows,
+    }
+}

@@ -1,0 +1,202 @@
+//! The pictures with their verdicts. Where the session holds the photograph it is shown, else a drawing of what the camera had before it.
+
+use crate::report::Review;
+use crate::report::assets::base64;
+use crate::report::pictures::{Picture, Verdict};
+use crate::report::plots::unit;
+use crate::report::sketch::{Exposure, Sketcher, WIDTH_PX};
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_model::site::CameraPose;
+use spandrel_model::site::look::CENTRAL_SHARE;
+use spandrel_model::vehicle::Camera;
+
+/// The site as it is drawn in all pictures: by the light of mid-flight.
+pub fn sketcher(review: &Review) -> Sketcher {
+    let middle = review.frames.get(review.frames.len() / 2).map_or(spandrel_model::time::SimTime::ZERO, |frame| frame.time);
+    Sketcher::new(&review.site, &review.scenario, middle)
+}
+
+/// The section.
+pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
+    html! {
+        @if review.pictures.is_empty() { p.calm { "No picture was taken." } } @else {
+            p { (tally(review)) }
+            @if review.about.pictures.is_empty() {
+                p.note { "The session holds no photographs: what the camera had before it is drawn from the bridges' geometry. The dashed frame is the part of the image that counts." }
+            }
+            ul.gallery { @for picture in &review.pictures { (card(review, picture, sketcher)) } }
+        }
+        (table(review).folded())
+    }
+}
+
+fn tally(review: &Review) -> String {
+    let count = |verdict: Verdict| review.pictures.iter().filter(|picture| picture.verdict == verdict).count();
+    let parts: Vec<String> = Verdict::ALL
+        .iter()
+        .map(|v| (count(*v), v.name()))
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, name)| format!("{n} {name}"))
+        .collect();
+    format!("{} pictures: {}.", review.pictures.len(), parts.join(", "))
+}
+
+fn card(review: &Review, picture: &Picture, sketcher: &Sketcher) -> Markup {
+    html! {
+        li.shot {
+            (image(review, picture, sketcher))
+            p { span class={ "badge " (picture.verdict.class()) } { (picture.verdict.name()) } " "
+                b { "Picture " (picture.number) } " at " (words::clock(picture.t_s))
+                @if let Some(task) = picture.task { ", task " (review.scenario.tasks[task].id) } }
+            p { (capital(&picture.reason)) "." }
+            p.note { (target(picture)) }
+        }
+    }
+}
+
+fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn target(picture: &Picture) -> String {
+    let lamp = if picture.pose.lamp_on { "lamp on" } else { "lamp off" };
+    match &picture.target {
+        None => format!("Sky in the middle, {lamp}"),
+        Some(t) => format!(
+            "{} in the middle, {} m away, {}° off square, {} mm per pixel, {} lx ({lamp}), smear {} px",
+            t.name,
+            words::number(t.distance_m, 1),
+            words::number(t.incidence_rad.to_degrees(), 0),
+            words::number(1000.0 * t.gsd_m, 1),
+            words::number(t.lux, 0),
+            words::number(t.blur_px, 1),
+        ),
+    }
+}
+
+fn image(review: &Review, picture: &Picture, sketcher: &Sketcher) -> Markup {
+    let words = format!("Picture {}: {}", picture.number, picture.reason);
+    let index = u32::try_from(picture.index).ok();
+    let photograph = review.about.pictures.iter().find(|(number, _)| Some(*number) == index);
+    if let Some((_, jpeg)) = photograph {
+        return html! { img.frame alt=(words) loading="lazy" src={ "data:image/jpeg;base64," (base64(&jpeg.bytes)) }; };
+    }
+    let exposure = picture.target.as_ref().map_or(Exposure { light: 1.0, by_lamp: false }, |t| Exposure {
+        light: t.lux / t.needed_lux,
+        by_lamp: picture.pose.lamp_on && t.lux < 4.0 * t.needed_lux,
+    });
+    let shown = |id: u32| picture.views.iter().find(|view| view.defect_id == id);
+    let marks: Vec<Mark> = review
+        .defects
+        .iter()
+        .filter_map(|fate| {
+            let view = shown(fate.defect.id)?;
+            let class = if view.hit { "found" } else { "missed" };
+            Some(Mark {
+                id: fate.defect.id,
+                at_m: fate.defect.position_m,
+                long_m: fate.defect.length_m,
+                class,
+                hidden: !view.unoccluded,
+            })
+        })
+        .collect();
+    frame(sketcher, (&picture.pose, &picture.camera), exposure, &marks, &words)
+}
+
+/// A defect to be marked in a drawing.
+pub struct Mark {
+    /// Its number.
+    pub id: u32,
+    /// Where it is.
+    pub at_m: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>,
+    /// Its longest extent, m.
+    pub long_m: f64,
+    /// Style.
+    pub class: &'static str,
+    /// Something stands before it.
+    pub hidden: bool,
+}
+
+/// A drawing with its marks.
+pub fn frame(
+    sketcher: &Sketcher,
+    (pose, camera): (&CameraPose, &Camera),
+    exposure: Exposure,
+    marks: &[Mark],
+    words: &str,
+) -> Markup {
+    let (w, h) = (WIDTH_PX as f64, WIDTH_PX as f64 * f64::from(camera.height_px) / f64::from(camera.width_px));
+    let focal = camera.focal_px() * w / f64::from(camera.width_px);
+    let down = pose.forward.cross(pose.right);
+    let place = |mark: &Mark| {
+        let to = mark.at_m - pose.position_m;
+        let depth = to.dot(pose.forward).max(0.01);
+        let middle = (0.5 * w + focal * to.dot(pose.right) / depth, 0.5 * h + focal * to.dot(down) / depth);
+        (middle, (0.5 * focal * mark.long_m / depth).clamp(7.0, 0.5 * w))
+    };
+    let edge = 0.5 * (1.0 - CENTRAL_SHARE);
+    // A drawing that cannot be encoded is left out; its words stay.
+    let drawing = sketcher.png(pose, camera, exposure).map(|png| base64(&png)).unwrap_or_default();
+    html! {
+        svg.frame viewBox={ "0 0 " (unit(w)) " " (unit(h)) } role="img" aria-label=(words) {
+            title { (words) }
+            image href={ "data:image/png;base64," (drawing) } width=(unit(w)) height=(unit(h)) {}
+            rect.central x=(unit(edge * w)) y=(unit(edge * h)) width=(unit(CENTRAL_SHARE * w)) height=(unit(CENTRAL_SHARE * h)) {}
+            @for mark in marks {
+                @let ((x, y), r) = place(mark);
+                g class={ "ring " (mark.class) @if mark.hidden { " hidden-behind" } } {
+                    circle cx=(unit(x)) cy=(unit(y)) r=(unit(r)) {}
+                    text x=(unit(x + r + 3.0)) y=(unit(y + 5.0)) { (mark.id) }
+                }
+            }
+        }
+    }
+}
+
+fn table(review: &Review) -> Table {
+    let number = |value: Option<f64>, digits: usize| value.map_or(Cell::Empty, |value| Cell::Number(value, digits));
+    let row = |picture: &Picture| {
+        let t = picture.target.as_ref();
+        vec![
+            picture.number.into(),
+            Cell::Clock(picture.t_s),
+            picture.frame.into(),
+            picture.task.map_or(Cell::Empty, |task| review.scenario.tasks[task].id.into()),
+            picture.verdict.name().into(),
+            picture.reason.clone().into(),
+            t.map_or("sky".into(), |t| t.name.clone()).into(),
+            number(t.map(|t| t.distance_m), 2),
+            number(t.map(|t| t.incidence_rad.to_degrees()), 0),
+            number(t.map(|t| 1000.0 * t.gsd_m), 2),
+            number(t.map(|t| t.lux), 0),
+            number(t.map(|t| t.needed_lux), 0),
+            number(t.map(|t| t.blur_px), 2),
+            if picture.pose.lamp_on { "on" } else { "off" }.into(),
+        ]
+    };
+    Table {
+        name: "pictures",
+        caption: "pictures",
+        columns: vec![
+            "picture",
+            "time",
+            "frame",
+            "task",
+            "verdict",
+            "reason",
+            "in the middle",
+            "distance, m",
+            "off square, deg",
+            "pixel, mm",
+            "light, lx",
+            "light needed, lx",
+            "smear, px",
+            "lamp",
+        ],
+        rows: review.pictures.iter().map(row).collect(),
+    }
+}

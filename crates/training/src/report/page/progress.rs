@@ -1,0 +1,199 @@
+//! One trainee on one job, repetition by repetition, as the paper shows its participant 18: scores, on-path by task, crashes by kind; from
+//! four repetitions on the learning curves. A part of the server's and the cohort's pages.
+
+use super::kinds::{KINDS, counted, segments};
+use super::{figure, legend};
+use crate::cohort::{Curve, OnJob, Progress, Repetition};
+use crate::record::left_out_words;
+use crate::report::plots::bars::{Counts, counts};
+use crate::report::plots::lines::{Line, colour, lines};
+use crate::report::plots::practice::{Practice, practice};
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use maud::{Markup, html};
+
+/// The four scores, and the most that each can be.
+const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
+/// The most that a score can be.
+#[must_use]
+pub fn most(score: &str) -> f64 {
+    if score == "overall" { 400.0 } else { 100.0 }
+}
+
+/// Everything of one job.
+#[must_use]
+pub fn on_job(job: &OnJob) -> Markup {
+    let progress = &job.progress;
+    let left_out = html! { @if let Some(words) = left_out_words(job.left_out) { p.note { (words) "." } } };
+    if progress.repetitions.is_empty() {
+        return left_out;
+    }
+    html! {
+        (left_out)
+        (pictures(progress, &job.tasks))
+        @if !progress.curves.is_empty() { (learning(progress)) }
+        (numbers(&job.scenario, progress).folded())
+        @if !job.tasks.is_empty() { (on_path_numbers(progress, &job.tasks).folded()) }
+    }
+}
+
+/// The three figures of the repetitions.
+pub fn pictures(progress: &Progress, tasks: &[(u32, String)]) -> Markup {
+    let scores = scores(progress);
+    let shares = shares(progress, tasks);
+    let rows: Vec<Counts> = progress
+        .repetitions
+        .iter()
+        .map(|one| Counts { name: format!("repetition {}", one.number), kinds: segments(&one.crashes) })
+        .collect();
+    let all = progress.repetitions.iter().fold([0; 5], |mut sum, one| {
+        sum.iter_mut().zip(counted(&one.crashes)).for_each(|(sum, count)| *sum += count);
+        sum
+    });
+    let seen =
+        KINDS.iter().zip(all).filter(|(_, count)| *count > 0).map(|((class, name), count)| (*class, format!("{name}: {count}")));
+    let seen: Vec<(&str, String)> = seen.collect();
+    html! {
+        div.three {
+            (figure("The four scores, repetition by repetition", &html! { (key(&scores)) (lines(&scores, 100.0, "Scores by repetition")) }))
+            @if !tasks.is_empty() {
+                (figure("Share of each task's time on the path, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On the path by task and repetition")) }))
+            }
+            (figure("Crashes by what was hit", &html! {
+                @if seen.is_empty() { p.calm { "None." } } @else { (legend(&seen)) (counts(&rows, "Crashes by kind and repetition")) }
+            }))
+        }
+    }
+}
+
+fn scores(progress: &Progress) -> Vec<Line> {
+    let line = |(k, name): (usize, &&str)| Line {
+        name: (*name).to_owned(),
+        style: k + 1,
+        values: progress.repetitions.iter().map(|one| one.score(name)).collect(),
+    };
+    let all = SCORES.iter().enumerate().map(line);
+    all.filter(|one| one.values.iter().any(Option::is_some)).collect()
+}
+
+fn on_path(one: &Repetition, task: u32) -> Option<f64> {
+    one.on_path.iter().find(|(id, _)| *id == task).and_then(|(_, share)| *share).map(|share| 100.0 * share)
+}
+
+fn shares(progress: &Progress, tasks: &[(u32, String)]) -> Vec<Line> {
+    let line = |(k, (id, name)): (usize, &(u32, String))| Line {
+        name: format!("{id} · {name}"),
+        style: k + 1,
+        values: progress.repetitions.iter().map(|one| on_path(one, *id)).collect(),
+    };
+    tasks.iter().enumerate().map(line).collect()
+}
+
+fn key(lines: &[Line]) -> Markup {
+    const DOTS: [&str; 4] = ["dot-1", "dot-2", "dot-3", "dot-4"];
+    legend(&lines.iter().map(|one| (DOTS[colour(one.style) - 1], one.name.clone())).collect::<Vec<_>>())
+}
+
+fn learning(progress: &Progress) -> Markup {
+    let values = |curve: &Curve| progress.repetitions.iter().filter_map(|one| one.score(&curve.score)).collect::<Vec<f64>>();
+    html! {
+        h4 { "Learning curves" }
+        div.trio {
+            @for curve in &progress.curves {
+                @let values = values(curve);
+                @let drawn = Practice { values: &values, curve: &curve.curve, others: &[], most: most(&curve.score) };
+                (figure(&curve.score, &practice(&drawn, &format!("Learning curve of {}", curve.score))))
+            }
+        }
+        p.note { "A power law of practice fitted to the repetitions; the ring is what it expects of the next. It does not know that a score ends at its largest value." }
+        (curve_numbers(&progress.curves).folded())
+    }
+}
+
+fn curve_numbers(curves: &[Curve]) -> Table {
+    let row = |one: &Curve| {
+        let c = &one.curve;
+        let next = Cell::Number(c.next.min(most(&one.score)), 1);
+        let r_squared = c.r_squared.map_or(Cell::Empty, |value| Cell::Number(value, 2));
+        vec![one.score.clone().into(), c.n.into(), Cell::Number(c.first, 1), Cell::Number(c.exponent, 3), r_squared, next]
+    };
+    Table {
+        name: "learning_curves",
+        caption: "learning curves, first × repetition ^ exponent",
+        columns: vec!["score", "repetitions", "first", "exponent", "R²", "next"],
+        rows: curves.iter().map(row).collect(),
+    }
+}
+
+fn numbers(scenario: &str, progress: &Progress) -> Table {
+    let maybe = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, 1));
+    let row = |one: &Repetition| {
+        let mut row = vec![one.number.into(), scenario.into()];
+        row.extend(SCORES.map(|score| maybe(one.score(score))));
+        row.extend([Cell::Number(one.overall, 1), Cell::Clock(one.seconds)]);
+        row.extend(counted(&one.crashes).map(Cell::from));
+        row
+    };
+    let columns = ["repetition", "scenario", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
+    let crashes = ["into bridges", "ground", "water", "other", "persons, vehicles"];
+    Table {
+        name: "progress",
+        caption: "each repetition: scores, time, crashes",
+        columns: columns.into_iter().chain(crashes).collect(),
+        rows: progress.repetitions.iter().map(row).collect(),
+    }
+}
+
+fn on_path_numbers(progress: &Progress, tasks: &[(u32, String)]) -> Table {
+    let row = |one: &Repetition, (id, name): &(u32, String)| {
+        let share = on_path(one, *id).map_or("not attempted".into(), |share| Cell::Number(share, 1));
+        vec![one.number.into(), (*id).into(), name.clone().into(), share]
+    };
+    Table {
+        name: "on_path",
+        caption: "on the path by task",
+        columns: vec!["repetition", "task", "name", "on the path, %"],
+        rows: progress.repetitions.iter().flat_map(|one| tasks.iter().map(move |task| row(one, task))).collect(),
+    }
+}
+
+/// What the page says where nobody could have a curve, in words of the statistic.
+pub fn too_few() -> String {
+    format!("A learning curve needs {} repetitions of one job.", words::number(crate::statistics::LEARNING_NEEDS as f64, 0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cohort::by_job;
+    use crate::record::{Incomplete, Record};
+    use crate::testing::faultless;
+
+    fn flown(count: usize) -> Markup {
+        let mut records: Vec<Record> = (1..=count).map(|k| faultless("anna", k)).collect();
+        records[0].tasks[2].attempted = false;
+        records[0].tasks[0].name = "<b>slab</b>".into();
+        records[count - 1].tasks[0].name = "<b>slab</b>".into();
+        records[0].tasks[1].crashes.water = 2;
+        records[0].tasks[1].crashes.person = 1;
+        on_job(&by_job(&records, Incomplete::LeaveOut)[0])
+    }
+
+    #[test]
+    fn exact_scores_tasks_and_crashes_stand_repetition_by_repetition() {
+        let text = flown(3).into_string();
+        assert_eq!(text.matches("class=\"lines\"").count(), 2);
+        // Four lines of scores with three points each; of the tasks one point is missing, for that task was left out.
+        assert_eq!(text.matches("<circle class=\"dot-").count(), 12 + 11);
+        assert!(text.contains("water: 2") && text.contains("person or vehicle: 1") && !text.contains("bridge: "), "{text}");
+        assert!(text.contains("not attempted") && text.contains("&lt;b&gt;slab") && !text.contains("<b>slab"));
+        assert!(!text.contains("Learning curves"), "three repetitions make none");
+    }
+
+    #[test]
+    fn exact_the_fourth_repetition_brings_the_curves() {
+        let text = flown(4).into_string();
+        assert_eq!(text.matches("class=\"practice\"").count(), 5);
+        assert!(text.contains("learning_curves.csv") && !text.contains("NaN"));
+    }
+}

@@ -1,0 +1,76 @@
+//! What the report rests on: coverage of the telemetry, who flew when, the link, the files and their hashes.
+
+use crate::report::Review;
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use maud::{Markup, html};
+
+/// The section.
+pub fn section(review: &Review) -> Markup {
+    let telemetry = &review.assessment.telemetry;
+    html! {
+        p { (gaps(review)) }
+        @if telemetry.missing_frames > 0 {
+            p.note { "Frames in gaps over a second hold the last position and are scored as they stand." }
+        }
+        (hands(review).shown())
+        (files(review).shown())
+        p.note { "Everything here is worked out from the telemetry and the two files, by the code that scores. The same three files make the same report." }
+    }
+}
+
+fn gaps(review: &Review) -> String {
+    let t = &review.assessment.telemetry;
+    if t.gaps == 0 {
+        return "The telemetry has no gap over 0.2 s.".into();
+    }
+    format!(
+        "The telemetry has {} gaps over 0.2 s: {} frames in between were interpolated, {} are missing; {} % of the session is covered.",
+        t.gaps,
+        t.interpolated_frames,
+        t.missing_frames,
+        words::number(100.0 * t.covered, 1)
+    )
+}
+
+fn hands(review: &Review) -> Table {
+    let row = |stretch: &spandrel_monitor::assessment::Stretch| {
+        let t_s = |frame: u32| review.t_s((frame as usize).saturating_sub(1));
+        vec![Cell::Clock(t_s(stretch.from_frame)), Cell::Clock(t_s(stretch.to_frame)), words::hand(stretch.by).into()]
+    };
+    Table {
+        name: "flown-by",
+        caption: "who flew when",
+        columns: vec!["from", "to", "flown by"],
+        rows: review.assessment.flown_by.iter().map(row).collect(),
+    }
+}
+
+fn files(review: &Review) -> Table {
+    let about = &review.about;
+    let link = &review.link;
+    let row = |name: &str, value: Cell| vec![name.into(), value];
+    Table {
+        name: "record",
+        caption: "the record",
+        columns: vec!["what", "value"],
+        rows: vec![
+            row("session", about.folder.clone().into()),
+            row("trainee", about.trainee.clone().into()),
+            row("purpose", about.purpose.clone().unwrap_or_else(|| "not said".into()).into()),
+            row("started", about.started_utc.clone().into()),
+            row("scenario", review.scenario.name.clone().into()),
+            row("scenario, SHA-256", about.scenario_sha256.clone().into()),
+            row("aircraft", review.vehicle.id.clone().into()),
+            row("aircraft, SHA-256", about.vehicle_sha256.clone().into()),
+            row("telemetry, SHA-256", about.telemetry_sha256.clone().into()),
+            row("seed", review.seed.to_string().into()),
+            row("scorer", concat!("spandrel ", env!("CARGO_PKG_VERSION")).into()),
+            row("frames scored", review.frames.len().into()),
+            row("MAVLink frames heard", Cell::Number(link.frames as f64, 0)),
+            row("lost on the link", Cell::Number(link.lost as f64, 0)),
+            row("came twice", Cell::Number(link.duplicated as f64, 0)),
+            row("came late", Cell::Number(link.reordered as f64, 0)),
+        ],
+    }
+}

@@ -1,0 +1,148 @@
+//! The data block that the page's script reads: the flight's series, marks, reference paths and the model. JSON in which no `<` is left, so
+//! that nothing in it can end its element.
+
+use crate::report::Review;
+use crate::report::assets::base64;
+use crate::report::outline::{self, Mesh};
+use crate::report::plots::colours::CLEARANCES_M;
+use serde_json::{Value, json};
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::frames::{Enu, Vec3};
+
+/// Samples per second at most.
+const RATE_HZ: f64 = 10.0;
+/// Samples at most.
+const MOST: usize = 15_000;
+/// Ground samples along each side of the model.
+const GROUND: usize = 72;
+/// A defect is marked this far before its surface, so that it does not show on the other side, m.
+const BEFORE_M: f64 = 0.5;
+
+/// The block's text.
+#[must_use]
+pub fn data(review: &Review) -> String {
+    let block = json!({
+        "series": series(review),
+        "limits": { "speed": review.scenario.scoring.speed_limit_m_s, "close": review.scenario.feedback.too_close_m,
+            "clearances": CLEARANCES_M },
+        "tasks": review.scenario.tasks.iter().map(|task| json!({ "id": task.id, "name": task.name, "within": task.threshold_m,
+            "closed": task.closed, "path": task.path_m.iter().map(|p| place(*p)).collect::<Vec<_>>() })).collect::<Vec<_>>(),
+        "pictures": review.pictures.iter().map(|picture| json!({ "number": picture.number, "t": rounded(picture.t_s, 2),
+            "at": place(picture.pose.position_m), "look": place(picture.pose.forward), "verdict": picture.verdict.class() })).collect::<Vec<_>>(),
+        "crashes": review.crashes.iter().map(|crash| place(review.frames[crash.frame].position_m)).collect::<Vec<_>>(),
+        "defects": review.defects.iter().map(|fate| json!({ "id": fate.defect.id, "at": place(fate.defect.position_m + fate.defect.normal * BEFORE_M),
+            "found": fate.found_by.is_some() })).collect::<Vec<_>>(),
+        "mesh": mesh(&outline::mesh(review.site.members())),
+        "ground": ground(review),
+    });
+    closed(&block.to_string())
+}
+
+/// The block of a comparison: both flights' series, and when each began and entered each task.
+#[must_use]
+pub fn comparison(both: [&Review; 2], line_ups: &[LineUp]) -> String {
+    let flight = |k: usize| {
+        let starts: Vec<f64> = line_ups.iter().map(|line_up| line_up.at_s[k]).collect();
+        let tasks = both[k].scenario.tasks.iter().map(|task| format!("{} · {}", task.id, task.name));
+        json!({ "series": series(both[k]), "starts": starts, "tasks": tasks.collect::<Vec<_>>() })
+    };
+    let scenario = &both[0].scenario;
+    let block = json!({
+        "flights": [flight(0), flight(1)],
+        "limits": { "speed": scenario.scoring.speed_limit_m_s, "close": scenario.feedback.too_close_m },
+    });
+    closed(&block.to_string())
+}
+
+/// An event of both flights at which their times are lined up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineUp {
+    /// In words.
+    pub name: String,
+    /// When it was in each, since lift-off, s.
+    pub at_s: [f64; 2],
+}
+
+/// Lift-off, and, of flights of one job, the entry into each task that both entered.
+#[must_use]
+pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<LineUp> {
+    let mut found = vec![LineUp { name: "lift-off".into(), at_s: [0.0, 0.0] }];
+    let tasks = both[0].scenario.tasks.iter().enumerate().filter(|_| same_job);
+    found.extend(tasks.filter_map(|(k, task)| {
+        let entry_s = |review: &Review| review.on_path.windows.get(k).copied().flatten().map(|window| review.t_s(window.first));
+        Some(LineUp { name: format!("start of task {}", task.id), at_s: [entry_s(both[0])?, entry_s(both[1])?] })
+    }));
+    found
+}
+
+/// JSON that cannot end the element that it stands in.
+fn closed(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+fn series(review: &Review) -> Value {
+    let rate_hz = review.scenario.scoring.frame_rate_hz;
+    let stride = ((rate_hz / RATE_HZ).round() as usize).max(review.frames.len().div_ceil(MOST)).max(1);
+    let picked: Vec<(usize, &Frame)> = review.frames.iter().enumerate().step_by(stride).collect();
+    let column = |value: &dyn Fn(usize, &Frame) -> Value| picked.iter().map(|(i, frame)| value(*i, frame)).collect::<Vec<_>>();
+    let at = |k: usize| move |_: usize, frame: &Frame| rounded(frame.position_m.array()[k], 2);
+    let stick = |k: usize| move |_: usize, frame: &Frame| rounded(frame.sticks[k], 2);
+    let known = |value: Option<f64>| value.map_or(Value::Null, |value| rounded(value, 2));
+    json!({
+        "t": column(&|i, _| rounded(review.t_s(i), 2)),
+        "e": column(&at(0)), "n": column(&at(1)), "u": column(&at(2)),
+        "speed": column(&|_, frame| rounded(frame.speed_m_s(), 2)),
+        "distance": column(&|i, _| known(review.track[i].distance_m)),
+        "clearance": column(&|_, frame| known(frame.clearance_m)),
+        "battery": column(&|_, frame| rounded(frame.battery_pct, 1)),
+        "fb": column(&stick(0)), "rl": column(&stick(1)), "ud": column(&stick(2)), "rt": column(&stick(3)),
+        "task": column(&|i, _| review.track[i].task.map_or(Value::Null, |task| json!(task))),
+        "state": column(&|i, _| json!(u8::from(review.track[i].inside) + u8::from(review.track[i].on))),
+    })
+}
+
+fn mesh(mesh: &Mesh) -> Value {
+    let bytes = |triples: &[[u16; 3]]| triples.iter().flatten().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
+    json!({ "origin": mesh.origin_m, "step": mesh.step_m, "corners": base64(&bytes(&mesh.corners)),
+        "triangles": base64(&bytes(&mesh.triangles)) })
+}
+
+/// Heights over a square around the origin, row by row from the south-west, m.
+fn ground(review: &Review) -> Value {
+    let half = 0.5 * review.scenario.terrain.size_m;
+    let coordinate = |k: usize| -half + 2.0 * half * k as f64 / (GROUND - 1) as f64;
+    let heights = (0..GROUND).flat_map(|row| (0..GROUND).map(move |column| (row, column)));
+    let heights: Vec<Value> =
+        heights.map(|(row, column)| rounded(review.site.ground_up_m(coordinate(column), coordinate(row)), 1)).collect();
+    json!({ "half": half, "side": GROUND, "heights": heights, "water": review.scenario.terrain.water_level_m })
+}
+
+fn place(point: Vec3<Enu>) -> [Value; 3] {
+    point.array().map(|value| rounded(value, 2))
+}
+
+/// What is drawn needs no more digits.
+fn rounded(value: f64, digits: i32) -> Value {
+    let scale = match digits {
+        0 => 1.0,
+        1 => 10.0,
+        _ => 100.0,
+    };
+    // What JSON has no number for is nothing.
+    json!((value * scale).round() / scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_no_name_can_end_the_block_and_it_reads_back() {
+        let evil = json!({ "name": "</script><script>alert(1)</script><!--" });
+        let text = closed(&evil.to_string());
+        assert!(!text.contains('<'));
+        assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), evil);
+        assert_eq!(rounded(1.005, 1), json!(1.0));
+        assert_eq!(rounded(f64::INFINITY, 2), Value::Null);
+    }
+}

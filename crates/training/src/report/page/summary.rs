@@ -1,0 +1,157 @@
+//! The head of the page and the four scores with what made them.
+
+use super::figure;
+use crate::report::Review;
+use crate::report::plots::radar::{Spoke, radar};
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_monitor::assessment::Scores;
+use spandrel_monitor::score::Score;
+use spandrel_monitor::score::completion::verdict;
+
+/// Who, what, when, and the overall.
+pub fn header(review: &Review) -> Markup {
+    let scores = &review.assessment.scores;
+    let end = &review.assessment.end;
+    let certification = &review.assessment.certification;
+    html! {
+        a.skip href="#scores" { "Skip to the scores" }
+        header {
+            div {
+                p.kicker { "Session report" }
+                h1 { (review.scenario.title) }
+                p {
+                    b { (review.about.trainee) } " · " (utc(&review.about.started_utc)) " · " (review.vehicle.name)
+                    @if let Some(purpose) = &review.about.purpose { " · " (purpose) }
+                }
+                p { (words::duration(end.seconds)) " of flight, " (words::end(end.reason)) ". " (cover(review)) }
+            }
+            div.overall {
+                @if review.assessment.completion.complete {
+                    p.figure { (words::number(scores.overall, 0)) span.of { " of " (words::number(scores.overall_max, 0)) } }
+                    p { "overall" }
+                } @else {
+                    p.headline { (review.assessment.completion.headline()) }
+                }
+                p { (verdict(certification.passed, &certification.unmet)) }
+            }
+        }
+    }
+}
+
+/// RFC 3339 as people read it.
+fn utc(text: &str) -> String {
+    text.replace('T', " ").trim_end_matches('Z').to_owned() + " UTC"
+}
+
+fn cover(review: &Review) -> String {
+    let telemetry = &review.assessment.telemetry;
+    if telemetry.missing_frames == 0 {
+        "The telemetry covers all of it.".into()
+    } else {
+        format!("The telemetry covers {} % of it.", words::number(100.0 * telemetry.covered, 1))
+    }
+}
+
+/// The diagram, the cards and their table.
+pub fn scores(review: &Review) -> Markup {
+    let scores = &review.assessment.scores;
+    let spokes: Vec<Spoke> =
+        named(scores).iter().map(|(name, score)| Spoke { name, values: vec![score.map(|score| score.pct)] }).collect();
+    html! {
+        p { (review.assessment.completion.headline()) "." @if !review.assessment.completion.complete { " The scores below are for the part that was flown." } }
+        div.split {
+            (figure("The four scores, 0 in the middle, 100 at the rim", &radar(&spokes, "Kiviat diagram of the four scores")))
+            div.cards {
+                @for (name, score) in named(scores) {
+                    div.card {
+                        h3 { (name) }
+                        p.figure { @if let Some(score) = score { (words::number(score.pct, 0)) } @else { "n/a" } }
+                        p { (why(review, name)) }
+                    }
+                }
+            }
+        }
+        (table(review).folded())
+    }
+}
+
+/// The scores in the order of the diagram.
+pub fn named(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
+    [
+        ("Conformity", scores.conformity),
+        ("Efficiency", Some(scores.efficiency)),
+        ("Safety", Some(scores.safety)),
+        ("Accuracy", scores.accuracy),
+    ]
+}
+
+fn why(review: &Review, name: &str) -> String {
+    let assessment = &review.assessment;
+    match name {
+        "Conformity" => conformity(review),
+        "Efficiency" => {
+            let best = words::duration(review.scenario.scoring.time_best_s);
+            if assessment.end.battery_failed {
+                "not landed at home before the battery or the time ran out".into()
+            } else {
+                format!("{} of flight; full marks up to {best}", words::duration(assessment.end.seconds))
+            }
+        }
+        "Safety" => {
+            let crashes = &assessment.crashes;
+            match (crashes.person + crashes.vehicle, crashes.other) {
+                (0, 0) => "nothing was touched".into(),
+                (0, 1) => "touched something once, 3 points".into(),
+                (0, other) => format!("touched something {other} times, 3 points each"),
+                _ => "a person or a vehicle was hit: all points are lost".into(),
+            }
+        }
+        _ if assessment.scores.accuracy.is_none() => "no defects in this job".into(),
+        _ => {
+            let s = &assessment.snapshots;
+            format!(
+                "{} of {} defects found; {} of {} pictures showed a new one",
+                s.defects_found, s.defects_placed, s.hits, s.taken
+            )
+        }
+    }
+}
+
+fn conformity(review: &Review) -> String {
+    let tasks = &review.assessment.tasks;
+    let Some(worst) = tasks.iter().min_by(|a, b| a.on_path.total_cmp(&b.on_path)) else { return "no tasks in this job".into() };
+    let skipped = tasks.iter().filter(|task| !task.attempted).count();
+    if skipped == tasks.len() {
+        return "no task attempted (the paper's formula gives 50)".into();
+    }
+    if skipped > 0 {
+        return format!("{skipped} of {} tasks not attempted", tasks.len());
+    }
+    let speeding: f64 = review.tasks.iter().map(|task| task.speeding_s).sum();
+    let lowest = words::number(100.0 * worst.on_path, 0);
+    format!(
+        "on the path {lowest} % of the time or more (least in task {}); too fast for {} s",
+        worst.id,
+        words::number(speeding, 0)
+    )
+}
+
+fn table(review: &Review) -> Table {
+    let scores = &review.assessment.scores;
+    let certification = &review.assessment.certification.scores;
+    let number = |value: Option<f64>| value.map_or(Cell::Empty, |value| Cell::Number(value, 2));
+    let beside = [certification.conformity, Some(certification.efficiency), Some(certification.safety), certification.accuracy];
+    let mut rows: Vec<Vec<Cell>> = named(scores)
+        .iter()
+        .zip(beside)
+        .map(|((name, score), beside)| {
+            vec![(*name).into(), number(score.map(|s| s.raw)), number(score.map(|s| s.pct)), number(beside)]
+        })
+        .collect();
+    if review.assessment.completion.complete {
+        rows.push(vec!["Overall".into(), Cell::Empty, Cell::Number(scores.overall, 2), Cell::Empty]);
+    }
+    Table { name: "scores", caption: "scores", columns: vec!["score", "raw", "of 100", "certification profile, of 100"], rows }
+}

@@ -1,0 +1,133 @@
+//! Surface coverage by element: what the pictures show, and what they lack.
+
+use super::{figure, legend};
+use crate::report::Review;
+use crate::report::coverage::{BLUR_MAX_PX, Coverage, Element, Fate, REQUIRED_GSD_M, reach_m};
+use crate::report::plots::bars::{Stack, stacks};
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_model::site::look::INCIDENCE_MAX_RAD;
+
+/// Reasons in the summary's sentence at most.
+const REASONS: usize = 3;
+/// Less than this share of the surface is no reason worth a word.
+const LEAST_SHARE: f64 = 0.01;
+
+/// The section.
+pub fn section(review: &Review) -> Markup {
+    let total = review.coverage.total();
+    if total.inspectable_m2 <= 0.0 {
+        return html! { p.calm { "No surface of a bridge lies within the camera's reach of a reference path." } };
+    }
+    let share = |area: f64| words::number(100.0 * area / total.inspectable_m2, 0);
+    let key: Vec<(&str, String)> = Fate::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
+    html! {
+        p { "Of " (words::number(total.inspectable_m2, 0)) " m² that can be inspected from the reference paths, pictures show "
+            b { (share(total.area_m2(Fate::Shown))) " %" } " well enough." @if let Some(why) = lacking(&total) { " The rest: " (why) "." } }
+        p.note { "Inspectable is what some point of a reference path sees at " (words::number(1000.0 * REQUIRED_GSD_M, 2))
+            " mm per pixel or finer (a crack of 1.27 mm, the limit between condition states 2 and 3, then covers half a pixel; with this camera that is "
+            (words::number(reach_m(&review.vehicle.camera), 1)) " m) and at most "
+            (words::number(INCIDENCE_MAX_RAD.to_degrees(), 0)) "° off square. Shown well: at that size and angle, with light enough for an exposure within the camera's limits, lamp included, and at most "
+            (words::number(BLUR_MAX_PX, 0)) " px of smear by the drone's speed. Of several pictures the best counts." }
+        (figure("What became of each element's inspectable surface", &html! {
+            (legend(&key))
+            div.split {
+                // Two columns of about equal length.
+                @let rows = rows(&review.coverage);
+                @let (left, right) = rows.split_at(rows.len().div_ceil(2));
+                (stacks(left, "Surface coverage by element"))
+                @if !right.is_empty() { (stacks(right, "Surface coverage by element, continued")) }
+            }
+        }))
+        (table(&review.coverage).folded())
+    }
+}
+
+/// The largest shares of what is not shown well, in words; `None` when next to nothing is left.
+fn lacking(total: &Element) -> Option<String> {
+    let share = |fate: &Fate| total.area_m2(*fate) / total.inspectable_m2;
+    let mut rest: Vec<Fate> = Fate::ALL.into_iter().filter(|fate| *fate != Fate::Shown && share(fate) >= LEAST_SHARE).collect();
+    rest.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    let words = |fate: &Fate| format!("{} % {}", words::number(100.0 * share(fate), 0), fate.name());
+    let words: Vec<String> = rest.iter().take(REASONS).map(words).collect();
+    (!words.is_empty()).then(|| words.join("; "))
+}
+
+fn rows(coverage: &Coverage) -> Vec<Stack> {
+    let row = |element: &Element| Stack {
+        name: format!(
+            "{} · {} ({} m²)",
+            element.element,
+            words::element(element.element),
+            words::number(element.inspectable_m2, 0)
+        ),
+        parts: Fate::ALL.map(|fate| (fate.class(), element.area_m2(fate) / element.inspectable_m2)).to_vec(),
+    };
+    coverage.elements.iter().map(row).collect()
+}
+
+fn table(coverage: &Coverage) -> Table {
+    let row = |element: &Element, [number, name]: [Cell; 2]| {
+        let mut row = vec![number, name, Cell::Number(element.inspectable_m2, 1)];
+        row.extend(Fate::ALL.map(|fate| Cell::Number(element.area_m2(fate), 1)));
+        let typical = element.typical();
+        let value = |value: Option<f64>, digits| value.map_or(Cell::Empty, |value| Cell::Number(value, digits));
+        row.push(value(typical.map(|like| 1000.0 * like.gsd_m), 2));
+        row.push(value(typical.map(|like| like.incidence_rad.to_degrees()), 0));
+        row.push(value(typical.map(|like| like.lux), 0));
+        row.push(value(typical.map(|like| like.blur_px), 2));
+        row
+    };
+    let mut rows: Vec<Vec<Cell>> = coverage
+        .elements
+        .iter()
+        .map(|element| row(element, [element.element.into(), words::element(element.element).into()]))
+        .collect();
+    rows.push(row(&coverage.total(), ["all".into(), Cell::Empty]));
+    let mut columns = vec!["element", "name", "inspectable, m²"];
+    columns.extend([
+        "shown well, m²",
+        "blurred, m²",
+        "too dark, lamp on, m²",
+        "too dark, lamp off, m²",
+        "too oblique, m²",
+        "too far, m²",
+        "in view, no picture, m²",
+        "never in view, m²",
+        "pixel, mm",
+        "off square, deg",
+        "light, lx",
+        "smear, px",
+    ]);
+    Table {
+        name: "coverage",
+        caption: "surface coverage, and what the pictures near and square enough are like on average",
+        columns,
+        rows,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_fate_has_a_column_and_the_reasons_are_told_by_their_size() {
+        let mut element = Element { element: 105, inspectable_m2: 100.0, ..Element::default() };
+        for (fate, area_m2) in
+            [(Fate::Shown, 40.0), (Fate::DarkLampOff, 35.0), (Fate::Blurred, 20.0), (Fate::TooFar, 4.6), (Fate::Unseen, 0.4)]
+        {
+            element.by_fate_m2.insert(fate, area_m2);
+        }
+        assert_eq!(lacking(&element).unwrap(), "35 % too dark, lamp off; 20 % blurred; 5 % too far");
+        let table = table(&Coverage { elements: vec![element] });
+        for (k, fate) in Fate::ALL.iter().enumerate() {
+            assert_eq!(table.columns[3 + k], format!("{}, m²", fate.name()));
+        }
+        assert!(table.rows.iter().all(|row| row.len() == table.columns.len()));
+        assert_eq!(table.rows[1][6], Cell::Number(35.0, 1), "the sum of one is itself");
+        let all = Element { inspectable_m2: 1.0, by_fate_m2: [(Fate::Shown, 1.0)].into(), ..Element::default() };
+        assert_eq!(lacking(&all), None);
+    }
+}

@@ -1,0 +1,147 @@
+//! Per task: on the path, speeding, crashes by kind.
+
+use super::{figure, legend};
+use crate::report::Review;
+use crate::report::plots::bars::{self, Counts, Row};
+use crate::report::table::{Cell, Table};
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_mavlink::telemetry::Contact;
+use spandrel_monitor::score::completion::TaskState;
+
+/// Kinds of crashes in the order of the bars.
+const KINDS: [(Contact, &str); 6] = [
+    (Contact::Bridge, "k-bridge"),
+    (Contact::Terrain, "k-terrain"),
+    (Contact::Water, "k-water"),
+    (Contact::Other, "k-other"),
+    (Contact::Vehicle, "k-grave"),
+    (Contact::Person, "k-grave"),
+];
+
+/// The section.
+pub fn section(review: &Review) -> Markup {
+    let done_share = review.assessment.completion.done_share;
+    html! {
+        div.split {
+            (figure("Share of each task's time on the path and over the speed limit", &html! {
+                (legend(&[("b-on", "on the path".into()), ("b-speeding", "over the speed limit".into())]))
+                (bars::shares(&rows(review), "On the path and speeding by task"))
+            }))
+            (figure("Contacts by task and by what was touched", &html! {
+                (legend(&kinds_present(review)))
+                @if review.crashes.is_empty() { p.calm { "Nothing was touched." } }
+                @else { (bars::counts(&counts(review), "Contacts by task and kind")) }
+            }))
+        }
+        ul { @for (k, task) in review.assessment.tasks.iter().enumerate() {
+            li { (task.id) " · " (review.scenario.tasks[k].name) ": " (task.state.words(task.covered, done_share)) }
+        } }
+        (task_table(review).folded())
+        (crash_table(review).folded())
+    }
+}
+
+fn rows(review: &Review) -> Vec<Row> {
+    let row = |(k, task): (usize, &spandrel_monitor::assessment::TaskResult)| {
+        let facts = &review.tasks[k];
+        let share = |seconds: f64| if facts.time_s > 0.0 { seconds / facts.time_s } else { 0.0 };
+        Row {
+            name: format!("{} · {}", task.id, review.scenario.tasks[k].name),
+            bars: vec![("b-on", task.on_path), ("b-speeding", share(facts.speeding_s))],
+            instead: (!task.attempted).then_some("not attempted"),
+        }
+    };
+    review.assessment.tasks.iter().enumerate().map(row).collect()
+}
+
+fn state(task: &spandrel_monitor::assessment::TaskResult) -> &'static str {
+    match task.state {
+        TaskState::Done => "done",
+        TaskState::Part => "part",
+        TaskState::NotAttempted => "not attempted",
+    }
+}
+
+fn of(review: &Review, task: Option<usize>, kind: Contact) -> usize {
+    review.crashes.iter().filter(|crash| crash.task == task && crash.with == kind).count()
+}
+
+fn counts(review: &Review) -> Vec<Counts> {
+    let tasks = (0..review.scenario.tasks.len()).map(Some).chain([None]);
+    let name = |task: Option<usize>| match task {
+        Some(k) => format!("{} · {}", review.scenario.tasks[k].id, review.scenario.tasks[k].name),
+        None => "between tasks".into(),
+    };
+    tasks
+        .map(|task| Counts { name: name(task), kinds: KINDS.map(|(kind, class)| (class, of(review, task, kind))).to_vec() })
+        .collect()
+}
+
+fn kinds_present(review: &Review) -> Vec<(&'static str, String)> {
+    let present = |kind: Contact| review.crashes.iter().any(|crash| crash.with == kind);
+    KINDS.iter().filter(|(kind, _)| present(*kind)).map(|(kind, class)| (*class, words::contact(*kind).to_owned())).collect()
+}
+
+fn task_table(review: &Review) -> Table {
+    let number = |value: f64, digits: usize| Cell::Number(value, digits);
+    let row = |(k, task): (usize, &spandrel_monitor::assessment::TaskResult)| {
+        let facts = &review.tasks[k];
+        vec![
+            task.id.into(),
+            review.scenario.tasks[k].name.clone().into(),
+            state(task).into(),
+            number(100.0 * task.covered, 1),
+            number(facts.time_s, 1),
+            number(100.0 * task.on_path, 1),
+            number(facts.off_path_s, 1),
+            number(facts.speeding_s, 1),
+            number(task.speeding, 3),
+            number(facts.mean_distance_m, 2),
+            number(facts.max_distance_m, 2),
+            number(facts.max_speed_m_s, 2),
+            number(facts.least_clearance_m, 2),
+        ]
+    };
+    Table {
+        name: "tasks",
+        caption: "tasks",
+        columns: vec![
+            "task",
+            "name",
+            "state",
+            "path flown, %",
+            "time, s",
+            "on path, %",
+            "off path, s",
+            "speeding, s",
+            "speeding loss",
+            "mean distance, m",
+            "greatest distance, m",
+            "greatest speed, m/s",
+            "least clearance, m",
+        ],
+        rows: review.assessment.tasks.iter().enumerate().map(row).collect(),
+    }
+}
+
+fn crash_table(review: &Review) -> Table {
+    let row = |crash: &spandrel_monitor::measures::crash::Crash| {
+        let [east, north, up] = review.frames[crash.frame].position_m.array();
+        vec![
+            Cell::Clock(review.t_s(crash.frame)),
+            crash.task.map_or("between tasks".into(), |k| format!("task {}", review.scenario.tasks[k].id)).into(),
+            words::contact(crash.with).into(),
+            Cell::Number(crash.speed_m_s, 2),
+            Cell::Number(east, 2),
+            Cell::Number(north, 2),
+            Cell::Number(up, 2),
+        ]
+    };
+    Table {
+        name: "contacts",
+        caption: "contacts",
+        columns: vec!["time", "task", "with", "speed, m/s", "east, m", "north, m", "up, m"],
+        rows: review.crashes.iter().map(row).collect(),
+    }
+}

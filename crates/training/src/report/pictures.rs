@@ -1,0 +1,250 @@
+//! Each picture with its verdict, by the same geometry and light as the score.
+
+use super::Scene;
+use super::track::Step;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::look::{lamp_lux, needed_lux};
+use spandrel_model::site::{CameraPose, DefectView, ObjectId, Surface};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Camera;
+use spandrel_monitor::assessment::Assessment;
+use spandrel_monitor::measures::attention;
+
+/// How far the middle of a picture is looked for, m.
+const TARGET_REACH_M: f64 = 120.0;
+
+/// What a picture was worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// It is the first to show a defect.
+    Hit,
+    /// It shows defects that earlier pictures have shown.
+    Repeat,
+    /// A defect is there, but there is too little light.
+    TooDark,
+    /// A defect is there, but it covers too few pixels.
+    TooFar,
+    /// A defect is there, but it is seen too much from the side.
+    TooOblique,
+    /// No defect is there to be seen.
+    False,
+}
+
+impl Verdict {
+    /// All, in the order of the legend.
+    pub const ALL: [Self; 6] = [Self::Hit, Self::Repeat, Self::TooDark, Self::TooFar, Self::TooOblique, Self::False];
+
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hit => "hit",
+            Self::Repeat => "repeat",
+            Self::TooDark => "too dark",
+            Self::TooFar => "too far",
+            Self::TooOblique => "too oblique",
+            Self::False => "false",
+        }
+    }
+
+    /// Name of its style.
+    #[must_use]
+    pub fn class(self) -> &'static str {
+        match self {
+            Self::Hit => "v-hit",
+            Self::Repeat => "v-repeat",
+            Self::TooDark | Self::TooFar | Self::TooOblique => "v-near",
+            Self::False => "v-false",
+        }
+    }
+}
+
+/// What stands in the middle of a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// Its name.
+    pub name: String,
+    /// Distance, m.
+    pub distance_m: f64,
+    /// Angle off its normal, rad.
+    pub incidence_rad: f64,
+    /// Size of a pixel on it, square on, m.
+    pub gsd_m: f64,
+    /// Light on it, lamp included, lx.
+    pub lux: f64,
+    /// What the camera needs there, lx.
+    pub needed_lux: f64,
+    /// Smear by the drone's speed across the line of sight at the shortest exposure that this light allows, px.
+    pub blur_px: f64,
+}
+
+/// One picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// Running number in this report, from 1.
+    pub number: u32,
+    /// The camera's own number.
+    pub index: i32,
+    /// Frame of the press, from 1.
+    pub frame: u32,
+    /// Since lift-off, s.
+    pub t_s: f64,
+    /// Simulation time.
+    pub time: SimTime,
+    /// Where the camera was.
+    pub pose: CameraPose,
+    /// The camera as it was zoomed.
+    pub camera: Camera,
+    /// Worth.
+    pub verdict: Verdict,
+    /// Why, in words.
+    pub reason: String,
+    /// Defects that it is the first to show.
+    pub found: Vec<u32>,
+    /// Defects in the middle of the image, shown or not.
+    pub views: Vec<DefectView>,
+    /// What stands in its middle; `None` for sky.
+    pub target: Option<Target>,
+    /// Index of the task then flown.
+    pub task: Option<usize>,
+}
+
+/// All pictures of a session.
+#[must_use]
+pub fn judged(scene: &Scene<'_>, assessment: &Assessment, track: &[Step]) -> Vec<Picture> {
+    let each = assessment.snapshots.each.iter().enumerate();
+    each.filter_map(|(k, snapshot)| {
+        let at = usize::try_from(snapshot.frame).ok()?.checked_sub(1)?;
+        let frame = scene.frames.get(at)?;
+        let since = at.checked_sub(1).map_or(SimTime::from_ns(frame.time.ns() - 1), |k| scene.frames[k].time);
+        let (time, _, (index, _)) = *scene.flight.snapshots.between(since, frame.time).first()?;
+        let pose = attention::pose(scene.flight, time, scene.vehicle)?;
+        let camera = attention::camera(scene.flight, time, &scene.vehicle.camera);
+        let looks = scene.site.look(&pose, &camera, &scene.vehicle.lamp, time);
+        let views: Vec<DefectView> = looks.into_iter().filter(|view| view.in_frame || view.hit).collect();
+        let (verdict, reason) = verdict(&snapshot.found, &views);
+        Some(Picture {
+            number: u32::try_from(k + 1).unwrap_or(u32::MAX),
+            index,
+            frame: snapshot.frame,
+            t_s: snapshot.t_s,
+            time,
+            target: target(scene, &pose, &camera, (time, frame.velocity_m_s)),
+            pose,
+            camera,
+            verdict,
+            reason,
+            found: snapshot.found.clone(),
+            views,
+            task: track.get(at).filter(|step| step.inside).and_then(|step| step.task),
+        })
+    })
+    .collect()
+}
+
+/// What a picture is worth, from what it is the first to show and what it has in its middle.
+#[must_use]
+pub fn verdict(found: &[u32], views: &[DefectView]) -> (Verdict, String) {
+    let list = |ids: &[u32]| ids.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+    if !found.is_empty() {
+        return (Verdict::Hit, format!("shows defect {} for the first time", list(found)));
+    }
+    let again: Vec<u32> = views.iter().filter(|view| view.hit).map(|view| view.defect_id).collect();
+    if !again.is_empty() {
+        return (Verdict::Repeat, format!("defect {} had been photographed before", list(&again)));
+    }
+    let failing = |view: &&DefectView| view.conditions().iter().filter(|holds| !**holds).count();
+    let nearest = views.iter().filter(|view| view.unoccluded).min_by_key(failing);
+    let Some(view) = nearest else {
+        let behind = views.first().map(|view| format!(" (defect {} is there, behind something)", view.defect_id));
+        return (Verdict::False, format!("no defect to be seen{}", behind.unwrap_or_default()));
+    };
+    let [_, _, square, large, wide, lit] = view.conditions();
+    let verdict = if !square {
+        Verdict::TooOblique
+    } else if !large || !wide {
+        Verdict::TooFar
+    } else if !lit {
+        Verdict::TooDark
+    } else {
+        Verdict::False
+    };
+    (verdict, format!("defect {} is {}", view.defect_id, view.reasons().join("; ")))
+}
+
+fn target(scene: &Scene<'_>, pose: &CameraPose, camera: &Camera, (time, velocity_m_s): (SimTime, Vec3<Enu>)) -> Option<Target> {
+    let hit = scene.site.ray(pose.position_m, pose.forward, TARGET_REACH_M, time)?;
+    let point_m = pose.position_m + pose.forward * hit.distance_m;
+    let ambient = scene.site.ambient_lux(point_m, Some(hit.normal), time);
+    let lux = ambient + lamp_lux(&scene.vehicle.lamp, pose, point_m, hit.normal);
+    let gsd_m = hit.distance_m / camera.focal_px();
+    let across = velocity_m_s - pose.forward * velocity_m_s.dot(pose.forward);
+    Some(Target {
+        name: if hit.surface == Surface::Bridge { member(scene, hit.object) } else { scene.site.object_name(hit.object) },
+        distance_m: hit.distance_m,
+        incidence_rad: spandrel_model::math::acos((-pose.forward.dot(hit.normal)).clamp(-1.0, 1.0)),
+        gsd_m,
+        lux,
+        needed_lux: needed_lux(camera),
+        blur_px: across.norm() * exposure_s(camera, lux) / gsd_m,
+    })
+}
+
+fn member(scene: &Scene<'_>, object: ObjectId) -> String {
+    scene.site.members().get(object.0 as usize).map_or_else(|| scene.site.object_name(object), |member| member.name.clone())
+}
+
+/// Shortest exposure that a light of `lux` allows at the camera's highest sensitivity, s; never beyond its longest.
+#[must_use]
+pub fn exposure_s(camera: &Camera, lux: f64) -> f64 {
+    (needed_lux(camera) * camera.exposure_max_s / lux.max(f64::MIN_POSITIVE)).min(camera.exposure_max_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn view() -> DefectView {
+        DefectView {
+            defect_id: 4,
+            in_frame: true,
+            unoccluded: true,
+            incidence_rad: 0.0,
+            extent_px: 100.0,
+            width_px: 50.0,
+            illuminance_lux: 1000.0,
+            needed_lux: 100.0,
+            distance_m: 2.0,
+            line: false,
+            lamp_on: false,
+            hit: false,
+        }
+    }
+
+    #[test]
+    fn exact_every_verdict_has_its_cause() {
+        let hit = DefectView { hit: true, ..view() };
+        assert_eq!(verdict(&[4], &[hit]).0, Verdict::Hit);
+        assert_eq!(verdict(&[], &[hit]).0, Verdict::Repeat);
+        let cases = [
+            (DefectView { illuminance_lux: 10.0, ..view() }, Verdict::TooDark, "too dark: lamp off"),
+            (DefectView { extent_px: 3.0, ..view() }, Verdict::TooFar, "too small"),
+            (DefectView { line: true, width_px: 0.2, ..view() }, Verdict::TooFar, "line too thin"),
+            (DefectView { incidence_rad: 1.2, ..view() }, Verdict::TooOblique, "69 deg"),
+            (DefectView { unoccluded: false, ..view() }, Verdict::False, "behind something"),
+        ];
+        for (case, expected, word) in cases {
+            let (got, reason) = verdict(&[], &[case]);
+            assert_eq!(got, expected, "{reason}");
+            assert!(reason.contains(word), "{reason}");
+        }
+        assert_eq!(verdict(&[], &[]), (Verdict::False, "no defect to be seen".into()));
+    }
+
+    #[test]
+    fn exact_the_defect_nearest_to_a_hit_decides() {
+        let worse = DefectView { defect_id: 1, incidence_rad: 1.2, illuminance_lux: 1.0, ..view() };
+        let better = DefectView { illuminance_lux: 10.0, ..view() };
+        assert_eq!(verdict(&[], &[worse, better]).0, Verdict::TooDark);
+    }
+}

@@ -1,0 +1,89 @@
+//! Water and ground behind a drawing.
+
+use super::map::Map;
+use super::{line, simplified, unit};
+use maud::{Markup, html};
+use spandrel_model::frames::Vec3;
+use spandrel_model::scenario::{Bridge, Scenario};
+use spandrel_model::site::Site;
+
+/// Distance between the samples of lake and ground, m.
+const GROUND_STEP_M: f64 = 5.0;
+
+/// Water as seen from above, in strips between its shores.
+pub(super) fn lake(scenario: &Scenario, site: &Site, map: &Map) -> Markup {
+    let terrain = &scenario.terrain;
+    let half = 0.5 * terrain.size_m;
+    let count = (terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 400.0) as usize;
+    let coordinate = |k: usize| -half + (k as f64 + 0.5) * 2.0 * half / count as f64;
+    let mut strips = Vec::new();
+    for row in 0..count {
+        let n = coordinate(row);
+        let depth = |column: usize| terrain.water_level_m - site.ground_up_m(coordinate(column), n);
+        let mut wet: Option<f64> = None;
+        for column in 0..count {
+            let (now, e) = (depth(column), coordinate(column));
+            let shore = if column == 0 { e } else { crossing((coordinate(column - 1), depth(column - 1)), (e, now)) };
+            match wet {
+                None if now > 0.0 => wet = Some(shore),
+                Some(from) if now <= 0.0 => {
+                    strips.push((from, shore, n));
+                    wet = None;
+                }
+                None | Some(_) => {}
+            }
+        }
+        strips.extend(wet.map(|from| (from, half, n)));
+    }
+    let side = GROUND_STEP_M * map.scale;
+    html! {
+        g.lake {
+            @for (from, to, n) in strips {
+                @let (x0, y) = map.at(Vec3::new(from, n, 0.0));
+                @let (x1, _) = map.at(Vec3::new(to, n, 0.0));
+                @if y > -side && y < map.size.1 + side && x1 > 0.0 && x0 < map.size.0 {
+                    rect x=(unit(x0)) y=(unit(y - 0.5 * side)) width=(unit(x1 - x0)) height=(unit(side + 0.5)) {}
+                }
+            }
+        }
+    }
+}
+
+/// Where a value that changes its sign between two places is zero.
+fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
+    if (a.1 > 0.0) == (b.1 > 0.0) { b.0 } else { a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1) }
+}
+
+/// The ground under a bridge's axis, and the water.
+pub(super) fn ground(scenario: &Scenario, site: &Site, map: &Map, bridge: &Bridge) -> Markup {
+    let axis = map.view.right;
+    let middle = map.view.at(bridge.centre_m).0;
+    let from = map.corner_m.0;
+    let to = from + map.size.0 / map.scale;
+    let count = ((to - from) / GROUND_STEP_M).ceil().clamp(1.0, 400.0) as usize;
+    let half = 0.5 * scenario.terrain.size_m;
+    let profile = (0..=count).map(|k| {
+        let along = from + (to - from) * k as f64 / count as f64;
+        let at = bridge.centre_m + axis * (along - middle);
+        let up = site.ground_up_m(at.east().clamp(-half, half), at.north().clamp(-half, half));
+        map.on_sheet((along, up))
+    });
+    let mut corners = vec![(0.0, map.size.1)];
+    corners.extend(profile.map(|(x, y)| (x, y.min(map.size.1))));
+    corners.push((map.size.0, map.size.1));
+    let (_, water) = map.on_sheet((0.0, scenario.terrain.water_level_m));
+    html! {
+        rect.water x="0" y=(unit(water)) width=(unit(map.size.0)) height=(unit((map.size.1 - water).max(0.0))) {}
+        path.ground d=(line(&simplified(&corners, 0.3), true)) {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_shore_lies_where_the_depth_is_zero() {
+        assert_eq!(crossing((0.0, 1.0), (10.0, -4.0)), 2.0);
+    }
+}

@@ -1,0 +1,88 @@
+//! Box plots beside each other on one scale.
+
+use super::{line, sheet, ticks, unit};
+use crate::report::words;
+use crate::statistics::BoxPlot;
+use maud::{Markup, html};
+
+const LEFT: f64 = 40.0;
+const TOP: f64 = 10.0;
+const BOTTOM: f64 = 190.0;
+const STEP: f64 = 56.0;
+const HALF: f64 = 15.0;
+
+/// One box with its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Named<'a> {
+    /// Name below it.
+    pub name: String,
+    /// The box.
+    pub plot: &'a BoxPlot,
+}
+
+/// Height of a value on a scale from `low` to `high`.
+#[must_use]
+pub fn y_of(value: f64, (low, high): (f64, f64)) -> f64 {
+    let share = if high > low { (value - low) / (high - low) } else { 0.5 };
+    BOTTOM - (BOTTOM - TOP) * share.clamp(0.0, 1.0)
+}
+
+/// Boxes on a scale from 0 to `most`.
+#[must_use]
+pub fn boxes(named: &[Named<'_>], most: f64, title: &str) -> Markup {
+    // Few boxes are not drawn larger than many.
+    let width = LEFT + STEP * named.len().max(5) as f64 + 10.0;
+    let y = |value: f64| y_of(value, (0.0, most));
+    sheet(
+        (width, BOTTOM + 26.0),
+        title,
+        "boxes",
+        &html! {
+            @for tick in ticks(most, 5) {
+                path.grid d=(line(&[(LEFT, y(tick)), (width, y(tick))], false)) {}
+                text.tick x=(unit(LEFT - 6.0)) y=(unit(y(tick) + 4.0)) text-anchor="end" { (words::number(tick, 0)) }
+            }
+            @for (k, one) in named.iter().enumerate() {
+                @let x = LEFT + STEP * (k as f64 + 0.5);
+                @let b = one.plot;
+                path.whisker d={
+                    (line(&[(x, y(b.high_whisker)), (x, y(b.q3))], false)) (line(&[(x, y(b.q1)), (x, y(b.low_whisker))], false))
+                    (line(&[(x - 7.0, y(b.high_whisker)), (x + 7.0, y(b.high_whisker))], false))
+                    (line(&[(x - 7.0, y(b.low_whisker)), (x + 7.0, y(b.low_whisker))], false))
+                } {}
+                rect.box x=(unit(x - HALF)) y=(unit(y(b.q3))) width=(unit(2.0 * HALF)) height=(unit((y(b.q1) - y(b.q3)).max(1.0))) {
+                    title { (one.name) ": median " (words::number(b.median, 1)) ", quartiles " (words::number(b.q1, 1)) " to " (words::number(b.q3, 1)) ", " (b.n) " people" }
+                }
+                path.median d=(line(&[(x - HALF, y(b.median)), (x + HALF, y(b.median))], false)) {}
+                path.mean d=(line(&[(x - 4.0, y(b.mean) - 4.0), (x + 4.0, y(b.mean) + 4.0)], false)) {}
+                path.mean d=(line(&[(x - 4.0, y(b.mean) + 4.0), (x + 4.0, y(b.mean) - 4.0)], false)) {}
+                @for place in places(&b.outliers, y) { circle.outlier cx=(unit(x)) cy=(place) r="3" {} }
+                text.tick x=(unit(x)) y=(unit(BOTTOM + 18.0)) text-anchor="middle" { (one.name) }
+            }
+        },
+    )
+}
+
+/// Places of the outliers (ascending) on the sheet, to a whole unit: those that fall onto one another are one circle.
+fn places(outliers: &[f64], y: impl Fn(f64) -> f64) -> Vec<String> {
+    let mut places: Vec<String> = outliers.iter().map(|value| unit(y(*value).round())).collect();
+    places.dedup();
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::box_plot;
+
+    #[test]
+    fn exact_a_box_stands_between_its_quartiles_with_the_outlier_beyond() {
+        assert_eq!([0.0, 50.0, 100.0].map(|value| y_of(value, (0.0, 100.0))), [190.0, 100.0, 10.0]);
+        let plot = box_plot(&[50.0, 50.0, 50.0, 60.0, 70.0, 70.0, 70.0, 0.0]).unwrap();
+        assert_eq!((plot.q1, plot.median, plot.q3, plot.outliers.len()), (50.0, 55.0, 70.0, 1));
+        let figure = boxes(&[Named { name: "<1>".into(), plot: &plot }], 100.0, "t").into_string();
+        assert!(figure.contains("class=\"box\" x=\"53\" y=\"64\" width=\"30\" height=\"36\""), "{figure}");
+        assert_eq!(places(&[1.0, 1.4, 3.0], |value| value), ["1", "3"]);
+        assert!(figure.contains("cy=\"190\"") && figure.contains("&lt;1&gt;"), "{figure}");
+    }
+}

@@ -1,0 +1,55 @@
+//! A histogram of one score, with the mean marked.
+
+use super::{line, sheet, ticks, unit};
+use crate::report::words;
+use crate::statistics::Bin;
+use maud::{Markup, html};
+
+const SIZE: (f64, f64) = (312.0, 150.0);
+const LEFT: f64 = 44.0;
+const RIGHT: f64 = 290.0;
+const TOP: f64 = 8.0;
+const BOTTOM: f64 = 122.0;
+
+/// Bars of the bins, side by side.
+#[must_use]
+pub fn histogram(bins: &[Bin], mean: f64, title: &str) -> Markup {
+    let (from, to) = (bins.first().map_or(0.0, |bin| bin.from), bins.last().map_or(1.0, |bin| bin.to));
+    let most = bins.iter().map(|bin| bin.count).max().unwrap_or(0).max(2) as f64;
+    let x = |value: f64| LEFT + (RIGHT - LEFT) * if to > from { ((value - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+    let y = |count: f64| BOTTOM - (BOTTOM - TOP) * count / most;
+    sheet(
+        SIZE,
+        title,
+        "histogram",
+        &html! {
+            // Counts are whole: an axis up to 2 has no half.
+            @for tick in ticks(most, 4).into_iter().filter(|tick| tick.fract() == 0.0) {
+                path.grid d=(line(&[(LEFT, y(tick)), (RIGHT, y(tick))], false)) {}
+                text.tick x=(unit(LEFT - 5.0)) y=(unit(y(tick) + 4.0)) text-anchor="end" { (words::number(tick, 0)) }
+            }
+            @for bin in bins.iter().filter(|bin| bin.count > 0) {
+                rect.bar x=(unit(x(bin.from) + 0.5)) y=(unit(y(bin.count as f64))) width=(unit(x(bin.to) - x(bin.from) - 1.0)) height=(unit(BOTTOM - y(bin.count as f64))) {
+                    title { (bin.count) " from " (words::number(bin.from, 0)) " to " (words::number(bin.to, 0)) }
+                }
+            }
+            path.median d=(line(&[(x(mean), TOP), (x(mean), BOTTOM)], false)) { title { "mean " (words::number(mean, 1)) } }
+            @for tick in ticks(to, 4) { text.tick x=(unit(x(tick))) y=(unit(BOTTOM + 17.0)) text-anchor="middle" { (words::number(tick, 0)) } }
+        },
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_bar_is_as_tall_as_its_count() {
+        let bins = [Bin { from: 0.0, to: 50.0, count: 1 }, Bin { from: 50.0, to: 100.0, count: 2 }];
+        let figure = histogram(&bins, 75.0, "t").into_string();
+        assert!(figure.contains("x=\"44.5\" y=\"65\" width=\"122\" height=\"57\""), "{figure}");
+        assert!(figure.contains("x=\"167.5\" y=\"8\" width=\"122\" height=\"114\""), "{figure}");
+        assert!(figure.contains("M228.5 8L228.5 122"), "{figure}");
+        assert!(!histogram(&[], 0.0, "t").into_string().contains("NaN"));
+    }
+}

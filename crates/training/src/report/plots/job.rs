@@ -1,0 +1,115 @@
+//! A job drawn without a flight: what a scenario's page shows, and the ground that a live flight moves on.
+
+use super::backdrop::{ground, lake};
+use super::map::{Map, extent, nearness, north, pad, references, scale, structure};
+use super::sheet;
+use crate::report::outline::View;
+use maud::{Markup, html};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{Bridge, Scenario};
+use spandrel_model::site::Site;
+
+/// Room around a bridge in its side view, m.
+const BESIDE_M: f64 = 25.0;
+/// Room above it, m: a drone over the deck stays on the sheet.
+const ABOVE_M: f64 = 15.0;
+
+/// From above, north up.
+#[must_use]
+pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
+    let map = Map::around(View::plan(), &extent(scenario, site));
+    sheet(
+        map.size,
+        "The job from above, north up",
+        "map",
+        &html! {
+            (lake(scenario, site, &map))
+            (structure(site, &map, None))
+            (references(scenario, &map, None))
+            (pad(scenario, &map))
+            (north(&map))
+            (drone(&map, None))
+            (scale(&map))
+        },
+    )
+}
+
+/// One bridge from its side.
+#[must_use]
+pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
+    let view = View::side(bridge);
+    let water_m = scenario.terrain.water_level_m;
+    let prefix = format!("{}/", bridge.name);
+    let members = site.members().iter().filter(|member| member.name.starts_with(&prefix));
+    let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
+    points.retain(|point| point.up() > water_m - 6.0);
+    let top_m = points.iter().map(|point| point.up()).fold(water_m, f64::max);
+    let half_m = 0.5 * bridge.deck_length_m() + BESIDE_M;
+    for along_m in [-half_m, half_m] {
+        let end = bridge.centre_m + view.right * along_m;
+        points.push(Vec3::new(end.east(), end.north(), water_m - 4.0));
+        points.push(Vec3::new(end.east(), end.north(), top_m + ABOVE_M));
+    }
+    let map = Map::around(view, &points);
+    let title = format!("The bridge '{}' from the side", bridge.name);
+    sheet(
+        map.size,
+        &title,
+        "map",
+        &html! {
+            (ground(scenario, site, &map, bridge))
+            (structure(site, &map, Some(&prefix)))
+            (references(scenario, &map, Some(&bridge.name)))
+            (drone(&map, Some(bridge)))
+            (scale(&map))
+        },
+    )
+}
+
+/// A job without bridges, from the south.
+#[must_use]
+pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
+    let pad_m = scenario.ground_team.pad_m;
+    let mut points = extent(scenario, site);
+    points.push(Vec3::new(pad_m.east() - BESIDE_M, pad_m.north(), pad_m.up()));
+    points.push(Vec3::new(pad_m.east() + BESIDE_M, pad_m.north(), pad_m.up() + ABOVE_M));
+    let map = Map::around(View::from_south(), &points);
+    let body = html! { (structure(site, &map, None)) (references(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
+    sheet(map.size, "The job from the south", "map", &body)
+}
+
+/// The drone and its trail, which a script moves; hidden until it does, and in the side view of a bridge that it is not near.
+fn drone(map: &Map, bridge: Option<&Bridge>) -> Markup {
+    html! {
+        path.trail data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] d="" {}
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] { circle r="7" {} circle.core r="2.5" {} }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::scenario::read;
+
+    fn job(text: &str) -> (Scenario, Site) {
+        let scenario = read("job.toml", text, &|_| Err("none".into())).unwrap();
+        let site = Site::build(&scenario, 1);
+        (scenario, site)
+    }
+
+    #[test]
+    fn exact_drawings_show_members_paths_and_a_drone_to_move() {
+        let (scenario, site) = job(include_str!("../../../../../scenarios/two-bridges.toml"));
+        let plan = job_plan(&scenario, &site).into_string();
+        assert_eq!((plan.matches("reference path of task").count(), plan.matches("data-near").count()), (4, 0));
+        assert!(plan.contains("class=\"lake\"") && plan.contains("class=\"structure\""));
+        for bridge in &scenario.bridges {
+            let side = job_side(&scenario, &site, bridge).into_string();
+            assert!(side.contains("class=\"ground\"") && side.contains("data-matrix"));
+            assert_eq!(side.matches("data-near=").count(), 2, "drone and trail belong to flights near this bridge");
+            assert!(side.matches("reference path of task").count() < 4, "only those at this bridge");
+        }
+        let (scenario, site) = job(include_str!("../../../../../scenarios/drill-hover.toml"));
+        assert!(job_south(&scenario, &site).into_string().contains("data-matrix"));
+    }
+}

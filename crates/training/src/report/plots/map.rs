@@ -1,0 +1,335 @@
+//! The flight drawn on the site in a parallel view: silhouettes of the members, reference paths, the track in one of three colourings,
+//! marks for pictures, crashes and defects, and the drone, which the page's slider moves.
+
+use super::backdrop::{ground, lake};
+use super::colours::{COLOURINGS, track};
+use super::{line, sheet, simplified, unit};
+use crate::report::Review;
+use crate::report::outline::{View, outlines};
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{Bridge, Scenario, Task};
+use spandrel_model::site::Site;
+
+/// Width of the sheet.
+const WIDTH: f64 = 900.0;
+const MARGIN: f64 = 26.0;
+/// Tallest and flattest sheet.
+const HEIGHTS: (f64, f64) = (110.0, 760.0);
+/// What is smaller on the sheet is left out.
+const LEAST: f64 = 1.6;
+/// A track is drawn to this precision on the sheet.
+pub(super) const TRACK_WITHIN: f64 = 0.35;
+/// Farther to the side of a bridge than this the flight is not drawn in its elevation, m.
+const BESIDE_M: f64 = 45.0;
+/// With more pictures than this, their marks are small and without numbers.
+const MANY: usize = 40;
+
+/// A view fitted to a sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Map {
+    /// The view.
+    pub view: View,
+    /// Left and upper end of what is shown, m right and up.
+    pub(super) corner_m: (f64, f64),
+    /// Units of the sheet per metre.
+    pub(super) scale: f64,
+    /// Size of the sheet.
+    pub size: (f64, f64),
+}
+
+impl Map {
+    /// Fits a view to points.
+    #[must_use]
+    pub fn around(view: View, points_m: &[Vec3<Enu>]) -> Self {
+        let flat: Vec<(f64, f64)> = points_m.iter().map(|point| view.at(*point)).collect();
+        let span = |f: fn(&(f64, f64)) -> f64| {
+            let (low, high) = flat.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            if low <= high { (low, high) } else { (-1.0, 1.0) }
+        };
+        let ((left, right), (low, high)) = (span(|p| p.0), span(|p| p.1));
+        let (wide, tall) = ((right - left).max(10.0), (high - low).max(5.0));
+        let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((HEIGHTS.1 - 2.0 * MARGIN) / tall);
+        let height = (tall * scale + 2.0 * MARGIN).max(HEIGHTS.0);
+        // What does not fill the sheet stands in its middle.
+        let aside = (0.5 * (WIDTH / scale - (right - left)), 0.5 * (height / scale - (high - low)));
+        Self { view, corner_m: (left - aside.0, high + aside.1), scale, size: (WIDTH, height) }
+    }
+
+    /// Where a point of the site lies on the sheet.
+    #[must_use]
+    pub fn at(&self, point_m: Vec3<Enu>) -> (f64, f64) {
+        self.on_sheet(self.view.at(point_m))
+    }
+
+    pub(super) fn on_sheet(&self, (right_m, up_m): (f64, f64)) -> (f64, f64) {
+        ((right_m - self.corner_m.0) * self.scale, (self.corner_m.1 - up_m) * self.scale)
+    }
+
+    /// The same for the page's script: x = m0 e + m1 n + m2 u + m3, y = m4 e + m5 n + m6 u + m7.
+    #[must_use]
+    pub fn matrix(&self) -> String {
+        let (r, u, k) = (self.view.right.array(), self.view.up.array(), self.scale);
+        let rows = [[r[0] * k, r[1] * k, r[2] * k, -self.corner_m.0 * k], [-u[0] * k, -u[1] * k, -u[2] * k, self.corner_m.1 * k]];
+        rows.iter().flatten().map(|value| format!("{value:.4}")).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// From above.
+#[must_use]
+pub fn plan(review: &Review) -> Markup {
+    let map = Map::around(View::plan(), &everything(review));
+    let all = |_: &Frame| true;
+    let body = html! {
+        (lake(&review.scenario, &review.site, &map))
+        (structure(&review.site, &map, None))
+        (job(review, &map, None, &all))
+        (north(&map))
+    };
+    sheet(map.size, "Flight from above, north up", "map", &body)
+}
+
+/// From above and aside.
+#[must_use]
+pub fn oblique(review: &Review) -> Markup {
+    let map = Map::around(View::oblique(25.0, 22.0), &everything(review));
+    let all = |_: &Frame| true;
+    sheet(
+        map.size,
+        "Flight from above and aside, looking north",
+        "map",
+        &html! {
+            (structure(&review.site, &map, None))
+            (job(review, &map, None, &all))
+        },
+    )
+}
+
+/// One bridge from its side, with the flight near it.
+#[must_use]
+pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
+    let near = is_beside(bridge);
+    let map = beside(&review.scenario, &review.site, bridge, review.frames.iter().filter(|frame| near(frame)));
+    let prefix = format!("{}/", bridge.name);
+    let title = format!("Flight at the bridge '{}' from the side", bridge.name);
+    sheet(
+        map.size,
+        &title,
+        "map",
+        &html! {
+            (ground(&review.scenario, &review.site, &map, bridge))
+            (structure(&review.site, &map, Some(&prefix)))
+            (job(review, &map, Some(bridge), &near))
+        },
+    )
+}
+
+/// The same for the page's script: east and north of the middle, of the axis along the bridge, and how far along and beside counts, m.
+pub(super) fn nearness(bridge: &Bridge) -> String {
+    let axis = View::side(bridge).right;
+    let half_m = 0.5 * bridge.deck_length_m() + 25.0;
+    [bridge.centre_m.east(), bridge.centre_m.north(), axis.east(), axis.north(), half_m, BESIDE_M]
+        .map(|value| format!("{value:.3}"))
+        .join(" ")
+}
+
+/// The flight belongs into the side view of this bridge.
+pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
+    let (view, centre_m) = (View::side(bridge), bridge.centre_m);
+    let (axis, towards) = (view.right, view.towards());
+    let half_m = 0.5 * bridge.deck_length_m() + 25.0;
+    move |frame: &Frame| {
+        let to = frame.position_m - centre_m;
+        to.dot(axis).abs() < half_m && to.dot(towards).abs() < BESIDE_M
+    }
+}
+
+/// The side view of a bridge, with room for these frames.
+pub(super) fn beside<'a>(scenario: &Scenario, site: &Site, bridge: &Bridge, flown: impl Iterator<Item = &'a Frame>) -> Map {
+    let prefix = format!("{}/", bridge.name);
+    let members = site.members().iter().filter(|member| member.name.starts_with(&prefix));
+    let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
+    points.extend(flown.map(|frame| frame.position_m));
+    let water_m = scenario.terrain.water_level_m;
+    // Foundations deep in the ground would make all else small.
+    points.retain(|point| point.up() > water_m - 6.0);
+    points.push(Vec3::new(bridge.centre_m.east(), bridge.centre_m.north(), water_m - 4.0));
+    Map::around(View::side(bridge), &points)
+}
+
+/// A job without bridges, from the south.
+#[must_use]
+pub fn from_south(review: &Review) -> Markup {
+    let map = Map::around(View::from_south(), &everything(review));
+    let all = |_: &Frame| true;
+    sheet(
+        map.size,
+        "Flight from the south",
+        "map",
+        &html! { (structure(&review.site, &map, None)) (job(review, &map, None, &all)) },
+    )
+}
+
+/// One bridge with its defects only: what was found and what was missed.
+#[must_use]
+pub fn findings(review: &Review, bridge: &Bridge, view: View, title: &str) -> Markup {
+    let prefix = format!("{}/", bridge.name);
+    let water_m = review.scenario.terrain.water_level_m;
+    let members = review.site.members().iter().filter(|member| member.name.starts_with(&prefix));
+    let points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
+    let map = Map::around(view, &points.into_iter().filter(|point| point.up() > water_m - 6.0).collect::<Vec<_>>());
+    let mine = review.defects.iter().filter(|fate| fate.defect.member.starts_with(&prefix));
+    sheet(
+        map.size,
+        title,
+        "map",
+        &html! {
+            (structure(&review.site, &map, Some(&prefix)))
+            @for fate in mine {
+                @let (x, y) = map.at(fate.defect.position_m);
+                g transform={ "translate(" (unit(x)) " " (unit(y)) ")" } {
+                    title { "defect " (fate.defect.id) ": " (fate.words()) }
+                    @if fate.found_by.is_some() { circle.found r="9" {} } @else { path.missed d="M0 -12L12 0L0 12L-12 0Z" {} }
+                    text.mark y="4" text-anchor="middle" { (fate.defect.id) }
+                }
+            }
+        },
+    )
+}
+
+pub(super) fn everything(review: &Review) -> Vec<Vec3<Enu>> {
+    let mut all = extent(&review.scenario, &review.site);
+    let water_m = review.scenario.terrain.water_level_m;
+    all.extend(review.frames.iter().map(|frame| frame.position_m).filter(|point| point.up() > water_m - 6.0));
+    all
+}
+
+/// Everything that a job consists of, above its foundations.
+pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
+    let water_m = scenario.terrain.water_level_m;
+    let members = site.members().iter().flat_map(|member| member.solid.vertices_m.iter().copied());
+    let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied());
+    members.chain(paths).chain([scenario.ground_team.pad_m]).filter(|point| point.up() > water_m - 6.0).collect()
+}
+
+pub(super) fn structure(site: &Site, map: &Map, prefix: Option<&str>) -> Markup {
+    let of = |name: &str| prefix.is_none_or(|prefix| name.starts_with(prefix));
+    let members = site.members().iter().filter(|member| of(&member.name));
+    let shapes = outlines(members, &map.view, LEAST / map.scale);
+    html! {
+        g.structure {
+            @for shape in &shapes {
+                path d=(line(&shape.corners.iter().map(|corner| map.on_sheet(*corner)).collect::<Vec<_>>(), true)) {}
+            }
+        }
+    }
+}
+
+/// Reference paths (of one bridge or of all), track, marks, the drone and a scale.
+fn job(review: &Review, map: &Map, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+    html! {
+        (references(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
+        @for (layer, (_, class)) in COLOURINGS.iter().enumerate() {
+            g class={ "flown " (class) } {
+                @for (colour, data) in track(review, map, layer, shown) { path class=(colour) d=(data) {} }
+            }
+        }
+        (marks(review, map, shown))
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] { circle r="7" {} circle.core r="2.5" {} }
+        (scale(map))
+    }
+}
+
+/// Reference paths of one bridge, or of all.
+pub(super) fn references(scenario: &Scenario, map: &Map, bridge: Option<&str>) -> Markup {
+    let of = |task: &&Task| {
+        let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());
+        bridge.is_none() || own.is_none() || own == bridge
+    };
+    let reference = |task: &Task| {
+        let points: Vec<(f64, f64)> = task.path_m.iter().map(|point| map.at(*point)).collect();
+        line(&simplified(&points, TRACK_WITHIN), task.closed)
+    };
+    html! {
+        g.reference { @for task in scenario.tasks.iter().filter(of) { path d=(reference(task)) { title { "reference path of task " (task.id) } } } }
+    }
+}
+
+fn marks(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+    let place = |point: Vec3<Enu>| {
+        let (x, y) = map.at(point);
+        format!("translate({} {})", unit(x), unit(y))
+    };
+    html! {
+        (pad(&review.scenario, map))
+        @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
+            g.crash transform=(place(review.frames[crash.frame].position_m)) {
+                path d="M-5 -5L5 5M5 -5L-5 5" {}
+                title { "crash with " (words::contact(crash.with)) " at " (words::clock(review.t_s(crash.frame))) }
+            }
+        }
+        @for picture in &review.pictures {
+            @let frame = &review.frames[(picture.frame as usize - 1).min(review.frames.len() - 1)];
+            @if shown(frame) {
+                g class={ "picture " (picture.verdict.class()) } transform=(place(frame.position_m)) {
+                    @if review.pictures.len() > MANY { circle r="4.5" {} } @else {
+                        circle r="8.5" {}
+                        text.mark y="3.8" text-anchor="middle" { (picture.number) }
+                    }
+                    title { "picture " (picture.number) ": " (picture.verdict.name()) }
+                }
+            }
+        }
+    }
+}
+
+/// Where flights begin and end.
+pub(super) fn pad(scenario: &Scenario, map: &Map) -> Markup {
+    let (x, y) = map.at(scenario.ground_team.pad_m);
+    html! { g.pad transform={ "translate(" (unit(x)) " " (unit(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { "pad" } } }
+}
+
+pub(super) fn north(map: &Map) -> Markup {
+    html! {
+        g.north transform={ "translate(" (unit(map.size.0 - 24.0)) " 34)" } {
+            path d="M0 -18L7 6L0 1L-7 6Z" {}
+            text.tick y="22" text-anchor="middle" { "N" }
+        }
+    }
+}
+
+pub(super) fn scale(map: &Map) -> Markup {
+    let length_m = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0].into_iter().rfind(|m| m * map.scale <= 160.0).unwrap_or(1.0);
+    let y = map.size.1 - 14.0;
+    html! {
+        g.scale {
+            path d=(line(&[(16.0, y - 5.0), (16.0, y), (16.0 + length_m * map.scale, y), (16.0 + length_m * map.scale, y - 5.0)], false)) {}
+            text.tick x=(unit(22.0 + length_m * map.scale)) y=(unit(y)) { (words::number(length_m, 0)) " m" }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_map_fits_its_points_keeps_proportions_and_its_matrix_agrees() {
+        let corners = [Vec3::new(-50.0, 10.0, 0.0), Vec3::new(50.0, 60.0, 20.0)];
+        let map = Map::around(View::plan(), &corners);
+        for point in corners {
+            let (x, y) = map.at(point);
+            assert!(x >= MARGIN - 1e-9 && x <= map.size.0 - MARGIN + 1e-9, "{x}");
+            assert!(y >= MARGIN - 1e-9 && y <= map.size.1 - MARGIN + 1e-9, "{y}");
+            let m: Vec<f64> = map.matrix().split(' ').map(|value| value.parse().unwrap()).collect();
+            let [e, n, u] = point.array();
+            // Four digits after the point, over at most 60 m.
+            assert!((m[0] * e + m[1] * n + m[2] * u + m[3] - x).abs() < 0.02);
+            assert!((m[4] * e + m[5] * n + m[6] * u + m[7] - y).abs() < 0.02);
+        }
+        let (a, b) = (map.at(corners[0]), map.at(corners[1]));
+        assert!(((b.0 - a.0) / 100.0 - (a.1 - b.1) / 50.0).abs() < 1e-9, "one scale for both axes; north is up");
+    }
+}

@@ -1,0 +1,133 @@
+//! Figures as SVG, one file each. Colours are classes of the style sheet, so that light, dark and print have theirs; sizes are in units of
+//! the figure's own sheet. What a figure shows its table tells again.
+
+mod backdrop;
+pub mod bars;
+pub mod boxes;
+pub mod colours;
+pub mod histogram;
+pub mod intervals;
+pub mod job;
+pub mod likert;
+pub mod lines;
+pub mod map;
+pub mod model;
+pub mod overlay;
+pub mod practice;
+pub mod radar;
+pub mod strips;
+
+use maud::{Markup, html};
+
+/// A coordinate with one digit, without a needless point.
+#[must_use]
+pub fn unit(value: f64) -> String {
+    let text = format!("{value:.1}");
+    let text = text.strip_suffix(".0").unwrap_or(&text);
+    if text == "-0" { "0".into() } else { text.to_owned() }
+}
+
+/// Path data of a polyline.
+#[must_use]
+pub fn line(points: &[(f64, f64)], closed: bool) -> String {
+    let mut data = String::new();
+    for (k, (x, y)) in points.iter().enumerate() {
+        data.push(if k == 0 { 'M' } else { 'L' });
+        data.push_str(&unit(*x));
+        data.push(' ');
+        data.push_str(&unit(*y));
+    }
+    if closed && !points.is_empty() {
+        data.push('Z');
+    }
+    data
+}
+
+/// Points of a polyline that matter: no point left out is farther than `within` from what is drawn (Ramer, Douglas, Peucker).
+#[must_use]
+pub fn simplified(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
+    if points.len() < 3 {
+        return points.to_vec();
+    }
+    let last = points.len() - 1;
+    let mut keep = vec![false; points.len()];
+    (keep[0], keep[last]) = (true, true);
+    let mut spans = vec![(0, last)];
+    while let Some((from, to)) = spans.pop() {
+        let farthest = (from + 1..to).map(|k| (k, away(points[k], points[from], points[to]))).max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((k, distance)) = farthest
+            && distance > within
+        {
+            keep[k] = true;
+            spans.extend([(from, k), (k, to)]);
+        }
+    }
+    points.iter().zip(keep).filter_map(|(point, kept)| kept.then_some(*point)).collect()
+}
+
+/// Distance of a point to a segment.
+fn away(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    let length_squared = dx * dx + dy * dy;
+    let t = if length_squared > 0.0 { (((p.0 - a.0) * dx + (p.1 - a.1) * dy) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+    spandrel_model::math::hypot(p.0 - a.0 - t * dx, p.1 - a.1 - t * dy)
+}
+
+/// Round steps of an axis from 0 to `most`: at most `about` + 1 of them.
+#[must_use]
+pub fn ticks(most: f64, about: usize) -> Vec<f64> {
+    if most.is_nan() || most <= 0.0 || about == 0 {
+        return vec![0.0];
+    }
+    let rough = most / about as f64;
+    let mut decade = 1.0;
+    while decade * 10.0 <= rough {
+        decade *= 10.0;
+    }
+    while decade > rough {
+        decade /= 10.0;
+    }
+    let step = [1.0, 2.0, 5.0, 10.0].map(|k| k * decade).into_iter().find(|step| *step >= rough).unwrap_or(10.0 * decade);
+    (0..=about).map(|k| k as f64 * step).take_while(|tick| *tick <= most * (1.0 + 1e-9)).collect()
+}
+
+/// A figure with a title that screen readers read.
+#[must_use]
+pub fn sheet((width, height): (f64, f64), title: &str, class: &str, body: &Markup) -> Markup {
+    html! {
+        svg class=(class) viewBox={ "0 0 " (unit(width)) " " (unit(height)) } role="img" aria-label=(title) {
+            title { (title) }
+            (body)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_path_data_is_short() {
+        assert_eq!(line(&[(0.0, -0.04), (1.25, 10.0)], true), "M0 0L1.2 10Z");
+        assert_eq!(line(&[], true), "");
+    }
+
+    #[test]
+    fn exact_a_straight_line_keeps_its_ends_and_a_corner_stays() {
+        let straight: Vec<(f64, f64)> = (0..100).map(|k| (f64::from(k), 0.0)).collect();
+        assert_eq!(simplified(&straight, 0.1), [(0.0, 0.0), (99.0, 0.0)]);
+        let corner = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0), (2.0, 2.0)];
+        assert_eq!(simplified(&corner, 0.1), [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0)]);
+        assert_eq!(simplified(&[], 0.1), []);
+        assert_eq!(simplified(&[(1.0, 1.0)], 0.1), [(1.0, 1.0)]);
+    }
+
+    #[test]
+    fn exact_axes_have_round_steps() {
+        assert_eq!(ticks(100.0, 5), [0.0, 20.0, 40.0, 60.0, 80.0, 100.0]);
+        assert_eq!(ticks(7.0, 4), [0.0, 2.0, 4.0, 6.0]);
+        assert_eq!(ticks(25.0, 6), [0.0, 5.0, 10.0, 15.0, 20.0, 25.0]);
+        assert_eq!(ticks(0.3, 3), [0.0, 0.1, 0.2, 0.30000000000000004]);
+        assert_eq!(ticks(0.0, 3), [0.0]);
+    }
+}

@@ -1,0 +1,86 @@
+//! Two flights of one job on the same drawing, each in its own colour, with the drone of each for the page's slider.
+
+use super::backdrop::{ground, lake};
+use super::colours::plain;
+use super::map::{Map, beside, everything, is_beside, nearness, north, pad, references, scale, structure};
+use super::{sheet, unit};
+use crate::report::Review;
+use crate::report::outline::View;
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::scenario::Bridge;
+
+/// From above, north up.
+#[must_use]
+pub fn plan(both: [&Review; 2]) -> Markup {
+    let map = Map::around(View::plan(), &both.map(everything).concat());
+    sheet(
+        map.size,
+        "Both flights from above, north up",
+        "map",
+        &html! {
+            (lake(&both[0].scenario, &both[0].site, &map))
+            (structure(&both[0].site, &map, None))
+            (flights(both, &map, None, &|_| true))
+            (north(&map))
+        },
+    )
+}
+
+/// One bridge from its side, with what both flew near it.
+#[must_use]
+pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
+    let near = is_beside(bridge);
+    let [first, _] = both;
+    let flown = both.into_iter().flat_map(|review| review.frames.iter()).filter(|frame| near(frame));
+    let map = beside(&first.scenario, &first.site, bridge, flown);
+    sheet(
+        map.size,
+        &format!("Both flights at the bridge '{}' from the side", bridge.name),
+        "map",
+        &html! {
+            (ground(&first.scenario, &first.site, &map, bridge))
+            (structure(&first.site, &map, Some(&format!("{}/", bridge.name))))
+            (flights(both, &map, Some(bridge), &near))
+        },
+    )
+}
+
+/// A job without bridges, from the south.
+#[must_use]
+pub fn from_south(both: [&Review; 2]) -> Markup {
+    let map = Map::around(View::from_south(), &both.map(everything).concat());
+    let body = html! { (structure(&both[0].site, &map, None)) (flights(both, &map, None, &|_| true)) };
+    sheet(map.size, "Both flights from the south", "map", &body)
+}
+
+fn flights(both: [&Review; 2], map: &Map, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+    html! {
+        (references(&both[0].scenario, map, bridge.map(|bridge| bridge.name.as_str())))
+        @for (k, review) in both.into_iter().enumerate() {
+            path class={ "overlaid line-" (k + 1) } d=(plain(review, map, shown)) { title { "session " (k + 1) } }
+        }
+        (pad(&both[0].scenario, map))
+        @for (k, review) in both.into_iter().enumerate() { (crashes(k, review, map, shown)) }
+        @for k in 0..2 {
+            g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) data-near=[bridge.map(nearness)] {
+                circle r="9" {}
+                text.mark y="4" text-anchor="middle" { (k + 1) }
+            }
+        }
+        (scale(map))
+    }
+}
+
+fn crashes(k: usize, review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+    html! {
+        @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
+            @let (x, y) = map.at(review.frames[crash.frame].position_m);
+            g class={ "crash of-" (k + 1) } transform={ "translate(" (unit(x)) " " (unit(y)) ")" } {
+                path d="M-5 -5L5 5M5 -5L-5 5" {}
+                title { "session " (k + 1) ": crash with " (words::contact(crash.with)) " at " (words::clock(review.t_s(crash.frame))) }
+            }
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! A score by repetition with the learning curve through it, one step beyond the last.
+
+use super::{line, sheet, ticks, unit};
+use crate::report::words;
+use crate::statistics::LearningCurve;
+use maud::{Markup, html};
+
+const SIZE: (f64, f64) = (312.0, 170.0);
+const LEFT: f64 = 34.0;
+const RIGHT: f64 = 298.0;
+const TOP: f64 = 8.0;
+const BOTTOM: f64 = 140.0;
+/// Points of the curve between two repetitions.
+const FINE: usize = 6;
+/// Repetitions that are numbered at most.
+const NUMBERED: usize = 10;
+
+/// What is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Practice<'a> {
+    /// The score, repetition by repetition.
+    pub values: &'a [f64],
+    /// The curve through them.
+    pub curve: &'a LearningCurve,
+    /// Curves of single people behind it, each as far as it was flown.
+    pub others: &'a [LearningCurve],
+    /// The most that the score can be.
+    pub most: f64,
+}
+
+/// Where the n-th repetition (from 1) of `count` with this value lies; the place after the last is that of the next.
+#[must_use]
+pub fn place(repetition: f64, count: usize, value: f64, most: f64) -> (f64, f64) {
+    let share = (repetition - 1.0) / count.max(1) as f64;
+    (LEFT + 8.0 + (RIGHT - LEFT - 16.0) * share.clamp(0.0, 1.0), BOTTOM - (BOTTOM - TOP) * (value / most).clamp(0.0, 1.0))
+}
+
+/// Dots for what was flown, the curve, and a ring where it expects the next.
+#[must_use]
+pub fn practice(drawn: &Practice<'_>, title: &str) -> Markup {
+    let (count, most) = (drawn.values.len(), drawn.most);
+    let at = |repetition: f64, value: f64| place(repetition, count, value, most);
+    let along = |curve: &LearningCurve, last: usize| {
+        let steps = (0..=FINE * last.saturating_sub(1)).map(|k| 1.0 + k as f64 / FINE as f64);
+        line(&steps.map(|n| at(n, curve.at(n))).collect::<Vec<_>>(), false)
+    };
+    let step = (count + 1).div_ceil(NUMBERED).max(1);
+    sheet(
+        SIZE,
+        title,
+        "practice",
+        &html! {
+            @for tick in ticks(most, 4) {
+                @let (_, y) = at(1.0, tick);
+                path.grid d=(line(&[(LEFT, y), (RIGHT, y)], false)) {}
+                text.tick x=(unit(LEFT - 5.0)) y=(unit(y + 4.0)) text-anchor="end" { (words::number(tick, 0)) }
+            }
+            @for k in (1..=count + 1).step_by(step) {
+                text.tick x=(unit(at(k as f64, 0.0).0)) y=(unit(BOTTOM + 17.0)) text-anchor="middle" { (k) }
+            }
+            @for other in drawn.others { path.one-of-many d=(along(other, other.n.min(count))) {} }
+            path.fitted d=(along(drawn.curve, count + 1)) {}
+            @for (k, value) in drawn.values.iter().enumerate() {
+                @let (x, y) = at((k + 1) as f64, *value);
+                circle.dot-1 cx=(unit(x)) cy=(unit(y)) r="4" {}
+            }
+            @let (x, y) = at((count + 1) as f64, drawn.curve.next);
+            circle.expected cx=(unit(x)) cy=(unit(y)) r="4" { title { "expected next: " (words::number(drawn.curve.next.min(most), 1)) } }
+        },
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::learning_curve;
+
+    #[test]
+    fn exact_the_first_is_left_the_next_is_right_and_no_score_leaves_the_sheet() {
+        assert_eq!(place(1.0, 4, 0.0, 100.0), (42.0, BOTTOM));
+        assert_eq!(place(5.0, 4, 100.0, 100.0), (290.0, TOP));
+        assert_eq!(place(3.0, 4, 50.0, 100.0), (166.0, 74.0));
+        let values = [40.0, 60.0, 75.0, 88.0, 99.0];
+        let curve = learning_curve(&values).unwrap();
+        assert!(curve.next > 100.0, "{curve:?}");
+        let drawn = Practice { values: &values, curve: &curve, others: &[curve], most: 100.0 };
+        let figure = practice(&drawn, "<t>").into_string();
+        assert_eq!((figure.matches("class=\"dot-1\"").count(), figure.matches("one-of-many").count()), (5, 1));
+        assert!(figure.contains("class=\"expected\" cx=\"290\" cy=\"8\"") && figure.contains("&lt;t&gt;"), "{figure}");
+    }
+}

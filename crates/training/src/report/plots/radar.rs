@@ -1,0 +1,110 @@
+//! The Kiviat diagram: one spoke per score, 0 in the middle, 100 at the rim.
+
+use super::{line, sheet, unit};
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_model::math;
+
+const SIZE: (f64, f64) = (420.0, 360.0);
+const MIDDLE: (f64, f64) = (210.0, 186.0);
+const RADIUS: f64 = 118.0;
+
+/// One spoke.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spoke {
+    /// Name.
+    pub name: &'static str,
+    /// 0 to 100 of each session; `None` does not apply.
+    pub values: Vec<Option<f64>>,
+}
+
+/// Where `pct` of spoke `k` of `count` lies, from the middle, right and down; the first spoke points up, the others follow clockwise.
+#[must_use]
+pub fn place(k: usize, count: usize, pct: f64) -> (f64, f64) {
+    let (s, c) = math::sin_cos(math::TAU * k as f64 / count.max(1) as f64);
+    let r = RADIUS * pct / 100.0;
+    (r * s, -r * c)
+}
+
+/// The diagram of one session, or of several laid over each other.
+#[must_use]
+pub fn radar(spokes: &[Spoke], title: &str) -> Markup {
+    let count = spokes.len();
+    let at = |k: usize, pct: f64| {
+        let (x, y) = place(k, count, pct);
+        (MIDDLE.0 + x, MIDDLE.1 + y)
+    };
+    let ring = |pct: f64| line(&(0..count).map(|k| at(k, pct)).collect::<Vec<_>>(), true);
+    let sessions = spokes.iter().map(|spoke| spoke.values.len()).max().unwrap_or(0);
+    let shape = |session: usize| -> Vec<(f64, f64)> {
+        let value = |spoke: &Spoke| spoke.values.get(session).copied().flatten();
+        spokes.iter().enumerate().filter_map(|(k, spoke)| value(spoke).map(|pct| at(k, pct))).collect()
+    };
+    sheet(
+        SIZE,
+        title,
+        "radar",
+        &html! {
+            @for pct in [25.0, 50.0, 75.0, 100.0] {
+                path.grid d=(ring(pct)) {}
+                @if pct < 100.0 { text.tick x=(unit(MIDDLE.0 + 4.0)) y=(unit(MIDDLE.1 - RADIUS * pct / 100.0 + 4.0)) { (words::number(pct, 0)) } }
+            }
+            @for (k, spoke) in spokes.iter().enumerate() {
+                @let (x, y) = at(k, 100.0);
+                path.grid d=(line(&[MIDDLE, (x, y)], false)) {}
+                @let (lx, ly) = label(at(k, 114.0));
+                text.label x=(unit(lx)) y=(unit(ly + 4.0)) text-anchor=(anchor(lx)) { (spoke.name) }
+                text.value x=(unit(lx)) y=(unit(ly + 22.0)) text-anchor=(anchor(lx)) {
+                    (spoke.values.iter().map(|value| value.map_or("n/a".into(), |pct| words::number(pct, 0))).collect::<Vec<_>>().join(" / "))
+                }
+            }
+            @for session in 0..sessions {
+                path class={ "shape shape-" (session + 1) } d=(line(&shape(session), true)) {}
+                @for (x, y) in shape(session) { circle class={ "dot dot-" (session + 1) } cx=(unit(x)) cy=(unit(y)) r="4" {} }
+            }
+        },
+    )
+}
+
+/// Two lines of words stand above the upper rim, not on it.
+fn label((x, y): (f64, f64)) -> (f64, f64) {
+    (x, if y < MIDDLE.1 - RADIUS { y - 18.0 } else { y })
+}
+
+fn anchor(x: f64) -> &'static str {
+    if (x - MIDDLE.0).abs() < 20.0 {
+        "middle"
+    } else if x > MIDDLE.0 {
+        "start"
+    } else {
+        "end"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of libm's sine at the four quarters, units of the sheet.
+    const ROUNDING: f64 = 1e-12;
+
+    #[test]
+    fn exact_spokes_point_up_right_down_left_and_values_scale_them() {
+        for (k, (x, y)) in [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)].into_iter().enumerate() {
+            for pct in [0.0, 50.0, 100.0] {
+                let (px, py) = place(k, 4, pct);
+                assert!((px - x * RADIUS * pct / 100.0).abs() < ROUNDING && (py - y * RADIUS * pct / 100.0).abs() < ROUNDING);
+            }
+        }
+    }
+
+    #[test]
+    fn exact_the_polygon_goes_through_the_values_and_leaves_out_what_does_not_apply() {
+        let spoke = |name, value| Spoke { name, values: vec![value] };
+        let figure = radar(&[spoke("a", Some(100.0)), spoke("b", Some(50.0)), spoke("c", Some(0.0)), spoke("d", None)], "t");
+        let figure = figure.into_string();
+        assert!(figure.contains("d=\"M210 68L269 186L210 186Z\""), "{figure}");
+        assert!(figure.contains("n/a"));
+        assert_eq!(figure.matches("<circle").count(), 3);
+    }
+}

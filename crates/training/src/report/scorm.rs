@@ -1,0 +1,109 @@
+//! A session's result as a SCORM 1.2 package for a learning-management system: a page that tells the system score, status and time by its
+//! script interface, and shows the report.
+
+use super::Review;
+use super::words;
+use maud::{DOCTYPE, PreEscaped, html};
+use serde_json::{Value, json};
+use spandrel_monitor::Assessment;
+use spandrel_monitor::score::completion::verdict;
+
+/// Script that talks to the system; reads what to say from the page.
+const SCRIPT: &str = include_str!("assets/scorm.js");
+
+/// Names and contents of the package's files, the report's page given.
+#[must_use]
+pub fn files(review: &Review, report: &str) -> Vec<(&'static str, String)> {
+    vec![
+        ("imsmanifest.xml", manifest(review)),
+        ("index.html", index(review)),
+        ("scorm.js", SCRIPT.to_owned()),
+        ("report.html", report.to_owned()),
+    ]
+}
+
+fn manifest(review: &Review) -> String {
+    let title = title(review);
+    // maud escapes as XML does.
+    let body = html! {
+        manifest identifier={ "spandrel-" (review.about.telemetry_sha256.get(..16).unwrap_or_default()) } version="1.0"
+            xmlns="http://www.imsproject.org/xsd/imscp_rootv1p1p2" xmlns:adlcp="http://www.adlnet.org/xsd/adlcp_rootv1p2" {
+            metadata { schema { "ADL SCORM" } schemaversion { "1.2" } }
+            organizations default="organization" {
+                organization identifier="organization" {
+                    (PreEscaped("<title>")) (title) (PreEscaped("</title>"))
+                    item identifier="item" identifierref="resource" isvisible="true" { (PreEscaped("<title>")) (title) (PreEscaped("</title>")) }
+                }
+            }
+            resources {
+                resource identifier="resource" type="webcontent" adlcp:scormtype="sco" href="index.html" {
+                    @for file in ["index.html", "scorm.js", "report.html"] { file href=(file) {} }
+                }
+            }
+        }
+    };
+    format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}\n", body.into_string())
+}
+
+fn title(review: &Review) -> String {
+    format!("{}, {}", review.scenario.title, review.about.started_utc)
+}
+
+/// What the system gets, and the same in words. An incomplete session has no score: a sum over a part of the job would look like one.
+fn result(assessment: &Assessment) -> (Value, String) {
+    let (scores, certification) = (&assessment.scores, &assessment.certification);
+    let time = span(assessment.end.seconds);
+    if !assessment.completion.complete {
+        let result = json!({ "cmi.core.lesson_status": "incomplete", "cmi.core.session_time": time });
+        return (result, assessment.completion.headline());
+    }
+    let pct = if scores.overall_max > 0.0 { 100.0 * scores.overall / scores.overall_max } else { 0.0 };
+    let result = json!({
+        "cmi.core.score.min": "0",
+        "cmi.core.score.max": "100",
+        "cmi.core.score.raw": format!("{pct:.2}"),
+        "cmi.core.lesson_status": if certification.passed { "passed" } else { "failed" },
+        "cmi.core.session_time": time,
+    });
+    (result, format!("{} of 100. {}", words::number(pct, 0), verdict(certification.passed, &certification.unmet)))
+}
+
+fn index(review: &Review) -> String {
+    let (result, words) = result(&review.assessment);
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; frame-src 'self'";
+                title { (title(review)) }
+                style { "body{margin:0;font:16px system-ui,sans-serif}p{margin:.5rem 1rem}iframe{border:0;width:100%;height:calc(100vh - 3rem)}" }
+            }
+            body data-result=(result) {
+                p role="status" id="told" { (words) ". " }
+                iframe src="report.html" title="Report of the session" {}
+                script src="scorm.js" {}
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// HHHH:MM:SS.SS, as the standard's CMITimespan.
+fn span(seconds: f64) -> String {
+    let hundredths = (seconds.max(0.0) * 100.0).round() as u64;
+    let (s, rest) = (hundredths / 100, hundredths % 100);
+    format!("{:04}:{:02}:{:02}.{rest:02}", s / 3600, s / 60 % 60, s % 60)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_times_are_written_as_the_standard_has_them() {
+        assert_eq!(span(0.0), "0000:00:00.00");
+        assert_eq!(span(3_725.678), "0001:02:05.68");
+        assert_eq!(span(-1.0), "0000:00:00.00");
+    }
+}

@@ -1,0 +1,380 @@
+//! A picture of what a camera had before it, drawn from the geometry that collides: flat shades, edges, haze, the lamp's light, and
+//! darkness where there is too little. It is a drawing and says so; a photograph it is not.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::{CameraPose, Site, sun};
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Camera;
+use std::collections::BTreeMap;
+
+/// Width of a drawing, px; its height follows the camera's.
+pub const WIDTH_PX: usize = 400;
+/// Nearest depth that is drawn, m.
+const NEAR_M: f64 = 0.05;
+/// Members farther than this are left out, m.
+const REACH_M: f64 = 400.0;
+/// Side of the squares that ground and water are drawn by, m.
+const GROUND_STEP_M: f64 = 12.0;
+/// Distance at which haze hides two thirds, m (for the look alone).
+const HAZE_M: f64 = 700.0;
+const SKY: [f64; 3] = [0.80, 0.87, 0.93];
+
+struct Facet {
+    corners: [Vec3<Enu>; 3],
+    shade: Shade,
+}
+
+/// A colour by its number: faces of one shade have one.
+type Shade = u32;
+/// The sky's.
+const BLUE: Shade = 0;
+
+/// All colours of a site. A drawing writes numbers: they are a sixth as long.
+struct Palette {
+    colours: Vec<[f64; 3]>,
+    numbers: BTreeMap<[u64; 3], Shade>,
+}
+
+impl Palette {
+    fn new() -> Self {
+        Self { colours: vec![SKY], numbers: [(SKY.map(f64::to_bits), BLUE)].into() }
+    }
+
+    fn number(&mut self, colour: [f64; 3]) -> Shade {
+        let next = self.colours.len();
+        *self.numbers.entry(colour.map(f64::to_bits)).or_insert_with(|| {
+            self.colours.push(colour);
+            Shade::try_from(next).unwrap_or(BLUE)
+        })
+    }
+}
+
+struct Body {
+    centre_m: Vec3<Enu>,
+    radius_m: f64,
+    facets: Vec<Facet>,
+}
+
+/// The site, shaded and ready to be drawn from anywhere.
+pub struct Sketcher {
+    bodies: Vec<Body>,
+    colours: Vec<[f64; 3]>,
+}
+
+/// Light for one drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exposure {
+    /// Light in the middle as a share of what the camera needs there.
+    pub light: f64,
+    /// The lamp gives most of it.
+    pub by_lamp: bool,
+}
+
+impl Sketcher {
+    /// Shades a site by the sun of its job.
+    #[must_use]
+    pub fn new(site: &Site, scenario: &Scenario, at: SimTime) -> Self {
+        let sun = sun::direction(scenario.light.start_unix_s as f64 + at.s(), scenario.origin);
+        let mut palette = Palette::new();
+        let mut bodies: Vec<Body> = site.members().iter().map(|member| structure(member, sun, &mut palette)).collect();
+        bodies.extend(ground(site, scenario, sun, &mut palette));
+        Self { bodies, colours: palette.colours }
+    }
+
+    /// Draws a PNG file.
+    ///
+    /// # Errors
+    /// When it cannot be encoded.
+    pub fn png(&self, pose: &CameraPose, camera: &Camera, exposure: Exposure) -> Result<Vec<u8>, png::EncodingError> {
+        let height = (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX);
+        let mut sheet = Sheet::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
+        let slope = |px: u32| 0.5 * f64::from(px) / camera.focal_px();
+        let lens = Lens { pose, down: pose.forward.cross(pose.right), slopes: [slope(camera.width_px), slope(camera.height_px)] };
+        for body in &self.bodies {
+            if !lens.may_show(body) {
+                continue;
+            }
+            for facet in &body.facets {
+                sheet.draw(&lens, facet);
+            }
+        }
+        encode(&sheet.shaded(&self.colours, exposure), WIDTH_PX, height)
+    }
+}
+
+fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>, palette: &mut Palette) -> Body {
+    let v = &member.solid.vertices_m;
+    let centre_m = v.iter().fold(Vec3::zero(), |sum, x| sum + *x) / v.len().max(1) as f64;
+    let steel = matches!(member.element, 107 | 113 | 147 | 148 | 152 | 207 | 311 | 313 | 330);
+    let base = if steel { [0.50, 0.57, 0.60] } else { [0.74, 0.72, 0.68] };
+    let facet = |t: [u32; 3]| facet(t.map(|k| v[k as usize]), base, sun, palette);
+    Body {
+        centre_m,
+        radius_m: v.iter().map(|x| (*x - centre_m).norm()).fold(0.0, f64::max),
+        facets: member.solid.triangles().into_iter().map(facet).collect(),
+    }
+}
+
+fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> Facet {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).unit();
+    // Sky from above, a little from the side so that faces differ, the sun where it shines.
+    let light = 0.50 + 0.16 * normal.up() + 0.06 * normal.east() + 0.10 * normal.north().abs() + 0.25 * normal.dot(sun).max(0.0);
+    Facet { corners, shade: palette.number(base.map(|c| c * light)) }
+}
+
+/// Ground and water in squares.
+fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palette) -> Vec<Body> {
+    let half = 0.5 * scenario.terrain.size_m;
+    let water_m = scenario.terrain.water_level_m;
+    let count = (scenario.terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 200.0) as usize;
+    let step = 2.0 * half / count as f64;
+    let mut bodies = Vec::new();
+    for row in 0..count {
+        for column in 0..count {
+            let at = |dc: usize, dr: usize| {
+                let (e, n) = (-half + (column + dc) as f64 * step, -half + (row + dr) as f64 * step);
+                Vec3::new(e, n, site.ground_up_m(e, n))
+            };
+            let square = [at(0, 0), at(1, 0), at(1, 1), at(0, 1)];
+            bodies.push(slab(square, [0.42, 0.47, 0.34], sun, palette));
+            if square.iter().any(|corner| corner.up() < water_m) {
+                let flat = square.map(|c| Vec3::new(c.east(), c.north(), water_m));
+                bodies.push(slab(flat, [0.36, 0.50, 0.58], sun, palette));
+            }
+        }
+    }
+    bodies
+}
+
+fn slab(square: [Vec3<Enu>; 4], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> Body {
+    let centre_m = square.iter().fold(Vec3::zero(), |sum, x| sum + *x) / 4.0;
+    Body {
+        centre_m,
+        radius_m: square.iter().map(|x| (*x - centre_m).norm()).fold(0.0, f64::max),
+        facets: [[0, 1, 2], [0, 2, 3]].map(|corners| facet(corners.map(|k: usize| square[k]), base, sun, palette)).into(),
+    }
+}
+
+struct Lens<'a> {
+    pose: &'a CameraPose,
+    down: Vec3<Enu>,
+    /// Half width and half height of the image at a depth of 1.
+    slopes: [f64; 2],
+}
+
+impl Lens<'_> {
+    /// Right, down, ahead.
+    fn see(&self, point_m: Vec3<Enu>) -> [f64; 3] {
+        let to = point_m - self.pose.position_m;
+        [to.dot(self.pose.right), to.dot(self.down), to.dot(self.pose.forward)]
+    }
+
+    /// False only when all of a body is behind the lens, too far or beside the image.
+    fn may_show(&self, body: &Body) -> bool {
+        let [x, y, depth] = self.see(body.centre_m);
+        let r = body.radius_m;
+        let beside = |aside: f64, slope: f64| aside.abs() - slope * depth > r * (1.0 + slope * slope).sqrt();
+        depth + r >= NEAR_M && depth - r <= REACH_M && !beside(x, self.slopes[0]) && !beside(y, self.slopes[1])
+    }
+}
+
+struct Sheet {
+    height: usize,
+    focal_px: f64,
+    /// 1/depth, 0 for the sky.
+    near: Vec<f64>,
+    shade: Vec<Shade>,
+}
+
+impl Sheet {
+    fn new(height: usize, focal_px: f64) -> Self {
+        Self { height, focal_px, near: vec![0.0; WIDTH_PX * height], shade: vec![BLUE; WIDTH_PX * height] }
+    }
+
+    fn draw(&mut self, lens: &Lens<'_>, facet: &Facet) {
+        let seen = facet.corners.map(|corner| lens.see(corner));
+        let clipped = clip(&seen);
+        for k in 2..clipped.len() {
+            self.fill([clipped[0], clipped[k - 1], clipped[k]], facet.shade);
+        }
+    }
+
+    /// Fills a triangle whose corners lie before the lens and run counter-clockwise as seen; the backs of faces are not drawn.
+    fn fill(&mut self, corners: [[f64; 3]; 3], shade: Shade) {
+        let (w, h) = (WIDTH_PX as f64, self.height as f64);
+        let p = corners.map(|[x, y, z]| (0.5 * w + self.focal_px * x / z, 0.5 * h + self.focal_px * y / z, 1.0 / z));
+        let area = (p[1].0 - p[0].0) * (p[2].1 - p[0].1) - (p[1].1 - p[0].1) * (p[2].0 - p[0].0);
+        // Counter-clockwise, with rows that run downwards, is negative.
+        if area > -1e-9 || !area.is_finite() {
+            return;
+        }
+        let (low, high) = p.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), q| (l.min(q.1), h.max(q.1)));
+        for y in low.floor().clamp(0.0, h) as usize..high.ceil().clamp(0.0, h) as usize {
+            let cy = y as f64 + 0.5;
+            // Each corner's share in the middle of the row's first pixel, and its change from pixel to pixel.
+            let share = |k: usize| {
+                let (b, c) = (p[(k + 1) % 3], p[(k + 2) % 3]);
+                let at = ((b.0 - 0.5) * (c.1 - cy) - (b.1 - cy) * (c.0 - 0.5)) / area;
+                (at, (b.1 - c.1) / area)
+            };
+            let shares = [share(0), share(1), share(2)];
+            let Some((from, to)) = span(&shares) else { continue };
+            let sum = |f: fn(&(f64, f64)) -> f64| shares.iter().zip(&p).map(|(share, corner)| f(share) * corner.2).sum::<f64>();
+            let (near, step) = (sum(|s| s.0), sum(|s| s.1));
+            let row = y * WIDTH_PX + from..y * WIDTH_PX + to;
+            let pixels = self.near[row.clone()].iter_mut().zip(&mut self.shade[row]);
+            for (x, (nearest, shown)) in (from..to).zip(pixels) {
+                let near = near + step * x as f64;
+                if near > *nearest {
+                    (*nearest, *shown) = (near, shade);
+                }
+            }
+        }
+    }
+
+    /// Edges, haze and light, to 8 bits.
+    fn shaded(&self, colours: &[[f64; 3]], exposure: Exposure) -> Vec<u8> {
+        let dim = exposure.light.clamp(0.0, 1.0).sqrt().max(0.06);
+        let mut rgb = Vec::with_capacity(3 * self.near.len());
+        for y in 0..self.height {
+            for x in 0..WIDTH_PX {
+                let at = y * WIDTH_PX + x;
+                let mut colour = colours[self.shade[at] as usize];
+                if self.near[at] > 0.0 {
+                    if self.is_edge(x, y) {
+                        colour = colour.map(|c| 0.72 * c);
+                    }
+                    let haze = 1.0 - math::exp(-1.0 / (self.near[at] * HAZE_M));
+                    colour = [0, 1, 2].map(|k| math::lerp(colour[k], SKY[k], haze));
+                }
+                let lit = dim * if exposure.by_lamp { self.beam(x, y) } else { 1.0 };
+                rgb.extend(colour.map(|c| (255.0 * (c * lit).clamp(0.0, 1.0) + 0.5) as u8));
+            }
+        }
+        rgb
+    }
+
+    /// Another face or depth begins to the right or below.
+    fn is_edge(&self, x: usize, y: usize) -> bool {
+        let at = y * WIDTH_PX + x;
+        let differs = |other: usize| {
+            let jump = (self.near[at] - self.near[other]).abs() > 0.06 * self.near[at].max(self.near[other]);
+            jump || self.shade[at] != self.shade[other]
+        };
+        (x + 1 < WIDTH_PX && differs(at + 1)) || (y + 1 < self.height && differs(at + WIDTH_PX))
+    }
+
+    /// The lamp's light falls off towards the sides.
+    fn beam(&self, x: usize, y: usize) -> f64 {
+        let (dx, dy) = (x as f64 - 0.5 * WIDTH_PX as f64, y as f64 - 0.5 * self.height as f64);
+        let away = math::hypot(dx, dy) / (0.5 * WIDTH_PX as f64);
+        (1.15 - 0.75 * away * away).clamp(0.15, 1.0)
+    }
+}
+
+/// The pixels of a row in which no share is negative.
+fn span(shares: &[(f64, f64); 3]) -> Option<(usize, usize)> {
+    let (mut from, mut to) = (0.0, WIDTH_PX as f64);
+    for (at, step) in shares {
+        if *step > 0.0 {
+            from = f64::max(from, (-at / step).ceil());
+        } else if *step < 0.0 {
+            to = f64::min(to, (-at / step).floor() + 1.0);
+        } else if *at < 0.0 {
+            return None;
+        }
+    }
+    (from < to).then_some((from as usize, to as usize))
+}
+
+/// A triangle cut off at the near plane.
+fn clip(corners: &[[f64; 3]; 3]) -> Vec<[f64; 3]> {
+    let mut kept = Vec::with_capacity(4);
+    for k in 0..3 {
+        let (a, b) = (corners[k], corners[(k + 1) % 3]);
+        if a[2] >= NEAR_M {
+            kept.push(a);
+        }
+        if (a[2] >= NEAR_M) != (b[2] >= NEAR_M) {
+            let t = (NEAR_M - a[2]) / (b[2] - a[2]);
+            kept.push([0, 1, 2].map(|i| math::lerp(a[i], b[i], t)));
+        }
+    }
+    kept
+}
+
+fn encode(rgb: &[u8], width: usize, height: usize) -> Result<Vec<u8>, png::EncodingError> {
+    let mut file = Vec::new();
+    let side = |px: usize| u32::try_from(px).unwrap_or(u32::MAX);
+    let mut encoder = png::Encoder::new(&mut file, side(width), side(height));
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    // Flat shades pack best, and fastest, as they are.
+    encoder.set_filter(png::Filter::NoFilter);
+    encoder.write_header()?.write_image_data(rgb)?;
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangle(ahead_m: f64, shade: Shade) -> Facet {
+        let corner = |e: f64, u: f64| Vec3::new(e, ahead_m, u);
+        Facet { corners: [corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)], shade }
+    }
+
+    #[test]
+    fn exact_the_nearer_face_hides_the_farther_whatever_comes_first() {
+        let pose = CameraPose {
+            position_m: Vec3::zero(),
+            forward: Vec3::new(0.0, 1.0, 0.0),
+            right: Vec3::new(1.0, 0.0, 0.0),
+            lamp_on: false,
+        };
+        let lens = Lens { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
+        assert_eq!(lens.see(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, ahead");
+        let (near, far) = (triangle(2.0, 1), triangle(4.0, 2));
+        for order in [[&near, &far], [&far, &near]] {
+            let mut sheet = Sheet::new(300, 200.0);
+            order.iter().for_each(|facet| sheet.draw(&lens, facet));
+            let middle = 150 * WIDTH_PX + 200;
+            assert_eq!(sheet.shade[middle], 1);
+            assert!((1.0 / sheet.near[middle] - 2.0).abs() < 1e-12);
+            assert_eq!(sheet.shade[0], BLUE);
+        }
+    }
+
+    #[test]
+    fn exact_a_face_covers_its_pixels_and_its_back_none() {
+        // Corners at pixels (10, 10), (10, 30), (30, 10), counter-clockwise as seen; focal length 100 px, a metre away.
+        let corner = |x: f64, y: f64| [(x - 200.0) / 100.0, (y - 150.0) / 100.0, 1.0];
+        let face = [corner(10.0, 10.0), corner(10.0, 30.0), corner(30.0, 10.0)];
+        let filled = |corners: [[f64; 3]; 3]| {
+            let mut sheet = Sheet::new(300, 100.0);
+            sheet.fill(corners, 1);
+            sheet.shade.iter().filter(|shade| **shade == 1).count()
+        };
+        // Pixel middles with x + y < 40 from a corner at 10: 19 + 18 + ... + 1, and the 20 on the edge.
+        assert!((190..=210).contains(&filled(face)), "{}", filled(face));
+        assert_eq!(filled([face[0], face[2], face[1]]), 0);
+    }
+
+    #[test]
+    fn exact_what_is_behind_the_lens_is_cut_off() {
+        assert!(clip(&[[0.0, 0.0, -1.0]; 3]).is_empty());
+        let cut = clip(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 0.0, -1.0]]);
+        assert_eq!(cut.len(), 4);
+        assert!(cut.iter().all(|corner| corner[2] >= NEAR_M - 1e-12));
+    }
+
+    #[test]
+    fn exact_one_shade_has_one_number_and_the_sky_the_first() {
+        let mut palette = Palette::new();
+        let numbers = [[0.1, 0.2, 0.3], SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]].map(|colour| palette.number(colour));
+        assert_eq!(numbers, [1, BLUE, 1, 2]);
+        assert_eq!(palette.colours, [SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]);
+    }
+}

@@ -1,0 +1,106 @@
+//! Frame by frame: how far from the path of the task being flown, and what that adds up to in each task's window.
+
+use super::Scene;
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_monitor::measures::on_path::{OnPath, Paths};
+use spandrel_monitor::measures::on_speed;
+
+/// How the drone stood to the tasks at one frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// The task that the distance is to: the one entered last, before that the nearest. An index.
+    pub task: Option<usize>,
+    /// Distance to its path, m.
+    pub distance_m: Option<f64>,
+    /// On some task's path.
+    pub on: bool,
+    /// Inside some task's window.
+    pub inside: bool,
+    /// Over the limit inside a window.
+    pub speeding: bool,
+}
+
+/// One task's window in numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TaskFacts {
+    /// From first to last on-path frame, s.
+    pub time_s: f64,
+    /// Off the path meanwhile, s.
+    pub off_path_s: f64,
+    /// Over the limit meanwhile, s.
+    pub speeding_s: f64,
+    /// Mean distance to the path, m.
+    pub mean_distance_m: f64,
+    /// Greatest distance to the path, m.
+    pub max_distance_m: f64,
+    /// Greatest speed, m/s.
+    pub max_speed_m_s: f64,
+    /// Smallest clearance, m.
+    pub least_clearance_m: f64,
+}
+
+/// All frames.
+#[must_use]
+pub fn steps(paths: &Paths, on_path: &OnPath, scene: &Scene<'_>) -> Vec<Step> {
+    let speeds: Vec<f64> = scene.frames.iter().map(Frame::speed_m_s).collect();
+    let speeding = on_speed::speeding(&speeds, &on_path.windows, scene.scenario.scoring.speed_limit_m_s);
+    let mut last = None;
+    let step = |(i, frame): (usize, &Frame)| {
+        let on = on_path.task[i].map(|(task, _)| task);
+        last = on.or(last);
+        let to = |task: usize| paths.nearest(task, frame.position_m).map(|nearest| (task, nearest.distance_m));
+        let nearest = || (0..paths.len()).filter_map(to).min_by(|a, b| a.1.total_cmp(&b.1));
+        let flown = match last {
+            Some(task) => to(task),
+            None => nearest(),
+        };
+        Step {
+            task: flown.map(|(task, _)| task),
+            distance_m: flown.map(|(_, distance_m)| distance_m),
+            on: on.is_some(),
+            inside: on_path.windows.iter().flatten().any(|window| window.contains(i)),
+            speeding: speeding[i],
+        }
+    };
+    scene.frames.iter().enumerate().map(step).collect()
+}
+
+/// All tasks.
+#[must_use]
+pub fn tasks(scene: &Scene<'_>, on_path: &OnPath, steps: &[Step]) -> Vec<TaskFacts> {
+    let paths = Paths::new(scene.scenario);
+    let rate_hz = scene.scenario.scoring.frame_rate_hz;
+    let of = |task: usize| {
+        let Some(window) = on_path.windows[task] else { return TaskFacts::none() };
+        let frames = &scene.frames[window.first..=window.last];
+        let seconds = |count: usize| count as f64 / rate_hz;
+        let away = frames.iter().filter_map(|frame| paths.nearest(task, frame.position_m)).map(|nearest| nearest.distance_m);
+        let away: Vec<f64> = away.collect();
+        let on = on_path.task[window.first..=window.last].iter().flatten().filter(|(t, _)| *t == task).count();
+        TaskFacts {
+            time_s: seconds(frames.len()),
+            off_path_s: seconds(frames.len() - on),
+            speeding_s: seconds(steps[window.first..=window.last].iter().filter(|step| step.speeding).count()),
+            mean_distance_m: away.iter().sum::<f64>() / away.len().max(1) as f64,
+            max_distance_m: away.iter().copied().fold(0.0, f64::max),
+            max_speed_m_s: frames.iter().map(Frame::speed_m_s).fold(0.0, f64::max),
+            least_clearance_m: frames.iter().filter_map(|frame| frame.clearance_m).fold(f64::INFINITY, f64::min),
+        }
+    };
+    (0..on_path.windows.len()).map(of).collect()
+}
+
+impl TaskFacts {
+    fn none() -> Self {
+        let unknown = f64::NAN;
+        Self {
+            time_s: 0.0,
+            off_path_s: 0.0,
+            speeding_s: 0.0,
+            mean_distance_m: unknown,
+            max_distance_m: unknown,
+            max_speed_m_s: unknown,
+            least_clearance_m: unknown,
+        }
+    }
+}

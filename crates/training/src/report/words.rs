@@ -1,0 +1,118 @@
+//! Names and numbers as people read them. Nothing is rounded before it comes here.
+
+use spandrel_mavlink::telemetry::{Contact, Hand};
+use spandrel_monitor::session::EndReason;
+
+/// A number with so many digits after the point; a dash for what is not known.
+#[must_use]
+pub fn number(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    let text = format!("{value:.digits$}");
+    // A rounded zero has no sign.
+    if text.starts_with('-') && text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.')) { text[1..].to_owned() } else { text }
+}
+
+/// Flight time as minutes and seconds.
+#[must_use]
+pub fn clock(t_s: f64) -> String {
+    if !t_s.is_finite() {
+        return "–".into();
+    }
+    let whole = t_s.max(0.0).round() as u64;
+    format!("{}:{:02}", whole / 60, whole % 60)
+}
+
+/// Minutes and seconds in words.
+#[must_use]
+pub fn duration(t_s: f64) -> String {
+    let whole = t_s.max(0.0).round() as u64;
+    match (whole / 60, whole % 60) {
+        (0, seconds) => format!("{seconds} s"),
+        (minutes, 0) => format!("{minutes} min"),
+        (minutes, seconds) => format!("{minutes} min {seconds} s"),
+    }
+}
+
+/// How a session ended.
+#[must_use]
+pub fn end(reason: EndReason) -> &'static str {
+    match reason {
+        EndReason::Landed => "landed near the ground team",
+        EndReason::Battery => "battery empty",
+        EndReason::TimeLimit => "time limit",
+        EndReason::Person => "hit a person",
+        EndReason::Vehicle => "hit a vehicle",
+        EndReason::Crash => "crashed",
+        EndReason::Abort => "ended early",
+        EndReason::Restart => "simulator restarted",
+    }
+}
+
+/// What was hit.
+#[must_use]
+pub fn contact(with: Contact) -> &'static str {
+    match with {
+        Contact::None => "nothing",
+        Contact::Bridge => "bridge",
+        Contact::Terrain => "ground",
+        Contact::Water => "water",
+        Contact::Vehicle => "vehicle",
+        Contact::Person => "person",
+        Contact::Other => "other",
+    }
+}
+
+/// Who flew.
+#[must_use]
+pub fn hand(by: Option<Hand>) -> &'static str {
+    match by {
+        Some(Hand::Pilot) => "pilot",
+        Some(Hand::Mission) => "mission",
+        Some(Hand::Script) => "script",
+        Some(Hand::Autopilot) => "autopilot",
+        None => "not known",
+    }
+}
+
+/// Name of a bridge element (AASHTO Manual for Bridge Element Inspection), by its number.
+#[must_use]
+pub fn element(number: u32) -> &'static str {
+    match number {
+        12 => "deck, reinforced concrete",
+        107 => "girder, steel",
+        113 => "stringer, steel",
+        116 => "stringer, reinforced concrete",
+        144 => "arch, reinforced concrete",
+        147 => "main cable, steel",
+        148 => "hanger, steel",
+        152 => "floor beam, steel",
+        155 => "floor beam, reinforced concrete",
+        205 => "column, reinforced concrete",
+        207 => "tower, steel",
+        210 => "pier wall, reinforced concrete",
+        215 => "abutment, reinforced concrete",
+        220 => "footing, reinforced concrete",
+        311 => "movable bearing",
+        313 => "fixed bearing",
+        330 => "railing, metal",
+        331 => "railing, reinforced concrete",
+        _ => "element",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_numbers_and_times_as_people_read_them() {
+        assert_eq!(number(1.25, 1), "1.2");
+        assert_eq!(number(-0.04, 1), "0.0");
+        assert_eq!(number(-0.06, 1), "-0.1");
+        assert_eq!(number(f64::NAN, 1), "–");
+        assert_eq!((clock(0.0), clock(59.6), clock(754.2)), ("0:00".into(), "1:00".into(), "12:34".into()));
+        assert_eq!((duration(59.4), duration(60.0), duration(61.0)), ("59 s".into(), "1 min".into(), "1 min 1 s".into()));
+    }
+}

@@ -1,0 +1,126 @@
+//! The learning curve: how a measure changes with practice, as a power law (Newell and Rosenbloom 1981).
+
+use super::{StatisticsError, mean};
+use serde::Serialize;
+use spandrel_model::math;
+
+/// Fewest repetitions for a curve: with three, two parameters nearly always fit.
+pub const LEARNING_NEEDS: usize = 4;
+/// Exponents that are looked at; practice never changes a measure faster.
+const EXPONENTS: (f64, f64) = (-4.0, 4.0);
+/// Steps of the first look.
+const GRID: usize = 400;
+/// Halvings of the bracket, down to rounding.
+const NARROWING: usize = 120;
+
+/// `first * n^exponent` for the n-th repetition.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LearningCurve {
+    /// Repetitions.
+    pub n: usize,
+    /// Fitted value of the first.
+    pub first: f64,
+    /// Above zero the measure grows with practice, below it falls.
+    pub exponent: f64,
+    /// Share of the variance that the curve explains; absent when the measure does not vary.
+    pub r_squared: Option<f64>,
+    /// What the curve expects of the next repetition. A score does not pass its largest value, the curve does not know that.
+    pub next: f64,
+}
+
+impl LearningCurve {
+    /// What the curve says of the n-th repetition (from 1; between two for drawing).
+    #[must_use]
+    pub fn at(&self, repetition: f64) -> f64 {
+        self.first * math::pow(repetition, self.exponent)
+    }
+}
+
+/// Fits the curve to repetitions in their order by least squares on the values themselves (zeros are allowed).
+///
+/// # Errors
+/// When there are fewer than [`LEARNING_NEEDS`] or a value is no number.
+pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> {
+    if values.len() < LEARNING_NEEDS {
+        return Err(StatisticsError::TooFew { n: values.len(), needed: LEARNING_NEEDS });
+    }
+    StatisticsError::finite(values)?;
+    let (low, high) = EXPONENTS;
+    let at = |k: usize| low + (high - low) * k as f64 / GRID as f64;
+    let best = (0..=GRID).min_by(|a, b| misfit(values, at(*a)).total_cmp(&misfit(values, at(*b)))).unwrap_or(0);
+    let exponent = narrow(values, at(best.saturating_sub(1)), at((best + 1).min(GRID)));
+    let first = height(values, exponent);
+    let average = mean(values).unwrap_or_default();
+    let around: f64 = values.iter().map(|value| (value - average) * (value - average)).sum();
+    Ok(LearningCurve {
+        n: values.len(),
+        first,
+        exponent,
+        r_squared: (around > 0.0).then(|| 1.0 - misfit(values, exponent) / around),
+        next: first * math::pow((values.len() + 1) as f64, exponent),
+    })
+}
+
+/// The slope of the misfit over the exponent changes its sign at the minimum: halving finds it to rounding, where comparing misfits
+/// would stop at half the digits.
+fn narrow(values: &[f64], mut low: f64, mut high: f64) -> f64 {
+    for _ in 0..NARROWING {
+        let middle = 0.5 * (low + high);
+        if slope(values, middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+fn practice(exponent: f64, count: usize) -> impl Iterator<Item = (f64, f64)> {
+    (1..=count).map(move |k| (math::ln(k as f64), math::pow(k as f64, exponent)))
+}
+
+/// Best first value for an exponent.
+fn height(values: &[f64], exponent: f64) -> f64 {
+    let (mut both, mut own) = (0.0, 0.0);
+    for ((_, power), value) in practice(exponent, values.len()).zip(values) {
+        both += power * value;
+        own += power * power;
+    }
+    both / own
+}
+
+fn misfit(values: &[f64], exponent: f64) -> f64 {
+    let first = height(values, exponent);
+    practice(exponent, values.len()).zip(values).map(|((_, power), value)| value - first * power).map(|off| off * off).sum()
+}
+
+/// Of the misfit over the exponent, up to a positive factor (the best height moves along, its own slope is zero).
+fn slope(values: &[f64], exponent: f64) -> f64 {
+    let first = height(values, exponent);
+    let terms = practice(exponent, values.len()).zip(values);
+    terms.map(|((log, power), value)| -(value - first * power) * first * power * log).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_power_law_is_found_again() {
+        for (first, exponent) in [(40.0, 0.3), (120.0, -0.5), (70.0, 0.0)] {
+            let values: Vec<f64> = (1..=6).map(|k| first * math::pow(f64::from(k), exponent)).collect();
+            let curve = learning_curve(&values).unwrap();
+            assert!((curve.first - first).abs() < 1e-9 && (curve.exponent - exponent).abs() < 1e-9, "{curve:?}");
+            assert!((curve.next - first * math::pow(7.0, exponent)).abs() < 1e-7);
+        }
+    }
+
+    #[test]
+    fn exact_three_repetitions_make_no_curve_and_zeros_do() {
+        assert!(learning_curve(&[50.0, 60.0, 65.0]).is_err());
+        let curve = learning_curve(&[12.0, 0.0, 0.0, 0.0]).unwrap();
+        assert!(curve.exponent < -3.0 && curve.first.is_finite());
+        let flat = learning_curve(&[0.0; 4]).unwrap();
+        assert_eq!((flat.first, flat.r_squared), (0.0, None));
+    }
+}

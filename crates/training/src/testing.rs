@@ -1,0 +1,111 @@
+//! Made-up sessions for tests.
+
+use super::questionnaire::{Answers, Item};
+use super::record::{Crashes, DefectRecord, FORMAT, Record, Scores, TaskRecord};
+use spandrel_monitor::score::completion::{Completion, TaskState};
+
+/// The paper's job flown without a fault, with all 24 answers "agree".
+pub fn faultless(trainee: &str, number: usize) -> Record {
+    let mut answers = Answers { language: "en".into(), ..Answers::default() };
+    answers.given.extend(Item::all(&[1, 2, 3, 4]).into_iter().map(|item| (item, 2)));
+    Record {
+        format: FORMAT,
+        id: format!("session-{trainee}-{number:03}"),
+        fingerprint: format!("f{number}"),
+        trainee: trainee.to_owned(),
+        purpose: None,
+        started_unix_us: 1_700_000_000_000_000 + 259_200_000_000 * number as u64,
+        spandrel_version: "0.1.0".into(),
+        scorer_version: 1,
+        scenario: "two-bridges".into(),
+        scenario_sha256: "s".into(),
+        vehicle: "phantom2".into(),
+        vehicle_sha256: "v".into(),
+        telemetry_sha256: "t".into(),
+        seed: 7,
+        scores: Scores {
+            conformity: Some(100.0),
+            efficiency: 100.0,
+            safety: 100.0,
+            accuracy: Some(100.0),
+            overall: 400.0,
+            overall_max: 400.0,
+        },
+        completion: Some(Completion {
+            complete: true,
+            tasks_done: 4,
+            tasks: 4,
+            path_share: 1.0,
+            landed_at_home: true,
+            done_share: 0.8,
+        }),
+        tasks: ["slab_side", "arch_bottom", "interlayer", "pier_circle"]
+            .into_iter()
+            .zip(1..)
+            .map(|(kind, id)| task(kind, id))
+            .collect(),
+        crashes_outside: Crashes::default(),
+        defects: (1..=10).map(defect).collect(),
+        snapshots: 10,
+        hits: 10,
+        end_reason: "landed".into(),
+        seconds: 700.25,
+        battery_failed: false,
+        battery_at_end_pct: 55.5,
+        covered: 1.0,
+        certified: true,
+        unmet: Vec::new(),
+        answers: Some(answers),
+    }
+}
+
+/// The same, but only the first task was flown, and to 60 % of its path; then the attempt was ended.
+pub fn broken_off(trainee: &str, number: usize) -> Record {
+    let mut record = faultless(trainee, number);
+    record.completion =
+        Some(Completion { complete: false, tasks_done: 0, tasks: 4, path_share: 0.15, landed_at_home: false, done_share: 0.8 });
+    (record.tasks[0].state, record.tasks[0].covered) = (Some(TaskState::Part), Some(0.6));
+    for task in &mut record.tasks[1..] {
+        (task.state, task.covered, task.attempted) = (Some(TaskState::NotAttempted), Some(0.0), false);
+    }
+    record.end_reason = "abort".into();
+    record.certified = false;
+    record.unmet = vec!["task 1 not done: 60 % of its path, 80 % needed".into(), "not landed at home".into()];
+    record
+}
+
+fn task(kind: &str, id: u32) -> TaskRecord {
+    TaskRecord {
+        id,
+        name: format!("The {kind}"),
+        kind: kind.to_owned(),
+        attempted: true,
+        state: Some(TaskState::Done),
+        covered: Some(1.0),
+        seconds: 100.0,
+        on_path: 1.0,
+        speeding: 0.0,
+        speeding_s: 0.0,
+        fastest_m_s: 3.5,
+        off_path_s: 0.0,
+        off_sideways_m: None,
+        off_height_m: None,
+        crashes: Crashes::default(),
+        defects_placed: 2,
+        defects_found: 2,
+    }
+}
+
+fn defect(id: u32) -> DefectRecord {
+    DefectRecord {
+        id,
+        kind: 1130,
+        kind_name: "cracking (RC)".into(),
+        element: 38,
+        condition_state: 3,
+        task: Some(1 + id % 4),
+        found: true,
+        lacked: Vec::new(),
+        in_view_s: None,
+    }
+}

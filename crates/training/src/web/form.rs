@@ -1,0 +1,221 @@
+//! The questionnaire as a form. Every answer is saved by itself as soon as it is given (by a small script; without it by the button), so that
+//! one can leave at any time and go on later.
+
+use super::access::Visitor;
+use super::assets;
+use super::frame::{in_language, message, token};
+use crate::questionnaire::{
+    Answers, Aspect, Item, Overall, Phase, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, Tlx, Wording,
+};
+use maud::{Markup, html};
+
+/// Before the key of a NASA-TLX scale in a form.
+const TLX: &str = "tlx.";
+
+/// What the form is about.
+#[derive(Debug, Clone, Copy)]
+pub struct Asked<'a> {
+    /// Session.
+    pub id: &'a str,
+    /// Numbers and names of its tasks.
+    pub tasks: &'a [(u32, String)],
+    /// Words.
+    pub wording: &'a Wording,
+    /// All languages that one can choose.
+    pub languages: &'a [Wording],
+    /// Answers so far.
+    pub answers: &'a Answers,
+    /// Something was just saved.
+    pub saved: bool,
+}
+
+/// Why an answer of a form is refused: field, value, and what is allowed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{field} = {value}: no such answer (allowed: {allowed})")]
+pub struct NoAnswer {
+    /// Field.
+    pub field: String,
+    /// Value.
+    pub value: String,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+/// Puts the answers of a form to those that are there. Fields that are no questions are left alone (the token is one).
+///
+/// # Errors
+/// At the first answer that is none; then nothing should be saved.
+pub fn take(answers: &mut Answers, fields: &[(String, String)], tasks: &[u32]) -> Result<usize, NoAnswer> {
+    let items = Item::all(tasks);
+    let mut taken = 0;
+    for (field, value) in fields {
+        if let Some(item) = Item::from_key(field).filter(|item| items.contains(item)) {
+            let allowed = || format!("{STRONGLY_AGREE} to {STRONGLY_DISAGREE}");
+            answers.given.insert(item, number(field, value, |v| (STRONGLY_AGREE..=STRONGLY_DISAGREE).contains(&v), allowed)?);
+        } else if let Some(scale) = field.strip_prefix(TLX).and_then(Tlx::from_key) {
+            if value.is_empty() {
+                continue;
+            }
+            let allowed = || format!("0 to {TLX_MAX} in steps of {TLX_STEP}");
+            answers.tlx.insert(scale, number(field, value, |v| v <= TLX_MAX && v.is_multiple_of(TLX_STEP), allowed)?);
+        } else {
+            continue;
+        }
+        taken += 1;
+    }
+    Ok(taken)
+}
+
+fn number(field: &str, value: &str, fits: impl Fn(u8) -> bool, allowed: impl Fn() -> String) -> Result<u8, NoAnswer> {
+    let short = |text: &str| text.chars().filter(|c| !c.is_control()).take(60).collect();
+    let wrong = || NoAnswer { field: short(field), value: short(value), allowed: allowed() };
+    value.parse().ok().filter(|value| fits(*value)).ok_or_else(wrong)
+}
+
+/// The page.
+#[must_use]
+pub fn page(visitor: &Visitor, asked: &Asked<'_>) -> Markup {
+    let tasks: Vec<u32> = asked.tasks.iter().map(|(id, _)| *id).collect();
+    let (all, open) = (Item::all(&tasks).len(), asked.answers.open(&tasks).len());
+    let overall: Vec<Item> = Overall::ALL.map(Item::Overall).to_vec();
+    let words = &asked.wording.form;
+    let body = html! {
+        (switch(asked))
+        p.lead { (asked.wording.introduction) }
+        @if asked.saved { (message("good", &words.saved)) }
+        form.questions method="post" action={ "/sessions/" (asked.id) "/questions" } data-save data-answered=(words.answered) data-not-saved=(words.not_saved) {
+            (token(visitor))
+            input type="hidden" name="language" value=(asked.wording.language);
+            p.status { span role="status" data-status { (words.answered(all - open, all)) } " · " (words.at_once) }
+            (group(&asked.wording.overall_heading, &overall, asked))
+            @for phase in Phase::all(&tasks) {
+                (group(&phase_name(asked, phase), &Aspect::ALL.map(|aspect| Item::Phase(phase, aspect)), asked))
+            }
+            (workload(asked))
+            p.tools {
+                button type="submit" { (words.save) }
+                a href={ "/sessions/" (asked.id) } { (words.back) }
+            }
+        }
+    };
+    in_language(visitor, "/sessions", &asked.wording.title, (&asked.wording.language, Some(assets::FORM_NAME)), &body)
+}
+
+/// The choice of languages, each in its own words. Answers are saved at once: another language loses none.
+fn switch(asked: &Asked<'_>) -> Markup {
+    let words = &asked.wording.form;
+    html! {
+        form.inline.languages method="get" action={ "/sessions/" (asked.id) "/questions" } {
+            label { (words.choose_language) " "
+                select name="language" {
+                    @for one in asked.languages {
+                        option value=(one.language) lang=(one.language) selected[one.language == asked.wording.language] { (one.language_name) }
+                    }
+                }
+            }
+            button type="submit" { (words.change_language) }
+        }
+    }
+}
+
+fn phase_name(asked: &Asked<'_>, phase: Phase) -> String {
+    let name = |id: u32| asked.tasks.iter().find(|(task, _)| *task == id).map_or(String::new(), |(_, name)| name.clone());
+    asked.wording.phase(phase, name)
+}
+
+fn group(heading: &str, items: &[Item], asked: &Asked<'_>) -> Markup {
+    html! {
+        section {
+            h2 { (heading) }
+            @for item in items { (question(*item, heading, asked)) }
+        }
+    }
+}
+
+fn question(item: Item, heading: &str, asked: &Asked<'_>) -> Markup {
+    let given = asked.answers.given.get(&item).copied();
+    html! {
+        fieldset.likert-question data-question {
+            legend { (asked.wording.statement(item)) span.hidden { " (" (heading) ")" } }
+            div.choices {
+                @for (k, words) in (STRONGLY_AGREE..=STRONGLY_DISAGREE).zip(&asked.wording.scale) {
+                    label { input type="radio" name=(item) value=(k) checked[given == Some(k)]; span { (words) } }
+                }
+            }
+        }
+    }
+}
+
+fn workload(asked: &Asked<'_>) -> Markup {
+    html! {
+        section {
+            details open[!asked.answers.tlx.is_empty()] {
+                summary { (asked.wording.tlx_title) }
+                p { (asked.wording.tlx_introduction) }
+                @for scale in Tlx::ALL {
+                    @let (question, low, high) = asked.wording.tlx(scale);
+                    label.scale {
+                        span { (question) }
+                        select name={ (TLX) (scale.key()) } {
+                            option value="" selected[!asked.answers.tlx.contains_key(&scale)] { "–" }
+                            @for value in (0..=TLX_MAX).step_by(usize::from(TLX_STEP)) {
+                                option value=(value) selected[asked.answers.tlx.get(&scale) == Some(&value)] {
+                                    (value) @if value == 0 { " " (low) } @else if value == TLX_MAX { " " (high) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::*;
+    use crate::questionnaire::Languages;
+
+    fn fields(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
+        pairs.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect()
+    }
+
+    #[test]
+    fn exact_answers_are_taken_and_what_is_none_is_refused_by_name() {
+        let mut answers = Answers::default();
+        let given = fields(&[
+            ("token", "x"),
+            ("frustration", "4"),
+            ("task_2.performance", "1"),
+            ("tlx.effort", "35"),
+            ("tlx.frustration", ""),
+        ]);
+        assert_eq!(take(&mut answers, &given, &[1, 2]), Ok(3));
+        assert_eq!((answers.given.len(), answers.tlx[&Tlx::Effort]), (2, 35));
+        assert_eq!(take(&mut answers, &fields(&[("task_3.performance", "1")]), &[1, 2]), Ok(0), "no such task in this job");
+        for (field, value, allowed) in
+            [("frustration", "6", "1 to 5"), ("feedback", "<b>", "1 to 5"), ("tlx.effort", "33", "0 to 100 in steps of 5")]
+        {
+            let wrong = take(&mut answers, &fields(&[(field, value)]), &[1]).unwrap_err().to_string();
+            assert_eq!(wrong, format!("{field} = {value}: no such answer (allowed: {allowed})"));
+        }
+    }
+
+    #[test]
+    fn exact_the_form_shows_what_was_answered_and_escapes_names() {
+        let languages = Languages::with(Vec::new()).unwrap();
+        let wording = languages.of("de").unwrap();
+        let mut answers = Answers::default();
+        answers.given.insert(Item::Overall(Overall::Feedback), 5);
+        let tasks = [(1, EVIL.to_owned())];
+        let asked = Asked { id: "s", tasks: &tasks, wording, languages: languages.all(), answers: &answers, saved: true };
+        let text = page(&administrator(), &asked).into_string();
+        check(&text);
+        assert!(text.contains("name=\"feedback\" value=\"5\" checked"), "{text}");
+        assert_eq!(text.matches(" checked").count(), 1);
+        assert!(text.contains("<html lang=\"de\">") && text.contains("<header class=\"bar\" lang=\"en\">"), "{text}");
+        assert!(text.contains("Gespeichert.") && text.contains("lang=\"es\">Español"), "{text}");
+        assert_eq!(text.matches("<fieldset").count(), Item::all(&[1]).len());
+    }
+}

@@ -1,0 +1,188 @@
+//! What all pages share: head, navigation, tables of links, forms with their token.
+
+use super::access::{Needs, Visitor};
+use super::assets;
+use maud::{DOCTYPE, Markup, html};
+
+/// For trainees: instructors have the live page.
+const OWN_FLIGHT: &str = "/flight";
+/// Places of the navigation: address, words, who sees it.
+const PLACES: [(&str, &str, Needs); 8] = [
+    ("/sessions", "Sessions", Needs::Login),
+    (OWN_FLIGHT, "My flight", Needs::Login),
+    ("/live", "Live", Needs::Instructor),
+    ("/trainees", "Trainees", Needs::Instructor),
+    ("/cohort", "Cohort", Needs::Instructor),
+    ("/scenarios", "Scenarios", Needs::Login),
+    ("/settings", "Settings", Needs::Administrator),
+    ("/account", "Account", Needs::Login),
+];
+
+/// A whole page. `at` is the navigation's place that it belongs to.
+#[must_use]
+pub fn page(visitor: &Visitor, at: &str, title: &str, body: &Markup) -> Markup {
+    scripted(visitor, at, title, None, body)
+}
+
+/// A whole page with a script of ours.
+#[must_use]
+pub fn scripted(visitor: &Visitor, at: &str, title: &str, script: Option<&str>, body: &Markup) -> Markup {
+    in_language(visitor, at, title, ("en", script), body)
+}
+
+/// A whole page whose body is in this language; the bar around it stays English, and says so.
+#[must_use]
+pub fn in_language(visitor: &Visitor, at: &str, title: &str, (language, script): (&str, Option<&str>), body: &Markup) -> Markup {
+    html! {
+        (DOCTYPE)
+        html lang=(language) {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (title) " · Spandrel" }
+                link rel="icon" href="data:,";
+                link rel="stylesheet" href=(assets::address(assets::STYLE_NAME));
+                @if let Some(script) = script { script src=(assets::address(script)) defer {} }
+            }
+            body.web {
+                a.skip href="#main" lang="en" { "Skip to the page" }
+                (bar(visitor, at))
+                main id="main" { h1 { (title) } (body) }
+            }
+        }
+    }
+}
+
+fn bar(visitor: &Visitor, at: &str) -> Markup {
+    html! {
+        header.bar lang="en" {
+            a.brand href="/" { "Spandrel" }
+            nav aria-label="Main" {
+                @for (address, words, needs) in PLACES {
+                    @if visitor.meets(needs) && !(visitor.open && address == "/account") && !(visitor.meets(Needs::Instructor) && address == OWN_FLIGHT) {
+                        a href=(address) aria-current=[(address == at).then_some("page")] { (words) }
+                    }
+                }
+            }
+            @if let Some(name) = &visitor.name {
+                form.who method="post" action="/logout" {
+                    (token(visitor))
+                    span { (name) ", " (visitor.role.word()) }
+                    button type="submit" { "Log out" }
+                }
+            } @else if visitor.open {
+                p.who { "open on this machine" }
+            }
+        }
+    }
+}
+
+/// The hidden field that says that a form is ours.
+#[must_use]
+pub fn token(visitor: &Visitor) -> Markup {
+    html! { input type="hidden" name="token" value=(visitor.token); }
+}
+
+/// A message in a box of its own.
+#[must_use]
+pub fn message(kind: &str, words: &str) -> Markup {
+    html! { p class={ "message " (kind) } role="status" { (words) } }
+}
+
+/// A section with its heading.
+#[must_use]
+pub fn section(id: &str, heading: &str, body: &Markup) -> Markup {
+    html! { section aria-labelledby={ (id) "-head" } id=(id) { h2 id={ (id) "-head" } { (heading) } (body) } }
+}
+
+/// A table that scrolls sideways where it must.
+#[must_use]
+pub fn table(caption: &str, heads: &[(&str, bool)], rows: &Markup) -> Markup {
+    html! {
+        div.scroll tabindex="0" role="region" aria-label=(caption) {
+            table.list {
+                caption { (caption) }
+                thead { tr { @for (head, number) in heads { th scope="col" .number[*number] { (head) } } } }
+                tbody { (rows) }
+            }
+        }
+    }
+}
+
+/// Links to the pages of a list, the first is 1.
+#[must_use]
+pub fn pages(address: &str, at: u32, last: u32) -> Markup {
+    let link = |page: u32, words: &str, here: bool| {
+        html! { @if here { a href={ (address) "page=" (page) } { (words) } } @else { span.off { (words) } } }
+    };
+    html! {
+        @if last > 1 {
+            nav.pages aria-label="Pages" {
+                (link(1, "newest", at > 1))
+                (link(at.saturating_sub(1), "newer", at > 1))
+                span { "page " (at) " of " (last) }
+                (link(at + 1, "older", at < last))
+                (link(last, "oldest", at < last))
+            }
+        }
+    }
+}
+
+/// What went wrong, as a page.
+#[must_use]
+pub fn refusal(visitor: &Visitor, title: &str, words: &str) -> Markup {
+    page(
+        visitor,
+        "",
+        title,
+        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to the start" } } } },
+    )
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::trainee::Role;
+
+    /// Somebody who tries to be a script.
+    pub(crate) const EVIL: &str = "<script>alert(1)</script>\"'&";
+
+    pub(crate) fn administrator() -> Visitor {
+        Visitor { name: Some(EVIL.into()), role: Role::Administrator, open: false, token: "t0ken".into() }
+    }
+
+    /// Fails on anything that the policy would stop or that was not escaped.
+    pub(crate) fn check(page: &str) {
+        assert!(!page.contains("<script>") && !page.contains(" style=") && !page.contains(" onclick="), "{page}");
+        for form in page.split("<form").skip(1) {
+            let form = form.split("</form>").next().unwrap_or_default();
+            let posts = form.contains("method=\"post\"");
+            assert_eq!(posts, form.contains("name=\"token\""), "posting forms carry the token, others do not show it: {form}");
+        }
+    }
+
+    #[test]
+    fn exact_names_are_escaped_and_forms_carry_the_token() {
+        let text = page(&administrator(), "/sessions", EVIL, &html! { p { (EVIL) } }).into_string();
+        check(&text);
+        assert!(text.contains("href=\"/sessions\" aria-current=\"page\""), "{text}");
+    }
+
+    #[test]
+    fn exact_the_navigation_shows_what_may_be_opened() {
+        let trainee = Visitor { role: Role::Trainee, ..administrator() };
+        let text = page(&trainee, "", "x", &html! {}).into_string();
+        assert!(text.contains("/sessions") && !text.contains("\"/trainees\"") && !text.contains("\"/settings\""));
+        let stranger = Visitor { name: None, ..administrator() };
+        let text = page(&stranger, "", "x", &html! {}).into_string();
+        assert!(!text.contains("\"/sessions\"") && !text.contains("Log out"));
+    }
+
+    #[test]
+    fn exact_a_list_of_one_page_has_no_links() {
+        assert_eq!(pages("/x?", 1, 1).into_string(), "");
+        let text = pages("/x?trainee=a&", 2, 3).into_string();
+        assert!(text.contains("/x?trainee=a&amp;page=1") && text.contains("page=3") && text.contains("page 2 of 3"), "{text}");
+    }
+}

@@ -1,0 +1,155 @@
+//! Scenarios: what there is, one in short with its drawing, and the upload of another; the upload of a recorded flight.
+
+use super::access::{Needs, Visitor};
+use super::frame::{message, page, section, table, token};
+use crate::report::plots::job::job_plan;
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+
+/// One line of the list.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Named {
+    /// Name.
+    pub name: String,
+    /// Title.
+    pub title: String,
+    /// It came by an upload, so it may be taken away.
+    pub uploaded: bool,
+}
+
+/// The list, with how an upload went.
+#[must_use]
+pub fn list(visitor: &Visitor, named: &[Named], told: Option<(&str, &str)>) -> Markup {
+    let rows = html! {
+        @for one in named {
+            tr {
+                th scope="row" { a href={ "/scenarios/" (one.name) } { (one.name) } }
+                td { (one.title) }
+                td { (if one.uploaded { "uploaded" } else { "shipped" }) }
+            }
+        }
+    };
+    let body = html! {
+        @if let Some((kind, words)) = told { (message_lines(kind, words)) }
+        section { (table(&format!("{} scenarios", named.len()), &[("Name", false), ("Title", false), ("From", false)], &rows)) }
+        @if visitor.meets(Needs::Instructor) { (section("upload", "Upload a scenario", &upload(visitor))) }
+    };
+    page(visitor, "/scenarios", "Scenarios", &body)
+}
+
+/// Lines of words in one box: every problem of a file stands on a line of its own.
+fn message_lines(kind: &str, words: &str) -> Markup {
+    html! { div class={ "message " (kind) } role="status" { @for line in words.lines() { p { (line) } } } }
+}
+
+fn upload(visitor: &Visitor) -> Markup {
+    html! {
+        p { "One TOML file that names no other file. It is checked first; everything that is wrong with it is told." }
+        form.stacked method="post" action="/scenarios" enctype="multipart/form-data" {
+            (token(visitor))
+            label { "File" input type="file" name="file" accept=".toml" required; }
+            button type="submit" { "Check and keep" }
+        }
+    }
+}
+
+/// One scenario. The file itself is for instructors: it may say where the defects are, and its seed does.
+#[must_use]
+pub fn one(visitor: &Visitor, named: &Named, scenario: &Scenario, site: &Site, text: &str) -> Markup {
+    let s = &scenario.scoring;
+    let facts = html! {
+        dl.facts {
+            dt { "Bridges" } dd { (scenario.bridges.len()) }
+            dt { "Tasks" } dd { (scenario.tasks.len()) }
+            dt { "Defects to find" } dd { (scenario.defects.count) }
+            dt { "Traffic" } dd { (scenario.traffic.cars) " cars, " (scenario.traffic.trucks) " trucks, " (scenario.traffic.pedestrians) " pedestrians" }
+            dt { "Wind" } dd { (words::number(scenario.wind.speed_m_s, 1)) " m/s from " (words::number(scenario.wind.from_deg, 0)) "°" }
+            dt { "Speed limit" } dd { (words::number(s.speed_limit_m_s, 2)) " m/s" }
+            dt { "Time" } dd { "full marks up to " (words::duration(s.time_best_s)) ", at most " (words::duration(s.time_max_s)) }
+        }
+    };
+    let rows = html! {
+        @for task in &scenario.tasks {
+            tr { th scope="row" { (task.id) " · " (task.name) } td.number { (words::number(task.threshold_m, 1)) } }
+        }
+    };
+    let body = html! {
+        p.lead { (scenario.title) }
+        (section("facts", "In short", &facts))
+        @if !scenario.tasks.is_empty() {
+            (section("tasks", "Tasks", &table("Tasks and how far their paths reach", &[("Task", false), ("On the path within, m", true)], &rows)))
+        }
+        (section("site", "From above", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
+        @if visitor.meets(Needs::Instructor) { (section("file", "The file", &html! {
+            details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="Text of the file" { pre { code { (text) } } } }
+            @if named.uploaded {
+                form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Take this upload away" } }
+            }
+        })) }
+    };
+    page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
+}
+
+/// What is told of a recording that was not taken in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Told<'a> {
+    /// What is wrong with it.
+    Wrong(&'a str),
+    /// It is a session already.
+    There {
+        /// Session.
+        id: &'a str,
+        /// Whose.
+        trainee: &'a str,
+    },
+}
+
+/// The form that takes in a recorded flight, with what became of the one before.
+#[must_use]
+pub fn recorded(visitor: &Visitor, scenarios: &[Named], vehicles: &[String], told: Option<Told<'_>>) -> Markup {
+    let body = html! {
+        @match told {
+            None => {},
+            Some(Told::Wrong(words)) => (message("bad", words)),
+            Some(Told::There { id, trainee }) => p.message.good role="status" {
+                "This recording is here already: it is " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". Nothing was changed."
+            },
+        }
+        section.narrow {
+            p { "A tlog as ground stations and the monitor write it, with the simulator's truth in it. It is scored before it is kept." }
+            form.stacked method="post" action="/upload" enctype="multipart/form-data" {
+                (token(visitor))
+                label { "Trainee" input name="trainee" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocapitalize="none"; }
+                label { "Scenario" select name="scenario" { @for one in scenarios { option value=(one.name) { (one.name) } } } }
+                label { "Aircraft" select name="vehicle" { @for one in vehicles { option value=(one) { (one) } } } }
+                label { "Recording" input type="file" name="file" accept=".tlog" required; }
+                button type="submit" { "Take in" }
+            }
+        }
+    };
+    page(visitor, "/sessions", "Take in a recorded flight", &body)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::*;
+    use crate::trainee::Role;
+
+    #[test]
+    fn exact_uploads_are_for_instructors_and_what_a_file_says_is_escaped() {
+        let named = [Named { name: EVIL.into(), title: EVIL.into(), uploaded: true }];
+        let text = list(&administrator(), &named, Some(("bad", EVIL))).into_string();
+        check(&text);
+        assert!(text.contains("type=\"file\""));
+        let trainee = Visitor { role: Role::Trainee, ..administrator() };
+        assert!(!list(&trainee, &named, None).into_string().contains("type=\"file\""));
+        for told in [Told::Wrong(EVIL), Told::There { id: "s-1", trainee: EVIL }] {
+            check(&recorded(&administrator(), &named, &[EVIL.into()], Some(told)).into_string());
+        }
+        let there = recorded(&administrator(), &named, &[], Some(Told::There { id: "s-1", trainee: "anna" })).into_string();
+        assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session of anna"), "{there}");
+    }
+}

@@ -1,0 +1,18 @@
+//! The pages of `spandrel serve`, and who may see them: pure functions from data to HTML, and the tables of visits and failed logins with
+//! time as an argument. What a user wrote goes through maud's escaping; scripts and styles are files of their own, so that the pages'
+//! policy allows nothing inline.
+
+pub mod access;
+pub mod assets;
+pub mod form;
+pub mod frame;
+pub mod group;
+pub mod job;
+pub mod live;
+pub mod login;
+pub mod people;
+pub mod sessions;
+pub mod settings;
+pub mod throttle;
+pub mod visits;
+pub mod watch;

@@ -1,0 +1,316 @@
+//! Lists of sessions, and one session's page.
+
+use super::access::{Needs, Visitor};
+use super::frame::{page, pages, section, table};
+use crate::questionnaire::Item;
+use crate::record::{Listed, Record, TaskRecord};
+use crate::report::plots::bars::{Row, shares};
+use crate::report::plots::radar::{Spoke, radar};
+use crate::report::words;
+use maud::{Markup, html};
+use spandrel_model::calendar::minute;
+
+/// A part of the list of sessions.
+#[derive(Debug, Clone, Copy)]
+pub struct Listing<'a> {
+    /// The part.
+    pub lines: &'a [Listed],
+    /// Only this trainee's were asked for.
+    pub trainee: Option<&'a str>,
+    /// The part's number, from 1.
+    pub page: u32,
+    /// The last part's.
+    pub last: u32,
+    /// All sessions.
+    pub count: u64,
+}
+
+/// The list.
+#[must_use]
+pub fn list(visitor: &Visitor, listing: &Listing<'_>) -> Markup {
+    let address = match listing.trainee {
+        Some(trainee) => format!("/sessions?trainee={trainee}&"),
+        None => "/sessions?".to_owned(),
+    };
+    let body = html! {
+        section {
+            div.tools {
+                @if visitor.meets(Needs::Instructor) {
+                    form.inline method="get" action="/sessions" {
+                        label { "Trainee " input name="trainee" value=[listing.trainee] maxlength="32" autocapitalize="none"; }
+                        button type="submit" { "Show" }
+                        @if listing.trainee.is_some() { a href="/sessions" { "Show all" } }
+                    }
+                    a href="/upload" { "Take in a recorded flight" }
+                } @else if let Some(name) = &visitor.name {
+                    a href={ "/trainees/" (name) } { "My progress and plan" }
+                }
+            }
+            @if listing.lines.is_empty() {
+                p.calm { "There is no session yet. A flight appears here when it has ended." }
+            } @else {
+                (lines(visitor, &format!("{} sessions, the newest first", listing.count), listing.lines))
+                (pages(&address, listing.page, listing.last))
+            }
+        }
+    };
+    page(visitor, "/sessions", "Sessions", &body)
+}
+
+/// Rows of sessions.
+#[must_use]
+pub fn lines(visitor: &Visitor, caption: &str, lines: &[Listed]) -> Markup {
+    let all = visitor.meets(Needs::Instructor);
+    // What a phone shows without being moved comes first: when, who, how well.
+    let mut heads = vec![
+        ("Started", false),
+        ("Trainee", false),
+        ("Overall", true),
+        ("Certified", false),
+        ("Scenario", false),
+        ("Purpose", false),
+        ("End", false),
+    ];
+    if !all {
+        heads.remove(1);
+    }
+    table(
+        caption,
+        &heads,
+        &html! {
+            @for one in lines {
+                tr {
+                    th scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
+                    @if all { td { a href={ "/trainees/" (one.trainee) } { (one.trainee) } } }
+                    @if one.is_complete() { td.number { (words::number(one.overall, 1)) " of " (words::number(one.overall_max, 0)) } }
+                    @else { td { (one.headline()) } }
+                    td { (one.verdict()) }
+                    td { (one.scenario) }
+                    td { (one.purpose.as_deref().unwrap_or("–")) }
+                    td { (one.end_reason.replace('_', " ")) }
+                }
+            }
+        },
+    )
+}
+
+/// What a session's page needs besides its record.
+#[derive(Debug, Clone, Copy)]
+pub struct Beside<'a> {
+    /// Its folder is here, so report, questionnaire and downloads are.
+    pub folder: bool,
+    /// Other sessions of the same trainee.
+    pub others: &'a [Listed],
+}
+
+/// One session.
+#[must_use]
+pub fn session(visitor: &Visitor, record: &Record, beside: &Beside<'_>) -> Markup {
+    let body = html! {
+        p.lead {
+            a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
+            @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
+            (words::duration(record.seconds)) " of flight, end: " (record.end_reason.replace('_', " "))
+        }
+        (actions(record, beside))
+        (section("scores", "Scores", &scores(record)))
+        @if !record.tasks.is_empty() { (section("tasks", "Tasks", &tasks(record))) }
+        @if !record.defects.is_empty() { (section("defects", "Defects", &defects(record))) }
+        (section("compare", "Compare with", &compare(record, beside.others)))
+    };
+    page(visitor, "/sessions", &format!("Session: {}", record.scenario), &body)
+}
+
+fn actions(record: &Record, beside: &Beside<'_>) -> Markup {
+    let tasks: Vec<u32> = record.tasks.iter().map(|task| task.id).collect();
+    let all = Item::all(&tasks).len();
+    let answered = record.answers.as_ref().map_or(0, |answers| all - answers.open(&tasks).len());
+    html! {
+        @if beside.folder {
+            ul.actions {
+                li { a.button href={ "/sessions/" (record.id) "/report" } { "Open the report" } }
+                li { a.button href={ "/sessions/" (record.id) "/questions" } {
+                    @if answered == 0 { "Answer the questionnaire" }
+                    @else if answered < all { "Go on with the questionnaire (" (answered) " of " (all) ")" }
+                    @else { "The questionnaire (all " (all) " answered)" }
+                } }
+                li { a href={ "/sessions/" (record.id) "/frames.csv" } { "Frames (CSV)" } }
+                li { a href={ "/sessions/" (record.id) "/telemetry.tlog" } { "Telemetry (tlog)" } }
+            }
+        } @else {
+            p.note { "The session's folder is not on this machine: no report, questionnaire or downloads." }
+        }
+    }
+}
+
+/// The four scores by name, 0 to 100.
+#[must_use]
+pub fn named(record: &Record) -> [(&'static str, Option<f64>); 4] {
+    let scores = &record.scores;
+    [
+        ("Conformity", scores.conformity),
+        ("Efficiency", Some(scores.efficiency)),
+        ("Safety", Some(scores.safety)),
+        ("Accuracy", scores.accuracy),
+    ]
+}
+
+fn scores(record: &Record) -> Markup {
+    let spokes: Vec<Spoke> = named(record).into_iter().map(|(name, value)| Spoke { name, values: vec![value] }).collect();
+    html! {
+        p { b { (record.headline()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below are for the part that was flown." } }
+        div.split {
+            figure { figcaption { "The four scores, 0 in the middle, 100 at the rim" } (radar(&spokes, "Kiviat diagram of the four scores")) }
+            div.cards {
+                @if record.is_complete() {
+                    div.card { h3 { "Overall" } p.figure { (words::number(record.scores.overall, 0)) span.of { " of " (words::number(record.scores.overall_max, 0)) } } }
+                }
+                @for (name, value) in named(record) {
+                    div.card { h3 { (name) } p.figure { @if let Some(value) = value { (words::number(value, 0)) } @else { "n/a" } } }
+                }
+            }
+        }
+    }
+}
+
+fn tasks(record: &Record) -> Markup {
+    let row = |task: &TaskRecord| Row {
+        name: format!("{} · {}", task.id, task.name),
+        bars: vec![("b-on", task.on_path)],
+        instead: (!task.attempted).then_some("not attempted"),
+    };
+    let rows: Vec<Row> = record.tasks.iter().map(row).collect();
+    html! {
+        div.split {
+            figure { figcaption { "Share of each task's time on the path" } (shares(&rows, "On the path by task")) }
+            (table(
+                "Each task in numbers",
+                &[("Task", false), ("Path flown", false), ("On path, %", true), ("Too fast, s", true), ("Crashes", true), ("Defects found", true)],
+                &html! {
+                    @for task in &record.tasks {
+                        tr {
+                            th scope="row" { (task.id) " · " (task.name) }
+                            td { (flown(record, task)) }
+                            td.number { (words::number(100.0 * task.on_path, 0)) }
+                            td.number { (words::number(task.speeding_s, 1)) }
+                            td.number { (task.crashes.total()) }
+                            td.number { (task.defects_found) " of " (task.defects_placed) }
+                        }
+                    }
+                },
+            ))
+        }
+        @if record.crashes_outside.total() > 0 { p.note { (record.crashes_outside.total()) " crashes outside all tasks." } }
+    }
+}
+
+/// How far a task got, in words.
+fn flown(record: &Record, task: &TaskRecord) -> String {
+    let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
+    task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.words(covered, done_share))
+}
+
+fn defects(record: &Record) -> Markup {
+    table(
+        &format!(
+            "{} of {} found; {} of {} pictures showed a new one",
+            record.defects.iter().filter(|d| d.found).count(),
+            record.defects.len(),
+            record.hits,
+            record.snapshots
+        ),
+        &[("Defect", false), ("Task", true), ("Found", false), ("What the best picture lacked", false)],
+        &html! {
+            @for defect in &record.defects {
+                tr {
+                    th scope="row" { (defect.id) " · " (defect.kind_name) }
+                    td.number { @if let Some(task) = defect.task { (task) } }
+                    td { @if defect.found { "yes" } @else { "no" } }
+                    td { @if !defect.found { @if defect.lacked.is_empty() { "no picture near it" } @else { (defect.lacked.join(", ")) } } }
+                }
+            }
+        },
+    )
+}
+
+fn compare(record: &Record, others: &[Listed]) -> Markup {
+    html! {
+        @if others.is_empty() {
+            p.calm { "There is no other session of this trainee yet." }
+        } @else {
+            form.inline method="get" action="/compare" {
+                input type="hidden" name="first" value=(record.id);
+                label { "Other session "
+                    select name="second" {
+                        @for one in others { option value=(one.id) { (minute(one.started_unix_us)) ", " (one.scenario) ", " @if one.is_complete() { (words::number(one.overall, 0)) } @else { "incomplete" } } }
+                    }
+                }
+                button type="submit" { "Compare" }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::*;
+    use crate::testing::{broken_off, faultless};
+
+    #[test]
+    fn exact_a_sessions_page_escapes_whatever_the_record_says() {
+        let mut record = faultless("anna", 1);
+        record.tasks[0].name = EVIL.into();
+        record.defects[0].lacked = vec![EVIL.into()];
+        record.defects[0].found = false;
+        record.end_reason = EVIL.into();
+        record.unmet = vec![EVIL.into()];
+        record.certified = false;
+        let other = Listed {
+            id: "x".into(),
+            trainee: EVIL.into(),
+            started_unix_us: 0,
+            scenario: EVIL.into(),
+            overall: 1.0,
+            overall_max: 400.0,
+            end_reason: EVIL.into(),
+            purpose: Some(EVIL.into()),
+            completion: None,
+            certified: false,
+            unmet: vec![EVIL.into()],
+        };
+        let others = [other];
+        check(&session(&administrator(), &record, &Beside { folder: true, others: &others }).into_string());
+        let listing = Listing { lines: &others, trainee: Some(EVIL), page: 1, last: 9, count: 401 };
+        check(&list(&administrator(), &listing).into_string());
+    }
+
+    #[test]
+    fn regress_an_incomplete_session_shows_how_much_was_flown_and_no_sum() {
+        let record = broken_off("anna", 1);
+        let text = session(&administrator(), &record, &Beside { folder: true, others: &[] }).into_string();
+        assert!(text.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{text}");
+        assert!(text.contains("Not certified: task 1 not done: 60 % of its path, 80 % needed (and 1 more)"), "{text}");
+        assert!(text.contains("for the part that was flown") && !text.contains("<h3>Overall</h3>"), "{text}");
+        assert!(
+            session(&administrator(), &faultless("anna", 1), &Beside { folder: true, others: &[] })
+                .into_string()
+                .contains("<h3>Overall</h3>")
+        );
+    }
+
+    #[test]
+    fn exact_the_questionnaire_is_offered_by_how_far_it_is() {
+        let mut record = faultless("anna", 1);
+        let text = |record: &Record| session(&administrator(), record, &Beside { folder: true, others: &[] }).into_string();
+        assert!(text(&record).contains("all 24 answered"));
+        if let Some(answers) = &mut record.answers {
+            answers.given.pop_first();
+        }
+        assert!(text(&record).contains("23 of 24"));
+        record.answers = None;
+        assert!(text(&record).contains("Answer the questionnaire"));
+        let bare = session(&administrator(), &record, &Beside { folder: false, others: &[] }).into_string();
+        assert!(!bare.contains("/report") && bare.contains("not on this machine"));
+    }
+}

@@ -1,0 +1,110 @@
+//! What an administrator sets: who may log in, and how long sessions are kept.
+
+use super::access::Visitor;
+use super::frame::{message, page, section, table, token};
+use super::login::PASSWORD_LENGTHS;
+use crate::trainee::{Role, Trainee};
+use maud::{Markup, html};
+
+/// What the page shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Settings<'a> {
+    /// Everybody.
+    pub people: &'a [Trainee],
+    /// Those who may log in.
+    pub with_password: &'a [String],
+    /// Place of the database, without a password.
+    pub database: &'a str,
+    /// Folders of sessions.
+    pub folders: &'a [String],
+    /// How a change went.
+    pub told: Option<(&'a str, &'a str)>,
+}
+
+/// The page.
+#[must_use]
+pub fn settings(visitor: &Visitor, settings: &Settings<'_>) -> Markup {
+    let body = html! {
+        @if let Some((kind, words)) = settings.told { (message(kind, words)) }
+        (section("logins", "Who may log in", &logins(visitor, settings)))
+        (section("add", "Add a person, or set a password and a role", &add(visitor)))
+        (section("retention", "Retention", &retention(visitor)))
+        (section("place", "Where things are", &html! {
+            dl {
+                dt { "Database" } dd { (settings.database) }
+                dt { "Session folders" } dd { @for folder in settings.folders { (folder) " " } }
+                dt { "Version" } dd { "spandrel " (env!("CARGO_PKG_VERSION")) }
+            }
+        }))
+    };
+    page(visitor, "/settings", "Settings", &body)
+}
+
+fn logins(visitor: &Visitor, settings: &Settings<'_>) -> Markup {
+    let role = |name: &String| settings.people.iter().find(|one| one.pseudonym == *name).map_or("", |one| one.role.word());
+    html! {
+        @if visitor.open { (message("warn", "Nobody has a password: whoever uses this machine may do everything, and the server can be reached from this machine alone. With the first password everybody has to log in; make it an administrator's.")) }
+        @if !settings.with_password.is_empty() {
+            (table("People with a password", &[("Name", false), ("Role", false), ("Change", false)], &html! {
+                @for name in settings.with_password {
+                    tr {
+                        th scope="row" { (name) }
+                        td { (role(name)) }
+                        td {
+                            @if visitor.name.as_ref() != Some(name) {
+                                form method="post" action="/settings/no-login" {
+                                    (token(visitor))
+                                    input type="hidden" name="name" value=(name);
+                                    button type="submit" aria-label={ "No more login for " (name) } { "No more login" }
+                                }
+                            }
+                        }
+                    }
+                }
+            }))
+        }
+    }
+}
+
+fn add(visitor: &Visitor) -> Markup {
+    html! {
+        form.stacked method="post" action="/settings/login" {
+            (token(visitor))
+            label { "Pseudonym" input name="name" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocomplete="off" autocapitalize="none"; }
+            label { "Role" select name="role" { @for role in Role::ALL { option value=(role.word()) { (role.word()) } } } }
+            label { "Password, at least " (PASSWORD_LENGTHS.start()) " characters" input type="password" name="password" required minlength=(PASSWORD_LENGTHS.start()) maxlength=(PASSWORD_LENGTHS.end()) autocomplete="new-password"; }
+            button type="submit" { "Set" }
+        }
+    }
+}
+
+fn retention(visitor: &Visitor) -> Markup {
+    html! {
+        form.stacked method="post" action="/settings/retention" {
+            (token(visitor))
+            label { "Erase sessions and their folders that are older than so many days" input type="number" name="days" required min="1" max="36525"; }
+            label { input type="checkbox" name="sure" value="yes" required; " This cannot be undone; erase them" }
+            button.danger type="submit" { "Erase" }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::*;
+
+    #[test]
+    fn exact_nobody_takes_away_the_own_login_and_names_are_escaped() {
+        let names = [EVIL.to_owned(), "ben".to_owned()];
+        let people = [Trainee::new(EVIL), Trainee::new("ben")];
+        let shown =
+            Settings { people: &people, with_password: &names, database: EVIL, folders: &names, told: Some(("good", EVIL)) };
+        let text = settings(&administrator(), &shown).into_string();
+        check(&text);
+        assert_eq!(text.matches("/settings/no-login").count(), 1, "of two only the other's");
+        assert!(!text.contains("Nobody has a password"));
+        let open = Visitor { open: true, name: None, ..administrator() };
+        assert!(settings(&open, &shown).into_string().contains("Nobody has a password"));
+    }
+}

@@ -1,0 +1,177 @@
+//! A session as xAPI statements (Experience API 1.0.3) for a learning record store. A statement's id is made from what it says, so that
+//! one that is sent twice is stored once, and another flight is another statement.
+
+use super::record::{Record, TaskRecord};
+use serde_json::{Value, json};
+use spandrel_model::calendar::utc;
+use spandrel_monitor::score::completion::TaskState;
+use uuid::Uuid;
+
+/// Version of the interface, as its header names it.
+pub const VERSION: &str = "1.0.3";
+/// Where pseudonyms are accounts, unless told otherwise.
+pub const HOME: &str = "https://spandrel.invalid/trainees";
+/// Statements' ids are names below this one (RFC 9562, version 5): any UUID of our own.
+const NAMES: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
+/// Extension of a session's result: how much of the job was done.
+const COMPLETION: &str = "urn:spandrel:completion";
+/// Extension of a task's result: share of its path that was flown.
+const COVERED: &str = "urn:spandrel:covered";
+/// Verbs of ADL's vocabulary.
+const VERBS: &str = "http://adlnet.gov/expapi/verbs/";
+
+/// All statements of a session: the flight itself, its scores, the tasks that were flown, and the answers.
+#[must_use]
+pub fn statements(record: &Record, home: &str) -> Vec<Value> {
+    let mut out = vec![flight(record, home)];
+    let scores = &record.scores;
+    for (name, pct) in [
+        ("conformity", scores.conformity),
+        ("efficiency", Some(scores.efficiency)),
+        ("safety", Some(scores.safety)),
+        ("accuracy", scores.accuracy),
+    ] {
+        if let Some(pct) = pct {
+            let result = json!({ "score": score(pct, 100.0) });
+            out.push(statement(record, home, &format!("scores/{name}"), ("scored", name), result));
+        }
+    }
+    out.extend(record.tasks.iter().filter(|task| task.attempted).map(|task| of_task(record, home, task)));
+    if let Some(answers) = &record.answers {
+        for (item, answer) in &answers.given {
+            let name = format!("questions/{item}");
+            out.push(statement(record, home, &name, ("responded", &item.to_string()), json!({ "response": answer.to_string() })));
+        }
+    }
+    out
+}
+
+fn flight(record: &Record, home: &str) -> Value {
+    let complete = record.is_complete();
+    let mut result = json!({
+        "completion": complete,
+        "success": complete && record.certified,
+        "duration": format!("PT{:.2}S", record.seconds),
+        "response": if complete { record.verdict() } else { record.headline() },
+    });
+    // The sum says something of the whole job alone.
+    if complete {
+        result["score"] = score(record.scores.overall, record.scores.overall_max);
+    }
+    if let Some(completion) = &record.completion {
+        result["extensions"] = json!({ COMPLETION: completion });
+    }
+    let verb = if complete { "completed" } else { "attempted" };
+    statement(record, home, "", (verb, &record.scenario), result)
+}
+
+fn of_task(record: &Record, home: &str, task: &TaskRecord) -> Value {
+    let mut result = json!({
+        "score": score(100.0 * task.on_path, 100.0),
+        "duration": format!("PT{:.2}S", task.seconds),
+    });
+    if let Some((state, covered)) = task.state.zip(task.covered) {
+        result["completion"] = json!(state == TaskState::Done);
+        result["extensions"] = json!({ COVERED: covered });
+    }
+    statement(record, home, &format!("tasks/{}", task.id), ("attempted", &task.name), result)
+}
+
+fn score(raw: f64, max: f64) -> Value {
+    // `scaled` is from -1 to 1 by the standard, and 1 is the best.
+    let scaled = if max > 0.0 { (raw / max).clamp(-1.0, 1.0) } else { 0.0 };
+    json!({ "scaled": scaled, "raw": raw, "min": 0.0, "max": max.max(raw) })
+}
+
+/// One statement about the job (`below` empty) or a part of it.
+fn statement(record: &Record, home: &str, below: &str, (verb, name): (&str, &str), result: Value) -> Value {
+    let slash = if below.is_empty() { "" } else { "/" };
+    let activity = format!("urn:spandrel:scenario:{}{slash}{below}", record.scenario);
+    let mut statement = json!({
+        "actor": { "objectType": "Agent", "account": { "homePage": home, "name": record.trainee } },
+        "verb": { "id": format!("{VERBS}{verb}"), "display": { "en": verb } },
+        "object": { "objectType": "Activity", "id": activity, "definition": { "name": { "en": name } } },
+        "result": result,
+        "context": {
+            "registration": id(&record.id),
+            "platform": format!("spandrel {}", record.spandrel_version),
+            "extensions": {
+                "urn:spandrel:session": record.id,
+                "urn:spandrel:scorer-version": record.scorer_version,
+                "urn:spandrel:telemetry-sha256": record.telemetry_sha256,
+            },
+        },
+        "timestamp": utc(record.started_unix_us).0,
+    });
+    // Over everything that it says: a changed answer is another statement, the same one never is.
+    let id = id(&statement.to_string());
+    if let Some(fields) = statement.as_object_mut() {
+        fields.insert("id".to_owned(), Value::String(id));
+    }
+    statement
+}
+
+fn id(text: &str) -> String {
+    Uuid::new_v5(&NAMES, text.as_bytes()).to_string()
+}
+
+/// Statements as JSON lines.
+#[must_use]
+pub fn lines(statements: &[Value]) -> String {
+    statements.iter().map(|one| one.to_string() + "\n").collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{broken_off, faultless};
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn exact_a_session_says_flight_scores_tasks_and_answers() {
+        let record = faultless("anna", 1);
+        let all = statements(&record, HOME);
+        assert_eq!(all.len(), 1 + 4 + 4 + 24);
+        assert_eq!(all[0]["result"]["score"], json!({ "scaled": 1.0, "raw": 400.0, "min": 0.0, "max": 400.0 }));
+        assert_eq!(all[0]["result"]["duration"], "PT700.25S");
+        assert_eq!(all[0]["actor"]["account"]["name"], "anna");
+        let ids: BTreeSet<&str> = all.iter().filter_map(|one| one["id"].as_str()).collect();
+        assert_eq!(ids.len(), all.len());
+        let mut bare = record;
+        (bare.scores.accuracy, bare.answers) = (None, None);
+        assert_eq!(statements(&bare, HOME).len(), 1 + 3 + 4);
+    }
+
+    #[test]
+    fn regress_an_incomplete_session_is_not_completed_and_has_no_sum() {
+        let all = statements(&broken_off("anna", 1), HOME);
+        let flight = &all[0];
+        assert!(flight["verb"]["id"].as_str().is_some_and(|verb| verb.ends_with("/attempted")), "{flight}");
+        assert_eq!((&flight["result"]["completion"], &flight["result"]["success"]), (&json!(false), &json!(false)));
+        assert_eq!(flight["result"]["score"], Value::Null);
+        assert_eq!(flight["result"]["response"], "Incomplete: 0 of 4 tasks, 15 % of the path");
+        assert_eq!(flight["result"]["extensions"][COMPLETION]["path_share"], 0.15);
+        let task = all.iter().find(|one| one["object"]["id"].as_str().is_some_and(|id| id.ends_with("/tasks/1"))).unwrap();
+        assert_eq!((&task["result"]["completion"], &task["result"]["extensions"][COVERED]), (&json!(false), &json!(0.6)));
+    }
+
+    #[test]
+    fn exact_the_same_is_the_same_statement_and_a_changed_answer_is_another() {
+        let record = faultless("anna", 1);
+        assert_eq!(statements(&record, HOME), statements(&record, HOME));
+        let mut other = record.clone();
+        if let Some(answer) = other.answers.as_mut().and_then(|answers| answers.given.values_mut().next()) {
+            *answer = 5;
+        }
+        let ids = |record| statements(record, HOME).into_iter().map(|one| one["id"].to_string()).collect::<BTreeSet<_>>();
+        assert_eq!(ids(&record).difference(&ids(&other)).count(), 1);
+        assert!(ids(&record).is_disjoint(&ids(&faultless("anna", 2))));
+    }
+
+    #[test]
+    fn exact_numbers_stay_within_the_standards_ranges() {
+        assert_eq!(score(500.0, 400.0)["scaled"], 1.0);
+        assert_eq!(score(1.0, 0.0)["scaled"], 0.0);
+        assert!(score(500.0, 400.0)["max"].as_f64() >= score(500.0, 400.0)["raw"].as_f64());
+    }
+}

@@ -1,0 +1,254 @@
+//! What is drawn is cut into squares of ground, and what stands around them into sectors, so that a picture sends only those that it can show.
+
+use super::matrix::Matrix;
+use super::mesh::{Mesh, Vertex};
+use super::scene::Instance;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use std::collections::BTreeMap;
+
+/// Side of a square, m (estimate: some squares lie in every picture, most do not).
+const CELL_M: f64 = 80.0;
+/// What lies farther from the origin than this is backdrop, m.
+const BACKDROP_M: f64 = 500.0;
+/// Sectors of it around the origin: a view of 84 degrees shows a third of them. By software a draw costs as much as fifty triangles, a sixth of
+/// a sector of mountains.
+const SECTORS: f64 = 16.0;
+
+/// A ball around everything in a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball {
+    /// Centre, m.
+    pub centre_m: Vec3<Enu>,
+    /// Radius, m.
+    pub radius_m: f64,
+}
+
+impl Ball {
+    /// Around points, each with room of its own.
+    #[must_use]
+    pub fn around(points: &[(Vec3<Enu>, f64)]) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for (p, _) in points {
+            for (k, x) in p.array().into_iter().enumerate() {
+                low[k] = low[k].min(x);
+                high[k] = high[k].max(x);
+            }
+        }
+        let [x, y, z] = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
+        let centre_m = Vec3::new(x, y, z);
+        let radius_m = points.iter().map(|(p, room)| (*p - centre_m).norm() + room).fold(0.0, f64::max);
+        Self { centre_m, radius_m }
+    }
+
+    /// How far it begins from a point, m; below zero inside.
+    #[must_use]
+    pub fn from_m(&self, point_m: Vec3<Enu>) -> f64 {
+        (point_m - self.centre_m).norm() - self.radius_m
+    }
+
+    /// Around a mesh.
+    #[must_use]
+    pub fn of(mesh: &Mesh) -> Self {
+        Self::around(&mesh.vertices.iter().map(|v| (position(v), 0.0)).collect::<Vec<_>>())
+    }
+}
+
+fn position(v: &Vertex) -> Vec3<Enu> {
+    let [x, y, z] = v.position.map(f64::from);
+    Vec3::new(x, y, z)
+}
+
+/// What lies in a cell, for a picture's edges to decide whether it shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounds {
+    /// Around it.
+    pub ball: Ball,
+    /// Its corners; none where the ball alone is known.
+    corners_m: Vec<Vec3<Enu>>,
+}
+
+impl Bounds {
+    /// Of a mesh.
+    #[must_use]
+    pub fn of(mesh: &Mesh) -> Self {
+        Self { ball: Ball::of(mesh), corners_m: mesh.vertices.iter().map(position).collect() }
+    }
+}
+
+impl From<Ball> for Bounds {
+    fn from(ball: Ball) -> Self {
+        Self { ball, corners_m: Vec::new() }
+    }
+}
+
+/// A square's column and row, or a sector of the backdrop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Cell {
+    Square(i64, i64),
+    Sector(i64),
+}
+
+fn cell(p: Vec3<Enu>, backdrop: bool) -> Cell {
+    if backdrop || p.east().abs().max(p.north().abs()) > BACKDROP_M {
+        return Cell::Sector((math::atan2(p.east(), p.north()) / math::TAU * SECTORS).floor() as i64);
+    }
+    Cell::Square((p.east() / CELL_M).floor() as i64, (p.north() / CELL_M).floor() as i64)
+}
+
+/// Numbers of corners in a cell by those in the whole.
+type Numbers = BTreeMap<u32, u32>;
+
+/// A mesh's triangles by cell; a `backdrop` has sectors alone.
+#[must_use]
+pub fn cut(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
+    let mut cells: BTreeMap<Cell, (Mesh, Numbers)> = BTreeMap::new();
+    for triangle in mesh.indices.chunks_exact(3) {
+        let Some(first) = mesh.vertices.get(triangle[0] as usize) else { continue };
+        let (part, known) = cells.entry(cell(position(first), backdrop)).or_default();
+        for k in triangle {
+            let Some(vertex) = mesh.vertices.get(*k as usize) else { continue };
+            let index = *known.entry(*k).or_insert_with(|| {
+                part.vertices.push(*vertex);
+                part.vertices.len() as u32 - 1
+            });
+            part.indices.push(index);
+        }
+    }
+    cells.into_values().map(|(part, _)| part).collect()
+}
+
+/// How far a mesh reaches from its origin, m.
+#[must_use]
+pub fn reach_m(mesh: &Mesh) -> f64 {
+    mesh.vertices.iter().map(|v| position(v).norm()).fold(0.0, f64::max)
+}
+
+/// Copies of a mesh by cell, each with the ball around them.
+#[must_use]
+pub fn grouped(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, Ball)> {
+    let reach_m = reach_m(mesh);
+    let origin = |i: &Instance| Vec3::new(f64::from(i.rows[0][3]), f64::from(i.rows[1][3]), f64::from(i.rows[2][3]));
+    let size = |i: &Instance| {
+        let column = |k: usize| i.rows.iter().map(|row| f64::from(row[k]) * f64::from(row[k])).sum::<f64>().sqrt();
+        column(0).max(column(1)).max(column(2))
+    };
+    let mut cells: BTreeMap<Cell, Vec<Instance>> = BTreeMap::new();
+    for instance in instances {
+        cells.entry(cell(origin(instance), false)).or_default().push(*instance);
+    }
+    let balled = |all: Vec<Instance>| {
+        let points: Vec<_> = all.iter().map(|i| (origin(i), reach_m * size(i))).collect();
+        let ball = Ball::around(&points);
+        (all, ball)
+    };
+    cells.into_values().map(balled).collect()
+}
+
+/// The planes within which a projection shows anything.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frustum([[f64; 4]; 6]);
+
+impl Frustum {
+    /// Of a projection to clip space.
+    #[must_use]
+    pub fn of(projection: &Matrix) -> Self {
+        let [x, y, z, w] = projection.0;
+        let sum = |a: [f64; 4], b: [f64; 4], sign: f64| [0, 1, 2, 3].map(|k| a[k] + sign * b[k]);
+        Self([sum(w, x, 1.0), sum(w, x, -1.0), sum(w, y, 1.0), sum(w, y, -1.0), sum(w, z, -1.0), z])
+    }
+
+    /// False where a ball is certainly outside.
+    #[must_use]
+    pub fn may_show(&self, ball: &Ball) -> bool {
+        self.0.iter().all(|plane| {
+            let [a, b, c, _] = plane;
+            let length = (a * a + b * b + c * c).sqrt();
+            // An endless view has no far plane.
+            length < 1e-12 || inside(plane, ball.centre_m) >= -ball.radius_m * length
+        })
+    }
+
+    /// False where a cell is certainly outside: all of it beyond one of the picture's edges.
+    #[must_use]
+    pub fn may_show_cell(&self, bounds: &Bounds) -> bool {
+        let corners = &bounds.corners_m;
+        let reaches = |plane: &[f64; 4]| corners.is_empty() || corners.iter().any(|corner| inside(plane, *corner) >= 0.0);
+        self.may_show(&bounds.ball) && self.0.iter().all(reaches)
+    }
+}
+
+/// How far inside a plane a point lies, in the plane's own unit.
+fn inside([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
+    let [x, y, z] = p.array();
+    a * x + b * y + c * z + d
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::camera::Eye;
+    use super::super::mesh::{Finish, Material};
+    use super::*;
+
+    #[test]
+    fn exact_nothing_is_lost_in_cutting() {
+        let mut mesh = Mesh::default();
+        mesh.block([-300.0, -5.0, 0.0], [-20.0, 5.0, 2.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
+        mesh.block([100.0, 100.0, 0.0], [101.0, 101.0, 2.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
+        let parts = cut(&mesh, false);
+        assert!(parts.len() > 2);
+        assert_eq!(parts.iter().map(Mesh::triangles).sum::<usize>(), mesh.triangles());
+        for part in &parts {
+            let ball = Ball::of(part);
+            assert!(part.vertices.iter().all(|v| (position(v) - ball.centre_m).norm() <= ball.radius_m + 1e-6));
+        }
+    }
+
+    #[test]
+    fn exact_what_is_behind_or_beside_is_left_out_and_what_is_seen_is_not() {
+        let eye = Eye::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
+        let frustum = Frustum::of(&eye.view_projection(1.5));
+        let ball = |east: f64, north: f64| Ball { centre_m: Vec3::new(east, north, 10.0), radius_m: 5.0 };
+        assert!(
+            frustum.may_show(&ball(0.0, 50.0)) && frustum.may_show(&ball(0.0, 9_000.0)) && frustum.may_show(&ball(0.0, -4.0))
+        );
+        assert!(!frustum.may_show(&ball(0.0, -20.0)) && !frustum.may_show(&ball(100.0, 50.0)));
+        // In the lake's mirror what is above shows below.
+        let mirrored = Frustum::of(&eye.view_projection(1.5).after(&Matrix::mirror(0.0)));
+        let high = Ball { centre_m: Vec3::new(0.0, 40.0, 60.0), radius_m: 5.0 };
+        assert!(!frustum.may_show(&high) && !mirrored.may_show(&high));
+        let low = Ball { centre_m: Vec3::new(0.0, 40.0, 6.0), radius_m: 1.0 };
+        assert!(frustum.may_show(&low) && mirrored.may_show(&low));
+    }
+
+    #[test]
+    fn exact_a_long_wall_beside_the_picture_is_left_out_though_its_ball_is_not() {
+        let eye = Eye::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
+        let frustum = Frustum::of(&eye.view_projection(1.5));
+        let wall = |east: f64| {
+            let mut mesh = Mesh::default();
+            mesh.block([east, -50.0, 0.0], [east + 1.0, 250.0, 20.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
+            Bounds::of(&mesh)
+        };
+        let (beside, across) = (wall(-260.0), wall(-60.0));
+        assert!(frustum.may_show(&beside.ball) && !frustum.may_show_cell(&beside));
+        assert!(frustum.may_show_cell(&across) && frustum.may_show_cell(&Bounds::from(across.ball)));
+        // From within a cell no corner needs to be in the picture.
+        let mut hall = Mesh::default();
+        hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], Finish::new(Material::Rock, [9, 9, 9]));
+        assert!(frustum.may_show_cell(&Bounds::of(&hall)));
+    }
+
+    #[test]
+    fn exact_copies_lie_in_the_balls_of_their_cells() {
+        let mut mesh = Mesh::default();
+        mesh.ball(Vec3::zero(), [1.0; 3], 0.0, Finish::new(Material::Rock, [9, 9, 9]));
+        let at = |east: f64| {
+            let axes = [Vec3::new(3.0, 0.0, 0.0), Vec3::new(0.0, 3.0, 0.0), Vec3::new(0.0, 0.0, 3.0)];
+            Instance::placed(Vec3::new(east, 0.0, 0.0), axes, [1.0; 4])
+        };
+        let groups = grouped(&mesh, &[at(1.0), at(5.0), at(500.0)]);
+        assert_eq!(groups.iter().map(|(all, _)| all.len()).collect::<Vec<_>>(), [2, 1]);
+        assert!((groups[0].1.radius_m - 5.0).abs() < 1e-5, "half the distance and three metres: {}", groups[0].1.radius_m);
+    }
+}

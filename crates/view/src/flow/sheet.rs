@@ -1,0 +1,219 @@
+//! A page as plain data: things to draw, places that a click means something at, pictures. Sizes are shares of the window's height, so that
+//! type grows with the window; across, places are reckoned in heights, too, and turned into shares of the width at the end.
+
+use super::Press;
+use crate::hud::{Colour, Item, Point, Side, at};
+
+/// Type sizes.
+pub const TITLE: f64 = 0.075;
+/// Usual text.
+pub const TEXT: f64 = 0.038;
+/// Lesser text.
+pub const SMALL: f64 = 0.032;
+/// From one line of text to the next, heights of the text.
+pub const LINE: f64 = 1.35;
+/// The font's mean width of a sign as a share of its height (egui's Ubuntu Light, lower case; a little wide, so that nothing overflows).
+const SIGN: f64 = 0.48;
+/// Pages are no wider than this many heights: lines stay readable on wide windows.
+pub const WIDEST: f64 = 2.3;
+
+/// A place that means something when it is clicked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spot {
+    /// Upper left.
+    pub from: Point,
+    /// Lower right.
+    pub to: Point,
+    /// What.
+    pub press: Press,
+}
+
+impl Spot {
+    /// True for a place in it.
+    #[must_use]
+    pub fn holds(&self, place: Point) -> bool {
+        (self.from.x..=self.to.x).contains(&place.x) && (self.from.y..=self.to.y).contains(&place.y)
+    }
+}
+
+/// A picture of ours by its name, in its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placed {
+    /// Which.
+    pub name: &'static str,
+    /// Upper left.
+    pub from: Point,
+    /// Lower right.
+    pub to: Point,
+}
+
+/// A page.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sheet {
+    /// Pictures, below everything else.
+    pub pictures: Vec<Placed>,
+    /// Things to draw, in their order.
+    pub items: Vec<Item>,
+    /// Places to click.
+    pub spots: Vec<Spot>,
+}
+
+/// Writes a page in heights: x from the page's left edge, y from the window's upper edge.
+#[derive(Debug)]
+pub struct Pen {
+    sheet: Sheet,
+    aspect: f64,
+    left: f64,
+    /// Width of the page, heights.
+    pub width: f64,
+}
+
+impl Pen {
+    /// An empty page for a window of this aspect (width over height).
+    #[must_use]
+    pub fn new(aspect: f64) -> Self {
+        let width = aspect.min(WIDEST);
+        Self { sheet: Sheet::default(), aspect, left: 0.5 * (aspect - width), width }
+    }
+
+    /// What a share of the window's width is on the page, heights.
+    #[must_use]
+    pub fn across(&self, share: f64) -> f64 {
+        share * self.aspect - self.left
+    }
+
+    /// A place in shares of the window.
+    fn place(&self, x: f64, y: f64) -> Point {
+        at((self.left + x) / self.aspect, y)
+    }
+
+    /// A rectangle.
+    pub fn panel(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), colour: Colour) {
+        let (from, to) = (self.place(x, y), self.place(x + width, y + height));
+        self.sheet.items.push(Item::Panel { from, to, colour });
+    }
+
+    /// The whole window in one colour.
+    pub fn ground(&mut self, colour: Colour) {
+        self.sheet.items.push(Item::Fill { points: vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)], colour });
+    }
+
+    /// A line of text.
+    pub fn text(&mut self, (x, y): (f64, f64), side: Side, height: f64, colour: Colour, words: impl Into<String>) {
+        let place = self.place(x, y);
+        self.sheet.items.push(Item::Text { place, side, height, colour, words: words.into() });
+    }
+
+    /// Text broken into lines of a width; gives where the next line would stand.
+    pub fn lines(&mut self, (x, y): (f64, f64), width: f64, height: f64, colour: Colour, words: &str) -> f64 {
+        let mut y = y;
+        for line in wrapped(words, width, height) {
+            self.text((x, y), Side::Left, height, colour, line);
+            y += LINE * height;
+        }
+        y
+    }
+
+    /// A line through points.
+    pub fn line(&mut self, points: &[(f64, f64)], width: f64, colour: Colour) {
+        let points = points.iter().map(|(x, y)| self.place(*x, *y)).collect();
+        self.sheet.items.push(Item::Line { points, width, colour });
+    }
+
+    /// A filled convex outline.
+    pub fn fill(&mut self, points: &[(f64, f64)], colour: Colour) {
+        let points = points.iter().map(|(x, y)| self.place(*x, *y)).collect();
+        self.sheet.items.push(Item::Fill { points, colour });
+    }
+
+    /// An arrow from one place to another.
+    pub fn arrow(&mut self, from: (f64, f64), to: (f64, f64), colour: Colour) {
+        const HEAD: f64 = 0.022;
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        let long = (dx * dx + dy * dy).sqrt().max(1e-9);
+        let (ux, uy) = (dx / long, dy / long);
+        let neck = (to.0 - HEAD * ux, to.1 - HEAD * uy);
+        self.line(&[from, neck], 0.006, colour);
+        let wing = |side: f64| (neck.0 - side * 0.5 * HEAD * uy, neck.1 + side * 0.5 * HEAD * ux);
+        self.fill(&[to, wing(1.0), wing(-1.0)], colour);
+    }
+
+    /// A picture.
+    pub fn picture(&mut self, name: &'static str, (x, y): (f64, f64), (width, height): (f64, f64)) {
+        let (from, to) = (self.place(x, y), self.place(x + width, y + height));
+        self.sheet.pictures.push(Placed { name, from, to });
+    }
+
+    /// A place to click.
+    pub fn spot(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), press: Press) {
+        let (from, to) = (self.place(x, y), self.place(x + width, y + height));
+        self.sheet.spots.push(Spot { from, to, press });
+    }
+
+    /// The page.
+    #[must_use]
+    pub fn done(self) -> Sheet {
+        self.sheet
+    }
+}
+
+/// Width of words in heights of the window, about.
+#[must_use]
+pub fn width_of(words: &str, height: f64) -> f64 {
+    SIGN * height * words.chars().count() as f64
+}
+
+/// Breaks text at blanks; a line's end in it is kept. A word that is wider than a line is broken, too: addresses are.
+#[must_use]
+pub fn wrapped(words: &str, width: f64, height: f64) -> Vec<String> {
+    let most = ((width / (SIGN * height)).floor() as usize).max(8);
+    let mut lines = Vec::new();
+    for paragraph in words.lines() {
+        let mut line = String::new();
+        for word in paragraph.split(' ') {
+            let mut word: Vec<char> = word.chars().collect();
+            let used = line.chars().count();
+            if used > 0 && used + 1 + word.len() > most {
+                lines.push(std::mem::take(&mut line));
+            }
+            while word.len() > most {
+                lines.push(word.drain(..most).collect());
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.extend(word);
+        }
+        lines.push(line);
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_broken_lines_hold_all_words_and_fit() {
+        let text = "The drone keeps its place when you let go of the sticks.\n\nfile:///a/very/long/address/that/has/no/blank/in/it/at/all.html";
+        for width in [0.4, 0.7, 1.5] {
+            let lines = wrapped(text, width, TEXT);
+            let most = (width / (SIGN * TEXT)).floor() as usize;
+            assert!(lines.iter().all(|line| line.chars().count() <= most), "{lines:?}");
+            let solid = |s: &str| s.chars().filter(|c| !c.is_whitespace()).collect::<String>();
+            assert_eq!(solid(&lines.concat()), solid(text));
+        }
+    }
+
+    #[test]
+    fn exact_a_page_stands_in_the_middle_of_a_wide_window() {
+        for (aspect, left) in [(4.0, 0.5 * (4.0 - WIDEST) / 4.0), (1.5, 0.0)] {
+            let mut pen = Pen::new(aspect);
+            let width = pen.width;
+            pen.spot((0.0, 0.1), (width, 0.2), Press::Sign('x'));
+            let spot = pen.done().spots.remove(0);
+            assert!((spot.from.x - left).abs() < 1e-12 && (spot.to.x - (1.0 - left)).abs() < 1e-12, "{spot:?}");
+            assert!(spot.holds(at(0.5, 0.2)) && !spot.holds(at(0.5, 0.35)));
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! A few pages before the first practice, as the paper's protocol has it: real pictures of ours with arrows and words, and the display as it
+//! is drawn in flight.
+
+use super::Names;
+use super::menu::{self, Row, STEP};
+use super::sheet::{Pen, SMALL, TITLE, width_of};
+use crate::hud::state::cue;
+use crate::hud::{Colour, Gnss, Hud, Item, Point, Side, Track, layout};
+use spandrel_model::frames::Vec3;
+
+/// Pictures by name, JPEG.
+pub const PICTURES: [(&str, &[u8]); 9] = [
+    ("job", include_bytes!("pictures/job.jpg")),
+    ("inspector", include_bytes!("pictures/inspector.jpg")),
+    ("camera", include_bytes!("pictures/camera.jpg")),
+    ("dark", include_bytes!("pictures/dark.jpg")),
+    ("lamp", include_bytes!("pictures/lamp.jpg")),
+    ("crack", include_bytes!("pictures/crack.jpg")),
+    ("spall", include_bytes!("pictures/spall.jpg")),
+    ("efflorescence", include_bytes!("pictures/efflorescence.jpg")),
+    ("corrosion", include_bytes!("pictures/corrosion.jpg")),
+];
+
+/// Shape of the large pictures.
+const WIDE: f64 = 16.0 / 9.0;
+
+/// A page: its title, what is drawn into the box on the left, what is said on the right; `{duty}` stands for a key.
+type Leaf = (&'static str, fn(&mut Pen, Frame, &Names), &'static str);
+
+const LEAVES: [Leaf; PAGES] = [
+    (
+        "the job",
+        job,
+        "You stand on the hillside with a drone. Fly along each task's path at the bridges, look for defects, photograph each once, \
+         come back and land on the pad.\n\nThe orange line is such a flight; the red dots are its photographs.",
+    ),
+    (
+        "two views",
+        views,
+        "On the left what you see from where you stand, on the right what the drone's camera sees.\n\n{swap} makes one of them large. \
+         Drag with the mouse to look around, turn the wheel to see nearer; {follow} looks at the drone again.",
+    ),
+    (
+        "the display",
+        display,
+        "Keep the speed below the limit while you are at a task. The battery is green, then yellow (a triangle), then red (an octagon \
+         that flashes): come home before it is empty.\n\nIn an assessment there is no map.",
+    ),
+    (
+        "warnings",
+        warnings,
+        "Warnings come at the lower left, the gravest at the bottom, each with a shape of its own and, with sound, a tone of its own.\n\n\
+         Blue disc: back to the path.\nYellow triangle: slower.\nOrange diamond: away from the structure.\nRed octagon: you have hit \
+         something.",
+    ),
+    (
+        "defects",
+        defects,
+        "The same defects from 1, 3 and 8 m, through the same lens. A photograph counts when the defect is inside the corner marks, lit, not seen \
+         edge-on, and a crack at least half a pixel wide: go near, or zoom ({camera_zoom_in}) with a camera that can.\n\nStains, form lines, closed cracks, webs and spray paint are no defects. \
+         Every photograph that shows nothing new costs accuracy.",
+    ),
+    (
+        "light, and what counts",
+        light,
+        "Dark places need the lamp ({lamp}): the same place without and with it.\n\nConformity: on the path, not too fast. Efficiency: home \
+         within 15 minutes. Safety: touch nothing; a person or a vehicle that is hit ends the session. Accuracy: every defect once.",
+    ),
+];
+
+/// How many there are.
+pub const PAGES: usize = 6;
+
+/// Where a picture stands, in heights.
+#[derive(Debug, Clone, Copy)]
+struct Frame {
+    x: f64,
+    y: f64,
+    width: f64,
+    height: f64,
+}
+
+impl Frame {
+    fn at(self, across: f64, down: f64) -> (f64, f64) {
+        (self.x + across * self.width, self.y + down * self.height)
+    }
+
+    fn part(self, (across, down): (f64, f64), (width, height): (f64, f64)) -> Self {
+        let (x, y) = self.at(across, down);
+        Self { x, y, width: width * self.width, height: height * self.height }
+    }
+}
+
+pub fn page(pen: &mut Pen, page: usize, rows: &[Row], focus: usize, names: &Names) {
+    let Some((title, picture, words)) = LEAVES.get(page) else { return };
+    let left = 0.04;
+    pen.text((left, 0.07), Side::Left, TITLE, Colour::White, format!("Tutorial {} of {PAGES}: {title}", page + 1));
+    let width = (0.60 * pen.width).min(0.70 * WIDE);
+    picture(pen, Frame { x: left, y: 0.15, width, height: width / WIDE }, names);
+    let x = left + width + 0.06;
+    let room = pen.width - x - 0.03;
+    pen.lines((x, 0.17), room, if room < 0.6 { 0.92 * SMALL } else { SMALL }, Colour::White, &names.fill(words));
+    menu::draw(pen, (x, 0.97 - STEP * rows.len() as f64), room, rows, focus);
+}
+
+/// Words with an arrow to what they name; both in shares of the frame.
+fn label(pen: &mut Pen, frame: Frame, words: &str, from: (f64, f64), to: (f64, f64)) {
+    let half = 0.5 * width_of(words, SMALL) + 0.012;
+    let (x, y) = frame.at(from.0, from.1);
+    let (tx, ty) = frame.at(to.0, to.1);
+    // The arrow leaves the words at the side that is nearer to what it points at.
+    let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * (ty - y).signum()) };
+    pen.arrow(foot, (tx, ty), Colour::Yellow);
+    pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), Colour::Night);
+    pen.text((x, y), Side::Middle, SMALL, Colour::Yellow, words);
+}
+
+fn job(pen: &mut Pen, frame: Frame, _: &Names) {
+    pen.picture("job", frame.at(0.0, 0.0), (frame.width, frame.height));
+    label(pen, frame, "take off and land here", (0.26, 0.86), (0.075, 0.62));
+    label(pen, frame, "suspension bridge", (0.62, 0.07), (0.55, 0.22));
+    label(pen, frame, "arch bridge", (0.80, 0.86), (0.72, 0.58));
+    label(pen, frame, "round the pier: task 4", (0.24, 0.07), (0.235, 0.355));
+}
+
+fn views(pen: &mut Pen, frame: Frame, _: &Names) {
+    let half = frame.part((0.0, 0.0), (0.5, 0.5));
+    let other = frame.part((0.5, 0.0), (0.5, 0.5));
+    pen.picture("inspector", half.at(0.0, 0.0), (half.width, half.height));
+    pen.picture("camera", other.at(0.0, 0.0), (other.width, other.height));
+    inset(pen, &layout(&example(0), WIDE), other);
+    pen.line(&[other.at(0.0, 0.0), other.at(0.0, 1.0)], 0.004, Colour::Black);
+    label(pen, half, "where the drone is", (0.42, 1.15), (0.50, 0.56));
+    label(pen, other, "the camera's view", (0.40, 1.15), (0.5, 0.75));
+    label(pen, other, "the map", (0.86, 1.15), (0.92, 0.88));
+    let (x, y) = frame.at(0.0, 0.68);
+    pen.lines(
+        (x, y),
+        frame.width,
+        SMALL,
+        Colour::Grey,
+        "The bracket in your view stays on the drone and says how far away it is. The triangle on the map is the drone, the square the \
+         pad, the lines are the tasks' paths.",
+    );
+}
+
+fn display(pen: &mut Pen, frame: Frame, _: &Names) {
+    pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
+    inset(pen, &layout(&example(0), WIDE), frame);
+    for (words, from, to) in [
+        ("speed and its limit", (0.20, 0.30), (0.08, 0.135)),
+        ("mode, satellites, link", (0.50, 0.20), (0.50, 0.075)),
+        ("battery", (0.70, 0.13), (0.84, 0.065)),
+        ("height, distance home, time left", (0.64, 0.38), (0.885, 0.25)),
+        ("photograph inside these corners", (0.38, 0.80), (0.105, 0.895)),
+        ("map", (0.76, 0.84), (0.84, 0.86)),
+    ] {
+        label(pen, frame, words, from, to);
+    }
+}
+
+fn warnings(pen: &mut Pen, frame: Frame, _: &Names) {
+    pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
+    let display = Hud { hit: Some("pier".into()), battery_pct: Some(24.0), speed_m_s: 5.3, ..example(0b11_1100) };
+    inset(pen, &layout(&display, WIDE), frame);
+    label(pen, frame, "warnings", (0.62, 0.68), (0.36, 0.80));
+    label(pen, frame, "battery is red", (0.62, 0.22), (0.86, 0.085));
+}
+
+fn defects(pen: &mut Pen, frame: Frame, _: &Names) {
+    for (k, (name, words)) in
+        [("crack", "crack"), ("spall", "spall"), ("efflorescence", "efflorescence"), ("corrosion", "corrosion")]
+            .into_iter()
+            .enumerate()
+    {
+        let strip = frame.part((0.0, 0.26 * k as f64), (1.0, 0.24));
+        // Strips are four times as wide as high.
+        let width = (4.0 * strip.height).min(strip.width);
+        pen.picture(name, strip.at(0.0, 0.0), (width, 0.25 * width));
+        let end = strip.x + width;
+        pen.text((end + 0.02, strip.y + 0.5 * strip.height), Side::Left, SMALL, Colour::Yellow, words);
+    }
+    for (k, words) in ["1 m", "3 m", "8 m"].into_iter().enumerate() {
+        let width = (4.0 * 0.24 * frame.height).min(frame.width);
+        let x = frame.x + width * (k as f64 + 0.5) / 3.0;
+        pen.text((x, frame.y + 1.06 * frame.height), Side::Middle, SMALL, Colour::Yellow, words);
+    }
+}
+
+fn light(pen: &mut Pen, frame: Frame, names: &Names) {
+    let first = frame.part((0.0, 0.0), (0.49, 0.49));
+    let second = frame.part((0.51, 0.0), (0.49, 0.49));
+    pen.picture("dark", first.at(0.0, 0.0), (first.width, first.height));
+    pen.picture("lamp", second.at(0.0, 0.0), (second.width, second.height));
+    label(pen, first, "without the lamp", (0.5, 1.14), (0.5, 0.85));
+    label(pen, second, "with the lamp", (0.3, 1.14), (0.38, 0.85));
+    label(pen, second, "look at such spots from near", (0.62, 0.68), (0.33, 0.33));
+    let (x, y) = frame.at(0.0, 0.72);
+    let words = "Sticks let go: the drone keeps its place. Keys: {arm} motors on, {take_off} take-off, {up} {down} up and down, {turn_left} \
+                 {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} turn \
+                 the camera, {land} land, {pause} pause.";
+    pen.lines((x, y), frame.width, SMALL, Colour::Grey, &names.fill(words));
+}
+
+/// A display in the middle of a flight.
+fn example(cues: i32) -> Hud {
+    let line = |id, path_m: [(f64, f64); 2]| Track {
+        id,
+        path_m: path_m.map(|(east, north)| Vec3::new(east, north, 20.0)).to_vec(),
+        closed: false,
+    };
+    Hud {
+        speed_m_s: 2.4,
+        limit_m_s: 10.0 * spandrel_model::math::M_S_PER_MPH,
+        battery_pct: Some(86.0),
+        green_pct: 70.0,
+        yellow_pct: 30.0,
+        cues,
+        hit: None,
+        height_m: 12.0,
+        home_m: 118.0,
+        mode: "Position".into(),
+        gnss: Some(Gnss { fixed: true, satellites: 17 }),
+        silent_s: 0.0,
+        gimbal_rad: 0.1,
+        zoom: 1.0,
+        lamp: false,
+        left_s: 1104.0,
+        pictures: 2,
+        // Red flashes: on in the first half of a second.
+        shutter: false,
+        time_s: if cues & cue::CRASH != 0 { 0.1 } else { 95.0 },
+        position_m: Vec3::new(-60.0, 130.0, 12.0),
+        heading_rad: 0.6,
+        pad_m: Vec3::new(-120.0, 60.0, 5.0),
+        tracks: vec![line(1, [(-50.0, -5.0), (50.0, -5.0)]), line(4, [(-70.0, 150.0), (-64.0, 156.0)])],
+    }
+}
+
+/// A display drawn into a frame.
+fn inset(pen: &mut Pen, items: &[Item], frame: Frame) {
+    let place = |p: &Point| frame.at(p.x, p.y);
+    for item in items {
+        match item {
+            Item::Panel { from, to, colour } => {
+                let (from, to) = (place(from), place(to));
+                pen.panel(from, (to.0 - from.0, to.1 - from.1), *colour);
+            }
+            Item::Text { place: at, side, height, colour, words } => {
+                pen.text(place(at), *side, height * frame.height, *colour, words.clone());
+            }
+            Item::Fill { points, colour } => pen.fill(&points.iter().map(place).collect::<Vec<_>>(), *colour),
+            Item::Line { points, width, colour } => {
+                pen.line(&points.iter().map(place).collect::<Vec<_>>(), width * frame.height, *colour);
+            }
+        }
+    }
+}

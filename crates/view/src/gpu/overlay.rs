@@ -1,0 +1,162 @@
+//! The head-up display on a finished picture.
+
+use super::device::Gpu;
+use super::pipelines::PICTURE;
+use crate::flow::{PICTURES, Sheet};
+use crate::hud::{Item, Point, Side};
+use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke};
+use std::collections::BTreeMap;
+
+/// Text and shapes over pictures.
+pub struct Overlay {
+    context: egui::Context,
+    renderer: egui_wgpu::Renderer,
+}
+
+impl std::fmt::Debug for Overlay {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Overlay").finish_non_exhaustive()
+    }
+}
+
+impl Overlay {
+    /// For textures of finished pictures.
+    #[must_use]
+    pub fn new(gpu: &Gpu) -> Self {
+        let renderer = egui_wgpu::Renderer::new(&gpu.device, PICTURE, egui_wgpu::RendererOptions::default());
+        Self { context: egui::Context::default(), renderer }
+    }
+
+    /// Draws items over what `target` (of this size, px) holds.
+    pub fn draw(&mut self, gpu: &Gpu, items: &[Item], target: &wgpu::TextureView, size_px: (u32, u32)) {
+        let size = egui::vec2(size_px.0 as f32, size_px.1 as f32);
+        let input = egui::RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), ..egui::RawInput::default() };
+        let mut output = self.context.run_ui(input, |ui| {
+            let painter = ui.ctx().layer_painter(egui::LayerId::background());
+            paint(&painter, items, Rect::from_min_size(Pos2::ZERO, size));
+        });
+        let mut changes = std::mem::take(&mut output.textures_delta);
+        for (id, deltas) in &changes.set {
+            for delta in deltas {
+                self.renderer.update_texture(&gpu.device, &gpu.queue, *id, delta);
+            }
+        }
+        let shapes = std::mem::take(&mut output.shapes);
+        let jobs = self.context.tessellate(shapes, 1.0);
+        let screen = egui_wgpu::ScreenDescriptor { size_in_pixels: [size_px.0, size_px.1], pixels_per_point: 1.0 };
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let before = self.renderer.update_buffers(&gpu.device, &gpu.queue, &mut encoder, &jobs, &screen);
+        {
+            let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("hud"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+                })],
+                depth_stencil_attachment: None,
+                timestamp_writes: None,
+                occlusion_query_set: None,
+                multiview_mask: None,
+            });
+            self.renderer.render(&mut pass.forget_lifetime(), &jobs, &screen);
+        }
+        gpu.queue.submit(before.into_iter().chain([encoder.finish()]));
+        for id in &changes.free {
+            self.renderer.free_texture(id);
+        }
+        changes.clear();
+    }
+}
+
+/// The pictures of pages, as textures of one context.
+#[derive(Default)]
+pub struct Pictures(BTreeMap<&'static str, egui::TextureHandle>);
+
+impl Pictures {
+    /// A picture by its name; decoded when it is first wanted. One that cannot be decoded is left out.
+    fn of(&mut self, context: &egui::Context, name: &'static str) -> Option<egui::TextureId> {
+        if !self.0.contains_key(name) {
+            let (_, bytes) = PICTURES.iter().find(|known| known.0 == name)?;
+            let texture = context.load_texture(name, decoded(bytes)?, egui::TextureOptions::LINEAR);
+            self.0.insert(name, texture);
+        }
+        self.0.get(name).map(egui::TextureHandle::id)
+    }
+}
+
+/// A JPEG as egui takes it.
+fn decoded(bytes: &[u8]) -> Option<egui::ColorImage> {
+    let mut decoder = zune_jpeg::JpegDecoder::new(zune_jpeg::zune_core::bytestream::ZCursor::new(bytes));
+    let pixels = decoder.decode().ok()?;
+    let (width, height) = decoder.dimensions()?;
+    (pixels.len() == 3 * width * height).then(|| egui::ColorImage::from_rgb([width, height], &pixels))
+}
+
+/// Paints a page over a rectangle.
+pub fn paint_sheet(painter: &egui::Painter, sheet: &Sheet, rect: Rect, pictures: &mut Pictures) {
+    // The ground of a page lies below its pictures.
+    let ground = usize::from(matches!(sheet.items.first(), Some(Item::Fill { points, .. }) if points.len() == 4));
+    let (ground, items) = sheet.items.split_at(ground.min(sheet.items.len()));
+    paint(painter, ground, rect);
+    let size = rect.size();
+    let px = |p: &Point| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
+    let whole = Rect::from_min_max(Pos2::ZERO, egui::pos2(1.0, 1.0));
+    for picture in &sheet.pictures {
+        if let Some(texture) = pictures.of(painter.ctx(), picture.name) {
+            painter.image(texture, Rect::from_min_max(px(&picture.from), px(&picture.to)), whole, Color32::WHITE);
+        }
+    }
+    paint(painter, items, rect);
+}
+
+/// Paints items over the picture that fills a rectangle.
+pub fn paint(painter: &egui::Painter, items: &[Item], rect: Rect) {
+    for item in items {
+        paint_one(painter, item, rect);
+    }
+}
+
+fn paint_one(painter: &egui::Painter, item: &Item, rect: Rect) {
+    let size = rect.size();
+    let px = |p: &Point| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
+    let colour = |c: crate::hud::Colour| {
+        let [r, g, b, a] = c.rgba();
+        Color32::from_rgba_unmultiplied(r, g, b, a)
+    };
+    match item {
+        Item::Panel { from, to, colour: fill } => {
+            painter.add(Shape::rect_filled(Rect::from_min_max(px(from), px(to)), 0.012 * size.y, colour(*fill)));
+        }
+        Item::Text { place, side, height, colour: ink, words } => {
+            let align = match side {
+                Side::Left => Align2::LEFT_CENTER,
+                Side::Middle => Align2::CENTER_CENTER,
+                Side::Right => Align2::RIGHT_CENTER,
+            };
+            painter.text(px(place), align, words, FontId::proportional(*height as f32 * size.y), colour(*ink));
+        }
+        Item::Fill { points, colour: fill } => {
+            painter.add(Shape::convex_polygon(points.iter().map(px).collect(), colour(*fill), Stroke::NONE));
+        }
+        Item::Line { points, width, colour: ink } => {
+            let stroke = Stroke::new((*width as f32 * size.y).max(1.0), colour(*ink));
+            painter.add(Shape::line(points.iter().map(px).collect(), stroke));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_picture_of_the_tutorial_can_be_decoded() {
+        for (name, bytes) in PICTURES {
+            let picture = decoded(bytes).unwrap_or_else(|| panic!("{name}"));
+            assert!(picture.width() >= 400 && picture.height() >= 150, "{name}: {:?}", picture.size);
+        }
+        assert!(decoded(b"no picture").is_none());
+    }
+}

@@ -1,0 +1,146 @@
+//! Recording of passes.
+
+use super::device::Gpu;
+use crate::looks::Look;
+use crate::mesh::Mesh;
+use crate::scene::Instance;
+use std::ops::Range;
+use wgpu::util::DeviceExt;
+
+/// A mesh on the device; the triangles of one look lie together.
+pub struct Solid {
+    vertices: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    count: u32,
+    runs: Vec<(Look, Range<u32>)>,
+}
+
+/// Copies of a mesh.
+pub struct Copies {
+    buffer: wgpu::Buffer,
+    count: u32,
+}
+
+/// Bytes on the device.
+pub fn upload(gpu: &Gpu, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents: bytes, usage })
+}
+
+impl Solid {
+    /// Uploads a mesh; `None` for an empty one.
+    pub fn new(gpu: &Gpu, mesh: &Mesh) -> Option<Self> {
+        if mesh.indices.is_empty() {
+            return None;
+        }
+        let (indices, runs) = sorted(mesh);
+        Some(Self {
+            vertices: upload(gpu, bytemuck::cast_slice(&mesh.vertices), wgpu::BufferUsages::VERTEX),
+            indices: upload(gpu, bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
+            count: indices.len() as u32,
+            runs,
+        })
+    }
+
+    /// Triangles.
+    pub fn triangles(&self) -> u32 {
+        self.count / 3
+    }
+
+    /// Draws it once, without instances.
+    pub fn draw_alone(&self, pass: &mut wgpu::RenderPass) {
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..self.count, 0, 0..1);
+    }
+
+    /// Draws its copies, whatever they look like: for depth alone.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, copies: &Copies) {
+        self.draw_range(pass, copies, 0..self.count);
+    }
+
+    /// Draws what has one look and returns how many triangles of each copy that are; `None`: nothing has it.
+    pub fn draw_look(&self, pass: &mut wgpu::RenderPass, copies: &Copies, look: Look) -> Option<u32> {
+        let (_, run) = self.runs.iter().find(|run| run.0 == look)?;
+        self.draw_range(pass, copies, run.clone());
+        Some(run.len() as u32 / 3)
+    }
+
+    fn draw_range(&self, pass: &mut wgpu::RenderPass, copies: &Copies, range: Range<u32>) {
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_vertex_buffer(1, copies.buffer.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(range, 0, 0..copies.count);
+    }
+}
+
+/// Triangles by their look, and where each look's begin and end.
+fn sorted(mesh: &Mesh) -> (Vec<u32>, Vec<(Look, Range<u32>)>) {
+    let look = |corner: u32| mesh.vertices.get(corner as usize).map_or(Look::Simple, |vertex| Look::of(vertex.material));
+    let mut indices: Vec<u32> = Vec::with_capacity(mesh.indices.len());
+    let mut runs = Vec::new();
+    for of in Look::ALL {
+        let from = indices.len() as u32;
+        indices.extend(mesh.indices.chunks_exact(3).filter(|corners| look(corners[0]) == of).flatten());
+        if indices.len() as u32 > from {
+            runs.push((of, from..indices.len() as u32));
+        }
+    }
+    (indices, runs)
+}
+
+impl Copies {
+    /// Uploads instances; `None` for none.
+    pub fn new(gpu: &Gpu, instances: &[Instance]) -> Option<Self> {
+        (!instances.is_empty()).then(|| Self {
+            buffer: upload(gpu, bytemuck::cast_slice(instances), wgpu::BufferUsages::VERTEX),
+            count: instances.len() as u32,
+        })
+    }
+
+    /// How many.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+}
+
+/// Begins a pass on a colour target, cleared, with a depth that is cleared to infinity.
+pub fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    colour: &wgpu::TextureView,
+    resolved: Option<&wgpu::TextureView>,
+    depth: Option<&wgpu::TextureView>,
+) -> wgpu::RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: None,
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: colour,
+            depth_slice: None,
+            resolve_target: resolved,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+        })],
+        depth_stencil_attachment: depth.map(cleared),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}
+
+/// Begins a pass that only keeps depth.
+pub fn begin_depth<'a>(encoder: &'a mut wgpu::CommandEncoder, depth: &wgpu::TextureView) -> wgpu::RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: None,
+        color_attachments: &[],
+        depth_stencil_attachment: Some(cleared(depth)),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}
+
+fn cleared(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+        stencil_ops: None,
+    }
+}

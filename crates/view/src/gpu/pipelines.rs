@@ -1,0 +1,371 @@
+//! How each kind of thing is drawn.
+
+mod labels;
+
+use super::device::Gpu;
+use crate::looks::Look;
+use crate::mesh::Vertex;
+use crate::quality::Quality;
+use crate::scene::{Instance, Patch};
+use crate::shaders;
+use spandrel_model::site::catalogue;
+use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm8x4};
+
+pub use labels::LabelPipelines;
+
+/// Light on the sensor.
+pub const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Depth: 1 at the lens, 0 at infinity.
+pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Finished pictures: encoded in sRGB by the shader.
+pub const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// A pipeline for each look.
+pub type Looks = Vec<(Look, wgpu::RenderPipeline)>;
+
+/// Layouts, samplers and pipelines.
+pub struct Pipelines {
+    /// Globals, shadow maps and their sampler.
+    pub globals_layout: wgpu::BindGroupLayout,
+    /// The mirror and its sampler.
+    pub water_layout: wgpu::BindGroupLayout,
+    /// What `develop` reads.
+    pub develop_layout: wgpu::BindGroupLayout,
+    /// A shadow map's projection.
+    pub map_layout: wgpu::BindGroupLayout,
+    /// Linear between texels, ends at the edge.
+    pub smooth: wgpu::Sampler,
+    /// Linear, repeats.
+    pub tiled: wgpu::Sampler,
+    /// Compares with a shadow map.
+    pub compare: wgpu::Sampler,
+    /// Solids without and with the lamp.
+    pub surfaces: [Looks; 2],
+    /// Solids, mirrored, without and with the lamp.
+    pub surfaces_mirrored: [Looks; 2],
+    /// What shines through.
+    pub sheer: wgpu::RenderPipeline,
+    /// Defects, by their AASHTO code.
+    pub defects: Vec<(u32, wgpu::RenderPipeline)>,
+    /// The lake without and with the lamp.
+    pub water: [wgpu::RenderPipeline; 2],
+    /// The sky.
+    pub sky: wgpu::RenderPipeline,
+    /// The sky, mirrored.
+    pub sky_mirrored: wgpu::RenderPipeline,
+    /// Depth in a shadow map.
+    pub shadow: wgpu::RenderPipeline,
+    /// From light to a picture, for eyes and for a camera.
+    pub develop: [wgpu::RenderPipeline; 2],
+}
+
+const fn attribute(shader_location: u32, offset: u64, format: wgpu::VertexFormat) -> wgpu::VertexAttribute {
+    wgpu::VertexAttribute { format, offset, shader_location }
+}
+
+const CORNER: &[wgpu::VertexAttribute] = &[
+    attribute(0, 0, Float32x3),
+    attribute(1, 12, Float32x3),
+    attribute(2, 24, Float32x2),
+    attribute(3, 32, Float32x2),
+    attribute(4, 40, Uint32),
+    attribute(5, 44, Unorm8x4),
+    attribute(9, 48, Float32),
+];
+const COPY: &[wgpu::VertexAttribute] = &[
+    attribute(6, 0, Float32x4),
+    attribute(7, 16, Float32x4),
+    attribute(8, 32, Float32x4),
+    attribute(10, 48, Float32x4),
+    attribute(11, 64, Float32x4),
+];
+const PATCH: &[wgpu::VertexAttribute] = &[
+    attribute(0, 0, Float32x4),
+    attribute(1, 16, Float32x4),
+    attribute(2, 32, Float32x4),
+    attribute(3, 48, Float32x4),
+    attribute(4, 64, Float32x4),
+    attribute(5, 80, Float32x4),
+];
+
+fn corners() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Vertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: CORNER,
+    }
+}
+
+fn copies() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Instance>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: COPY,
+    }
+}
+
+fn patches() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Patch>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: PATCH,
+    }
+}
+
+/// What sets one pipeline apart.
+#[derive(Clone, Copy)]
+struct Kind<'a> {
+    module: &'a wgpu::ShaderModule,
+    /// The module's functions for corners and for pixels.
+    entries: (&'static str, &'static str),
+    layouts: &'a [Option<&'a wgpu::BindGroupLayout>],
+    buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+    target: Option<wgpu::TextureFormat>,
+    blend: Option<wgpu::BlendState>,
+    writes: wgpu::ColorWrites,
+    /// Whether depth is kept, and how it decides; `None`: no depth at all.
+    depth: Option<(bool, wgpu::CompareFunction)>,
+    bias: i32,
+    cull: Option<wgpu::Face>,
+    front: wgpu::FrontFace,
+    samples: u32,
+    /// What the shader's overrides are.
+    constants: &'a [(&'a str, f64)],
+}
+
+fn build(gpu: &Gpu, kind: &Kind) -> wgpu::RenderPipeline {
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: kind.layouts,
+        immediate_size: 0,
+    });
+    let constants = wgpu::PipelineCompilationOptions { constants: kind.constants, ..Default::default() };
+    let targets = [kind.target.map(|format| wgpu::ColorTargetState { format, blend: kind.blend, write_mask: kind.writes })];
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: kind.module,
+            entry_point: Some(kind.entries.0),
+            compilation_options: constants.clone(),
+            buffers: kind.buffers,
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: kind.cull, front_face: kind.front, ..Default::default() },
+        depth_stencil: kind.depth.map(|(write, compare)| wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(write),
+            depth_compare: Some(compare),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState { constant: kind.bias, slope_scale: kind.bias.signum() as f32, clamp: 0.0 },
+        }),
+        multisample: wgpu::MultisampleState { count: kind.samples, ..Default::default() },
+        fragment: kind.target.map(|_| wgpu::FragmentState {
+            module: kind.module,
+            entry_point: Some(kind.entries.1),
+            compilation_options: constants,
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn layout(gpu: &Gpu, entries: &[(wgpu::ShaderStages, wgpu::BindingType)]) -> wgpu::BindGroupLayout {
+    let entries: Vec<wgpu::BindGroupLayoutEntry> = entries
+        .iter()
+        .enumerate()
+        .map(|(k, (visibility, ty))| wgpu::BindGroupLayoutEntry {
+            binding: k as u32,
+            visibility: *visibility,
+            ty: *ty,
+            count: None,
+        })
+        .collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+}
+
+const UNIFORM: wgpu::BindingType =
+    wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
+
+fn seen(sample_type: wgpu::TextureSampleType, array: bool, multisampled: bool) -> wgpu::BindingType {
+    let view_dimension = if array { wgpu::TextureViewDimension::D2Array } else { wgpu::TextureViewDimension::D2 };
+    wgpu::BindingType::Texture { sample_type, view_dimension, multisampled }
+}
+
+fn module(gpu: &Gpu, name: &str) -> wgpu::ShaderModule {
+    let source = wgpu::ShaderSource::Wgsl(shaders::source(name).into());
+    gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(name), source })
+}
+
+/// Layouts of what is bound.
+struct Layouts {
+    globals: wgpu::BindGroupLayout,
+    water: wgpu::BindGroupLayout,
+    develop: wgpu::BindGroupLayout,
+    map: wgpu::BindGroupLayout,
+}
+
+impl Layouts {
+    fn new(gpu: &Gpu, quality: &Quality) -> Self {
+        use wgpu::{BindingType::Sampler, SamplerBindingType, ShaderStages, TextureSampleType};
+        let (both, fragment) = (ShaderStages::VERTEX_FRAGMENT, ShaderStages::FRAGMENT);
+        let filtered = seen(TextureSampleType::Float { filterable: true }, false, false);
+        let smooth = Sampler(SamplerBindingType::Filtering);
+        let maps = seen(TextureSampleType::Depth, true, false);
+        let depth = seen(TextureSampleType::Depth, false, quality.samples > 1);
+        let compare = Sampler(SamplerBindingType::Comparison);
+        let globals = [
+            (both, UNIFORM),
+            (fragment, maps),
+            (fragment, compare),
+            (both, filtered),
+            (both, smooth),
+            (fragment, filtered),
+            (fragment, filtered),
+        ];
+        Self {
+            globals: layout(gpu, &globals),
+            water: layout(gpu, &[(fragment, filtered), (fragment, smooth)]),
+            develop: layout(gpu, &[(fragment, UNIFORM), (fragment, filtered), (fragment, smooth), (fragment, depth)]),
+            map: layout(gpu, &[(ShaderStages::VERTEX, UNIFORM)]),
+        }
+    }
+}
+
+fn sampler(gpu: &Gpu, address: wgpu::AddressMode, compare: Option<wgpu::CompareFunction>, between: bool) -> wgpu::Sampler {
+    let mipmap_filter = if between { wgpu::MipmapFilterMode::Linear } else { wgpu::MipmapFilterMode::Nearest };
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        address_mode_u: address,
+        address_mode_v: address,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        mipmap_filter,
+        compare,
+        ..Default::default()
+    })
+}
+
+/// What a preset costs, for the shaders' overrides (common.wgsl).
+fn costs(quality: &Quality) -> [(&'static str, f64); 5] {
+    [
+        ("CASCADES", f64::from(quality.cascades)),
+        ("TAPS", f64::from(quality.shadow_taps)),
+        ("LAMP_CASTS", f64::from(u8::from(quality.lamp_shadow))),
+        ("MIRROR", f64::from(u8::from(quality.reflection > 0.0))),
+        ("DETAIL", f64::from(u8::from(quality.smooth_noise))),
+    ]
+}
+
+/// A pipeline with more overrides.
+fn special(gpu: &Gpu, kind: &Kind, more: &[(&str, f64)]) -> wgpu::RenderPipeline {
+    let constants = [kind.constants, more].concat();
+    build(gpu, &Kind { constants: &constants, ..*kind })
+}
+
+/// One pipeline for each look, without and with the lamp.
+fn surfaces(gpu: &Gpu, kind: &Kind, quality: &Quality, mirrored: f64) -> [Looks; 2] {
+    by_lamp(quality, |lamp| {
+        let of = |look: Look| {
+            let glossy = f64::from(u8::from(look.shines()));
+            let own = [("LOOK", f64::from(look as u32)), ("GLOSSY", glossy), ("MIRRORED", mirrored), lamp];
+            (look, special(gpu, kind, &own))
+        };
+        Look::ALL.into_iter().map(of).collect()
+    })
+}
+
+/// What is drawn without and with the lamp: only a lean preset leaves the lamp out while it is off, the others have one for both.
+fn by_lamp<T: Clone>(quality: &Quality, of: impl Fn((&'static str, f64)) -> T) -> [T; 2] {
+    let lit = of(("LAMP", 1.0));
+    [if quality.lean { of(("LAMP", 0.0)) } else { lit.clone() }, lit]
+}
+
+/// Functions for corners and for pixels, as nearly every module calls them.
+const ENTRIES: (&str, &str) = ("vs", "fs");
+/// Those of the shader `lean`.
+const LEAN: (&str, &str) = ("vs_lean", "fs_lean");
+
+/// Nearer is greater; what is as near as before is drawn over.
+const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
+
+impl Pipelines {
+    /// Compiles everything.
+    pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
+        let layouts = Layouts::new(gpu, quality);
+        let [surface, sky, defect, water, shadow] = ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name));
+        let develop = module(gpu, if quality.samples > 1 { shaders::DEVELOP_SAMPLED } else { "develop" });
+        let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
+        let globals = [Some(&layouts.globals)];
+        let (solid_buffers, patch_buffers, water_buffers) =
+            ([Some(corners()), Some(copies())], [Some(patches())], [Some(corners())]);
+        let (lake_layouts, map_layouts, develop_layouts) =
+            ([Some(&layouts.globals), Some(&layouts.water)], [Some(&layouts.map)], [Some(&layouts.develop)]);
+        let costs = costs(quality);
+        let solid = Kind {
+            module: &surface,
+            entries: ENTRIES,
+            layouts: &globals,
+            buffers: &solid_buffers,
+            target: Some(LIGHT),
+            blend: None,
+            writes: wgpu::ColorWrites::ALL,
+            depth: Some((true, NEARER)),
+            bias: 0,
+            cull: Some(wgpu::Face::Back),
+            front,
+            samples: quality.samples,
+            constants: &costs,
+        };
+        let shown = Some((false, NEARER));
+        let lean = module(gpu, "lean");
+        let shaded = if quality.lean { Kind { module: &lean, entries: LEAN, ..solid } } else { solid };
+        let mirrored = Kind { front: wgpu::FrontFace::Cw, samples: 1, ..shaded };
+        let back = Kind { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
+        let see_through = [costs.as_slice(), &[("LOOK", f64::from(Look::Simple as u32))]].concat();
+        let sheer = Kind { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
+        // Towards the eye: in front of the faces that they lie in.
+        let flat = Kind { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
+        let lake = Kind { module: &water, layouts: &lake_layouts, buffers: &water_buffers, blend: over, cull: None, ..solid };
+        // Away from the sun.
+        let dark = Kind {
+            module: &shadow,
+            layouts: &map_layouts,
+            target: None,
+            bias: -2,
+            cull: None,
+            samples: 1,
+            constants: &[],
+            ..solid
+        };
+        let blur = [("BLUR", f64::from(u8::from(quality.blur_taps > 1)))];
+        let film = Kind {
+            module: &develop,
+            layouts: &develop_layouts,
+            buffers: &[],
+            target: Some(PICTURE),
+            depth: None,
+            cull: None,
+            samples: 1,
+            constants: &blur,
+            ..solid
+        };
+        Self {
+            surfaces: surfaces(gpu, &shaded, quality, 0.0),
+            surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),
+            sheer: build(gpu, &sheer),
+            defects: catalogue::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect(),
+            water: by_lamp(quality, |lamp| special(gpu, &lake, &[lamp])),
+            sky_mirrored: build(gpu, &Kind { samples: 1, ..back }),
+            sky: build(gpu, &back),
+            shadow: build(gpu, &dark),
+            develop: [0.0, 1.0].map(|sensor| special(gpu, &film, &[("SENSOR", sensor)])),
+            smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None, false),
+            tiled: sampler(gpu, wgpu::AddressMode::Repeat, None, quality.smooth_noise),
+            compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(NEARER), false),
+            globals_layout: layouts.globals,
+            water_layout: layouts.water,
+            develop_layout: layouts.develop,
+            map_layout: layouts.map,
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! How labels are drawn in place of light: which element, which defect.
+
+use super::{ENTRIES, Kind, LIGHT, NEARER, build, copies, corners, module, patches, special};
+use crate::gpu::device::Gpu;
+use spandrel_model::site::catalogue;
+
+/// Pipelines whose targets hold numbers: red the element, green the defect. Half floats hold whole numbers to 2048 exactly.
+pub struct LabelPipelines {
+    /// Everything solid, and the lake.
+    pub solid: wgpu::RenderPipeline,
+    /// Defects, by their AASHTO code.
+    pub defects: Vec<(u32, wgpu::RenderPipeline)>,
+}
+
+impl LabelPipelines {
+    /// Compiles them for what is bound by the layout of the other pipelines' globals.
+    pub fn new(gpu: &Gpu, globals_layout: &wgpu::BindGroupLayout) -> Self {
+        let [surface, defect] = ["surface", "defect"].map(|name| module(gpu, name));
+        let globals = [Some(globals_layout)];
+        let (solids, of_patches) = ([Some(corners()), Some(copies())], [Some(patches())]);
+        let constants = [("MASK", 1.0)];
+        let solid = Kind {
+            module: &surface,
+            entries: ENTRIES,
+            layouts: &globals,
+            buffers: &solids,
+            target: Some(LIGHT),
+            blend: None,
+            writes: wgpu::ColorWrites::ALL,
+            depth: Some((true, NEARER)),
+            bias: 0,
+            cull: Some(wgpu::Face::Back),
+            front: wgpu::FrontFace::Ccw,
+            samples: 1,
+            constants: &constants,
+        };
+        let flat = Kind {
+            module: &defect,
+            buffers: &of_patches,
+            writes: wgpu::ColorWrites::GREEN,
+            depth: Some((false, NEARER)),
+            bias: 2,
+            cull: None,
+            ..solid
+        };
+        let defects = catalogue::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect();
+        Self { solid: build(gpu, &solid), defects }
+    }
+}

@@ -1,0 +1,385 @@
+//! Draws shots of one scene.
+
+mod back;
+mod labels;
+mod sight;
+mod still;
+
+use super::device::Gpu;
+use super::pass::{Copies, Solid, begin, begin_depth, upload};
+use super::pipelines::{DEPTH, LabelPipelines, Looks, Pipelines};
+use super::recent::Recent;
+use super::targets::{Targets, noise_texture, tile_texture};
+use super::uniforms::{Develop, Globals, MAPS, Maps};
+use crate::cells::{self, Bounds, Frustum};
+use crate::quality::Quality;
+use crate::scene::{Instance, Model, Patch, Scene};
+use crate::shadows::{self, Map};
+use crate::shot::Shot;
+use crate::tiles;
+use sight::View;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::catalogue;
+use still::{Fixed, fixed};
+
+/// The sun's map over the whole site is drawn anew when the sun has moved so far (cosine of a quarter of a degree).
+const SUN_MOVED: f64 = 0.999_990_5;
+
+/// What one picture cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Triangles sent.
+    pub triangles: u64,
+    /// Draw calls.
+    pub draws: u32,
+}
+
+impl Counts {
+    /// Both together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self { triangles: self.triangles + other.triangles, draws: self.draws + other.draws }
+    }
+}
+
+/// A scene on the device, and how it is drawn.
+pub struct Renderer {
+    quality: Quality,
+    pipelines: Pipelines,
+    /// Compiled when labels are first asked for.
+    labels: Option<LabelPipelines>,
+    fixed: Vec<Fixed>,
+    models: Vec<Option<Solid>>,
+    /// How far models reach from their origin, m.
+    reaches_m: Vec<f64>,
+    water: Vec<(Solid, Bounds)>,
+    patches: Vec<(u32, wgpu::Buffer, u32)>,
+    bounds_m: (Vec3<Enu>, f64),
+    water_m: f64,
+    globals: wgpu::Buffer,
+    globals_mirrored: wgpu::Buffer,
+    bound: wgpu::BindGroup,
+    bound_mirrored: wgpu::BindGroup,
+    maps: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
+    site_map_sun: Option<Vec3<Enu>>,
+    targets: Recent<(u32, u32), Targets>,
+    counts: Counts,
+}
+
+impl Renderer {
+    /// Uploads a scene.
+    #[must_use]
+    pub fn new(gpu: &Gpu, quality: Quality, scene: &Scene) -> Self {
+        let pipelines = Pipelines::new(gpu, &quality);
+        let maps_texture = maps_texture(gpu, &quality);
+        let all = maps_texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        let noise = noise_texture(gpu);
+        // What only a lean preset reads costs the others nothing.
+        let tile = |levels: fn() -> tiles::Levels| if quality.lean { tile_texture(gpu, &levels()) } else { noise.clone() };
+        let (ground, concrete) = (tile(tiles::ground), tile(tiles::concrete));
+        let bind = |data: &wgpu::Buffer| {
+            let view = wgpu::BindingResource::TextureView;
+            let sampler = wgpu::BindingResource::Sampler;
+            let bound = [
+                data.as_entire_binding(),
+                view(&all),
+                sampler(&pipelines.compare),
+                view(&noise),
+                sampler(&pipelines.tiled),
+                view(&ground),
+                view(&concrete),
+            ];
+            let entries: Vec<wgpu::BindGroupEntry> =
+                bound.into_iter().enumerate().map(|(k, resource)| wgpu::BindGroupEntry { binding: k as u32, resource }).collect();
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &pipelines.globals_layout,
+                entries: &entries,
+            })
+        };
+        let (globals, globals_mirrored) = (uniform(gpu, size_of::<Globals>()), uniform(gpu, size_of::<Globals>()));
+        let (bound, bound_mirrored) = (bind(&globals), bind(&globals_mirrored));
+        let layers = 0..maps_texture.depth_or_array_layers();
+        Self {
+            fixed: fixed(gpu, scene),
+            models: scene.models.iter().map(|mesh| Solid::new(gpu, mesh)).collect(),
+            reaches_m: scene.models.iter().map(cells::reach_m).collect(),
+            water: cells::cut(&scene.water, false)
+                .iter()
+                .filter_map(|cell| Some((Solid::new(gpu, cell)?, Bounds::of(cell))))
+                .collect(),
+            patches: patches(gpu, &scene.patches),
+            bounds_m: scene.bounds_m,
+            water_m: scene.water_m(),
+            bound,
+            bound_mirrored,
+            maps: layers.map(|k| layer(gpu, &pipelines, &maps_texture, k)).collect(),
+            globals,
+            globals_mirrored,
+            site_map_sun: None,
+            targets: Recent::new(),
+            counts: Counts::default(),
+            labels: None,
+            quality,
+            pipelines,
+        }
+    }
+
+    /// What the last picture cost.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Replaces the scene's defects.
+    pub fn set_patches(&mut self, gpu: &Gpu, all: &[Patch]) {
+        self.patches = patches(gpu, all);
+    }
+
+    /// Draws a shot into `target` (a texture of [`wgpu::TextureFormat::Rgba8Unorm`] of the shot's size).
+    pub fn draw(&mut self, gpu: &Gpu, shot: &Shot, target: &wgpu::TextureView) {
+        self.counts = Counts::default();
+        let sun_maps = shadows::sun_maps(&self.quality, &shot.eye, self.bounds_m, shot.sky.sun);
+        let lamp_map = shot
+            .beam
+            .filter(|_| self.quality.lamp_shadow && sun_maps.len() < self.maps.len())
+            .map(|beam| shadows::lamp_map(&beam, self.quality.shadow_px));
+        let maps = Maps { sun: &sun_maps, lamp: lamp_map.as_ref() };
+        for (buffer, mirrored) in [(&self.globals, false), (&self.globals_mirrored, true)] {
+            let globals = Globals::new(shot, self.water_m, &maps, mirrored);
+            gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(&globals));
+        }
+        let view = View::of(shot, self.water_m);
+        let casts = self.quality.cascades > 1 || lamp_map.is_some();
+        let moving =
+            if casts { self.moving(gpu, &shot.moving) } else { self.moving(gpu, &view.in_sight(&shot.moving, &self.reaches_m)) };
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.draw_maps(gpu, &mut encoder, shot, (&sun_maps, lamp_map.as_ref()), &moving);
+        let targets =
+            self.targets.take(&shot.size_px).unwrap_or_else(|| Targets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
+        if self.quality.reflection > 0.0 && view.lake {
+            let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &view);
+            self.counts = self.counts.and(mirrored);
+        }
+        let lit = self.draw_light(&mut encoder, &targets, &moving, &view);
+        self.counts = self.counts.and(lit);
+        let develop = Develop::new(shot, &self.quality);
+        gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
+        {
+            let mut pass = begin(&mut encoder, target, None, None);
+            pass.set_pipeline(&self.pipelines.develop[usize::from(shot.finish.is_camera())]);
+            pass.set_bind_group(0, &targets.develop, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        self.targets.put(shot.size_px, targets);
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    fn moving(&self, gpu: &Gpu, moving: &[(Model, Instance)]) -> Vec<(Model, Copies)> {
+        let of = |model: Model| {
+            let copies: Vec<Instance> = moving.iter().filter(|m| m.0 == model).map(|m| m.1).collect();
+            Copies::new(gpu, &copies).map(|copies| (model, copies))
+        };
+        Model::ALL.into_iter().filter_map(of).collect()
+    }
+
+    fn draw_maps(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        shot: &Shot,
+        (sun, lamp): (&[Map], Option<&Map>),
+        moving: &[(Model, Copies)],
+    ) {
+        // One map over the whole site holds what stands still and is kept while the sun stands.
+        let whole = self.quality.cascades <= 1;
+        let kept = whole && self.site_map_sun.is_some_and(|was| was.dot(shot.sky.sun) > SUN_MOVED);
+        for (k, map) in sun.iter().chain(lamp).enumerate() {
+            let of_sun = k < sun.len();
+            if of_sun && (kept || shot.sky.direct_lux <= 0.0) {
+                continue;
+            }
+            let Some((view, data, group)) = self.maps.get(k) else { continue };
+            gpu.queue.write_buffer(data, 0, bytemuck::bytes_of(&map.projection.columns()));
+            let mut pass = begin_depth(encoder, view);
+            pass.set_pipeline(&self.pipelines.shadow);
+            pass.set_bind_group(0, group, &[]);
+            let lit = Frustum::of(&map.projection);
+            for fixed in self.fixed.iter().filter(|fixed| fixed.casts && lit.may_show_cell(&fixed.bounds)) {
+                count(&mut self.counts, fixed.solid.triangles(), &fixed.copies);
+                fixed.solid.draw(&mut pass, &fixed.copies);
+            }
+            if !(of_sun && whole) {
+                for (solid, copies) in solids(&self.models, moving) {
+                    count(&mut self.counts, solid.triangles(), copies);
+                    solid.draw(&mut pass, copies);
+                }
+            }
+        }
+        if whole && shot.sky.direct_lux > 0.0 {
+            self.site_map_sun = if kept { self.site_map_sun } else { Some(shot.sky.sun) };
+        }
+    }
+
+    fn draw_mirror(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        moving: &[(Model, Copies)],
+        view: &View,
+    ) -> Counts {
+        let shown = view.mirrored();
+        let mut counts = Counts::default();
+        let mut pass = begin(encoder, &targets.mirror, None, Some(&targets.mirror_depth));
+        pass.set_bind_group(0, &self.bound_mirrored, &[]);
+        self.draw_solids(
+            &mut pass,
+            &self.pipelines.surfaces_mirrored[view.lamp],
+            (moving, &shown),
+            (true, view.eye_m),
+            &mut counts,
+        );
+        pass.set_pipeline(&self.pipelines.sky_mirrored);
+        pass.draw(0..3, 0..1);
+        counts.draws += 1;
+        counts
+    }
+
+    /// Everything solid, look by look.
+    fn draw_solids(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        pipelines: &Looks,
+        (moving, shown): (&[(Model, Copies)], &Frustum),
+        (in_lake, eye_m): (bool, Vec3<Enu>),
+        counts: &mut Counts,
+    ) {
+        let shows =
+            |fixed: &&Fixed| shown.may_show_cell(&fixed.bounds) && fixed.seen.shows(in_lake, fixed.bounds.ball.from_m(eye_m));
+        let mut still: Vec<&Fixed> = self.fixed.iter().filter(shows).collect();
+        // Near things first: what they hide is not shaded.
+        still.sort_by(|a, b| a.bounds.ball.from_m(eye_m).total_cmp(&b.bounds.ball.from_m(eye_m)));
+        for (look, pipeline) in pipelines {
+            pass.set_pipeline(pipeline);
+            let still = still.iter().map(|fixed| (&*fixed.solid, &fixed.copies));
+            for (solid, copies) in solids(&self.models, moving).chain(still) {
+                if let Some(triangles) = solid.draw_look(pass, copies, *look) {
+                    count(counts, triangles, copies);
+                }
+            }
+        }
+    }
+
+    /// Defects, each kind by its pipeline.
+    fn draw_patches(&self, pass: &mut wgpu::RenderPass, pipelines: &[(u32, wgpu::RenderPipeline)]) -> Counts {
+        let mut counts = Counts::default();
+        for (kind, buffer, patches) in &self.patches {
+            let Some((_, pipeline)) = pipelines.iter().find(|of| of.0 == *kind) else { continue };
+            pass.set_pipeline(pipeline);
+            pass.set_vertex_buffer(0, buffer.slice(..));
+            pass.draw(0..6, 0..*patches);
+            counts.draws += 1;
+            counts.triangles += 2 * u64::from(*patches);
+        }
+        counts
+    }
+
+    fn draw_light(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        moving: &[(Model, Copies)],
+        view: &View,
+    ) -> Counts {
+        let shown = view.straight();
+        let mut counts = Counts::default();
+        let mut pass = begin(encoder, &targets.light, targets.resolved.as_ref(), Some(&targets.depth));
+        pass.set_bind_group(0, &self.bound, &[]);
+        self.draw_solids(&mut pass, &self.pipelines.surfaces[view.lamp], (moving, &shown), (false, view.eye_m), &mut counts);
+        let patches = self.draw_patches(&mut pass, &self.pipelines.defects);
+        counts = counts.and(patches);
+        pass.set_pipeline(&self.pipelines.water[view.lamp]);
+        pass.set_bind_group(1, &targets.water, &[]);
+        for (water, _) in self.water.iter().filter(|(_, bounds)| view.lake && shown.may_show_cell(bounds)) {
+            water.draw_alone(&mut pass);
+            counts.draws += 1;
+            counts.triangles += u64::from(water.triangles());
+        }
+        // The lake has kept its depth: no sky is shaded behind it.
+        pass.set_pipeline(&self.pipelines.sky);
+        pass.draw(0..3, 0..1);
+        counts.draws += 1;
+        pass.set_pipeline(&self.pipelines.sheer);
+        for (model, copies) in moving.iter().filter(|(model, _)| *model == Model::Disc) {
+            let Some(Some(solid)) = self.models.get(*model as usize) else { continue };
+            count(&mut counts, solid.triangles(), copies);
+            solid.draw(&mut pass, copies);
+        }
+        counts
+    }
+}
+
+/// Defects by kind.
+fn patches(gpu: &Gpu, all: &[Patch]) -> Vec<(u32, wgpu::Buffer, u32)> {
+    let of = |kind: &u32| {
+        let same: Vec<Patch> = all.iter().filter(|patch| patch.centre[3] as u32 == *kind).copied().collect();
+        let buffer = (!same.is_empty()).then(|| upload(gpu, bytemuck::cast_slice(&same), wgpu::BufferUsages::VERTEX))?;
+        Some((*kind, buffer, same.len() as u32))
+    };
+    catalogue::KINDS.iter().filter_map(of).collect()
+}
+
+/// What moves and is solid.
+fn solids<'a>(models: &'a [Option<Solid>], moving: &'a [(Model, Copies)]) -> impl Iterator<Item = (&'a Solid, &'a Copies)> {
+    let of = |(model, copies): &'a (Model, Copies)| Some((models.get(*model as usize)?.as_ref()?, copies));
+    moving.iter().filter(|(model, _)| *model != Model::Disc).filter_map(of)
+}
+
+fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: size as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// All shadow maps; at least two layers, or it would be no array to some drivers.
+fn maps_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
+    let layers = (quality.cascades + u32::from(quality.lamp_shadow)).clamp(2, MAPS as u32);
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadows"),
+        size: wgpu::Extent3d { width: quality.shadow_px, height: quality.shadow_px, depth_or_array_layers: layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    })
+}
+
+/// One shadow map: where it is drawn, and its projection.
+fn layer(gpu: &Gpu, pipelines: &Pipelines, maps: &wgpu::Texture, k: u32) -> (wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup) {
+    let view = maps.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer: k,
+        array_layer_count: Some(1),
+        ..Default::default()
+    });
+    let data = uniform(gpu, 64);
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipelines.map_layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: data.as_entire_binding() }],
+    });
+    (view, data, group)
+}
+
+fn count(counts: &mut Counts, triangles: u32, copies: &Copies) {
+    counts.draws += 1;
+    counts.triangles += u64::from(triangles) * u64::from(copies.count());
+}

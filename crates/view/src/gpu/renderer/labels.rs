@@ -1,0 +1,70 @@
+//! Labels of a shot in place of its light.
+
+use super::{Frustum, Renderer, solids};
+use crate::gpu::device::{Gpu, GpuError};
+use crate::gpu::pass::{Copies, begin};
+use crate::gpu::picture::{colour_texture, read_bytes};
+use crate::gpu::pipelines::{DEPTH, LIGHT, LabelPipelines};
+use crate::gpu::targets::texture;
+use crate::gpu::uniforms::{Globals, Maps};
+use crate::masks::Masks;
+use crate::scene::Instance;
+use crate::shot::Shot;
+
+/// Bytes of a pixel of labels: four half floats.
+const PIXEL: u32 = 8;
+
+impl Renderer {
+    /// Which element of a bridge and which defect each pixel of a shot shows.
+    ///
+    /// # Errors
+    /// When the shot is too large for the device, or the device fails or has failed.
+    pub fn labels(&mut self, gpu: &Gpu, shot: &Shot) -> Result<Masks, GpuError> {
+        gpu.check_size(shot.size_px)?;
+        let globals = Globals::new(shot, self.water_m, &Maps { sun: &[], lamp: None }, false);
+        gpu.queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
+        let pipelines = self.labels.take().unwrap_or_else(|| LabelPipelines::new(gpu, &self.pipelines.globals_layout));
+        let target = colour_texture(gpu, shot.size_px, (LIGHT, wgpu::TextureUsages::COPY_SRC));
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.draw_labels(gpu, &mut encoder, &pipelines, shot, &target);
+        gpu.queue.submit([encoder.finish()]);
+        self.labels = Some(pipelines);
+        read(gpu, &target)
+    }
+
+    fn draw_labels(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        pipelines: &LabelPipelines,
+        shot: &Shot,
+        target: &wgpu::Texture,
+    ) {
+        let (moving, here) = (self.moving(gpu, &shot.moving), Copies::new(gpu, &[Instance::HERE]));
+        let shown = Frustum::of(&shot.eye.view_projection(shot.aspect()));
+        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        let depth = texture(gpu, shot.size_px, DEPTH, 1);
+        let mut pass = begin(encoder, &view, None, Some(&depth));
+        pass.set_bind_group(0, &self.bound, &[]);
+        pass.set_pipeline(&pipelines.solid);
+        let still = self
+            .fixed
+            .iter()
+            .filter(|fixed| fixed.seen.shows(false, 0.0) && shown.may_show_cell(&fixed.bounds))
+            .map(|fixed| (&*fixed.solid, &fixed.copies));
+        let lake = self.water.iter().flat_map(|(water, _)| Some((water, here.as_ref()?)));
+        for (solid, copies) in solids(&self.models, &moving).chain(still).chain(lake) {
+            solid.draw(&mut pass, copies);
+        }
+        self.draw_patches(&mut pass, &pipelines.defects);
+    }
+}
+
+fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Masks, GpuError> {
+    let (width, height) = (texture.width(), texture.height());
+    let bytes = read_bytes(gpu, texture, PIXEL)?;
+    let number = |k: usize| u16::from_le_bytes([bytes[k], bytes[k + 1]]);
+    let of =
+        |channel: usize| (0..bytes.len() / PIXEL as usize).map(|k| Masks::whole(number(PIXEL as usize * k + channel))).collect();
+    Ok(Masks { width, height, elements: of(0), defects: of(2) })
+}

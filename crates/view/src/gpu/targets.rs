@@ -1,0 +1,113 @@
+//! Textures that a picture of one size is made in.
+
+use super::device::Gpu;
+use super::pipelines::{DEPTH, LIGHT, Pipelines};
+use crate::quality::Quality;
+
+/// Textures and what binds them.
+pub struct Targets {
+    /// Light, with all samples.
+    pub light: wgpu::TextureView,
+    /// Light, one sample a pixel; `None` when that is [`Self::light`] itself.
+    pub resolved: Option<wgpu::TextureView>,
+    /// Depth.
+    pub depth: wgpu::TextureView,
+    /// What the water mirrors.
+    pub mirror: wgpu::TextureView,
+    /// Its depth.
+    pub mirror_depth: wgpu::TextureView,
+    /// For the shader `water`.
+    pub water: wgpu::BindGroup,
+    /// For the shader `develop`.
+    pub develop: wgpu::BindGroup,
+    /// What `develop` reads of the shot.
+    pub develop_data: wgpu::Buffer,
+}
+
+/// A texture to draw into and to read.
+pub fn texture(gpu: &Gpu, size: (u32, u32), format: wgpu::TextureFormat, samples: u32) -> wgpu::TextureView {
+    let descriptor = wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width: size.0.max(1), height: size.1.max(1), depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: samples,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    gpu.device.create_texture(&descriptor).create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+impl Targets {
+    /// For pictures of one size.
+    pub fn new(gpu: &Gpu, pipelines: &Pipelines, quality: &Quality, size: (u32, u32)) -> Self {
+        let light = texture(gpu, size, LIGHT, quality.samples);
+        let resolved = (quality.samples > 1).then(|| texture(gpu, size, LIGHT, 1));
+        let depth = texture(gpu, size, DEPTH, quality.samples);
+        let part = |px: u32| ((f64::from(px) * quality.reflection) as u32).max(1);
+        let small = if quality.reflection > 0.0 { (part(size.0), part(size.1)) } else { (1, 1) };
+        let mirror = texture(gpu, small, LIGHT, 1);
+        let mirror_depth = texture(gpu, small, DEPTH, 1);
+        let develop_data = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("develop"),
+            size: size_of::<super::uniforms::Develop>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let view = |view| wgpu::BindingResource::TextureView(view);
+        let sampler = wgpu::BindingResource::Sampler(&pipelines.smooth);
+        let entry = |binding: u32, resource| wgpu::BindGroupEntry { binding, resource };
+        let water = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("water"),
+            layout: &pipelines.water_layout,
+            entries: &[entry(0, view(&mirror)), entry(1, sampler.clone())],
+        });
+        let develop = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("develop"),
+            layout: &pipelines.develop_layout,
+            entries: &[
+                entry(0, develop_data.as_entire_binding()),
+                entry(1, view(resolved.as_ref().unwrap_or(&light))),
+                entry(2, sampler),
+                entry(3, view(&depth)),
+            ],
+        });
+        Self { light, resolved, depth, mirror, mirror_depth, water, develop, develop_data }
+    }
+}
+
+/// The tile of noise.
+pub fn noise_texture(gpu: &Gpu) -> wgpu::TextureView {
+    let levels: Vec<_> = crate::noise::levels().into_iter().map(|level| (level.side, level.rgba)).collect();
+    tile_texture(gpu, &levels)
+}
+
+/// A tile of four channels with its means, finest first.
+pub fn tile_texture(gpu: &Gpu, levels: &[(usize, Vec<u8>)]) -> wgpu::TextureView {
+    let side = |px: usize| wgpu::Extent3d { width: px as u32, height: px as u32, depth_or_array_layers: 1 };
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("tile"),
+        size: side(levels.first().map_or(1, |level| level.0)),
+        mip_level_count: levels.len() as u32,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    for (k, (texels, rgba)) in levels.iter().enumerate() {
+        gpu.queue.write_texture(
+            wgpu::TexelCopyTextureInfo {
+                texture: &texture,
+                mip_level: k as u32,
+                origin: wgpu::Origin3d::ZERO,
+                aspect: wgpu::TextureAspect::All,
+            },
+            rgba,
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * *texels as u32), rows_per_image: None },
+            side(*texels),
+        );
+    }
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}

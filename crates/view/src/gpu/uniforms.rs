@@ -1,0 +1,130 @@
+//! What the shaders read, byte for byte as they declare it (common.wgsl, develop.wgsl).
+
+use super::super::matrix::Matrix;
+use super::super::quality::Quality;
+use super::super::shadows::Map;
+use super::super::shot::Shot;
+use nalgebra::Matrix4;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+
+/// Shadow maps that a shader can hold.
+pub const MAPS: usize = 5;
+/// Haze: light lost per metre (estimate: 12 km of visual range, Koschmieder's 3.9 over it).
+const HAZE_PER_M: f64 = 3.9 / 12_000.0;
+
+/// `Globals`.
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub struct Globals {
+    view_proj: [[f32; 4]; 4],
+    eye: [f32; 4],
+    right: [f32; 4],
+    up: [f32; 4],
+    forward: [f32; 4],
+    sun: [f32; 4],
+    sun_rgb: [f32; 4],
+    sky_rgb: [f32; 4],
+    scene: [f32; 4],
+    lamp: [f32; 4],
+    lamp_dir: [f32; 4],
+    look: [f32; 4],
+    shadow: [f32; 4],
+    texel: [f32; 4],
+    size: [f32; 4],
+    shadow_proj: [[[f32; 4]; 4]; MAPS],
+}
+
+/// `Develop`.
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub struct Develop {
+    reproject: [[f32; 4]; 4],
+    grain: [f32; 4],
+    size: [f32; 4],
+}
+
+fn four(v: Vec3<Enu>, last: f64) -> [f32; 4] {
+    let [x, y, z] = v.array();
+    [x as f32, y as f32, z as f32, last as f32]
+}
+
+fn colour(rgb: [f64; 3], last: f64) -> [f32; 4] {
+    [rgb[0] as f32, rgb[1] as f32, rgb[2] as f32, last as f32]
+}
+
+/// What a shot's maps are.
+pub struct Maps<'a> {
+    /// Of the sun.
+    pub sun: &'a [Map],
+    /// Of the lamp.
+    pub lamp: Option<&'a Map>,
+}
+
+impl Globals {
+    /// For a shot, or for what the water at `water_m` mirrors of it.
+    pub fn new(shot: &Shot, water_m: f64, maps: &Maps, mirrored: bool) -> Self {
+        let flip = |v: Vec3<Enu>| if mirrored { Vec3::new(v.east(), v.north(), -v.up()) } else { v };
+        let eye_m = shot.eye.position_m;
+        let eye = if mirrored { Vec3::new(eye_m.east(), eye_m.north(), 2.0 * water_m - eye_m.up()) } else { eye_m };
+        let projection = shot.eye.view_projection(shot.aspect());
+        let projection = if mirrored { projection.after(&Matrix::mirror(water_m)) } else { projection };
+        let (half_w, half_h) = shot.eye.half_sizes(shot.aspect());
+        let pixel_rad = 2.0 * half_w / f64::from(shot.size_px.0.max(1));
+        let sky = &shot.sky;
+        let wind = math::hypot(shot.wind_m_s.0, shot.wind_m_s.1);
+        let towards = if wind > 1e-6 { (shot.wind_m_s.0 / wind, shot.wind_m_s.1 / wind) } else { (1.0, 0.0) };
+        let (lamp, lamp_dir) = shot.beam.map_or(([0.0; 4], [0.0; 4]), |beam| {
+            (four(beam.position_m, math::cos(beam.half_rad)), four(beam.forward, beam.candela))
+        });
+        let mut shadow_proj = [Matrix::mirror(0.0).columns(); MAPS];
+        let mut texel = [0.0; 4];
+        for (k, map) in maps.sun.iter().chain(maps.lamp).take(MAPS).enumerate() {
+            shadow_proj[k] = map.projection.columns();
+            if let Some(slot) = texel.get_mut(k) {
+                *slot = map.texel_m as f32;
+            }
+        }
+        let (width, height) = shot.size_px;
+        Self {
+            view_proj: projection.columns(),
+            eye: four(eye, shot.time_s),
+            right: four(flip(shot.eye.right * half_w), 0.0),
+            up: four(flip(shot.eye.up() * half_h), 0.0),
+            forward: four(flip(shot.eye.forward), pixel_rad),
+            sun: four(sky.sun, sky.direct_lux),
+            sun_rgb: colour(sky.sun_rgb, sky.cloud),
+            sky_rgb: colour(sky.sky_rgb, sky.sky_lux),
+            scene: [sky.scale as f32, water_m as f32, HAZE_PER_M as f32, 0.0],
+            lamp,
+            lamp_dir,
+            look: [(1.0 / shot.finish.exposure.white_lux) as f32, wind as f32, towards.0 as f32, towards.1 as f32],
+            shadow: [if maps.lamp.is_some() { maps.sun.len() as f32 } else { -1.0 }, 0.0, 0.0, 0.0],
+            texel,
+            size: [width as f32, height as f32, 0.0, 0.0],
+            shadow_proj,
+        }
+    }
+}
+
+impl Develop {
+    /// For a shot.
+    pub fn new(shot: &Shot, quality: &Quality) -> Self {
+        let now = shot.eye.view_projection(shot.aspect());
+        let moved = shot.finish.before.filter(|_| quality.blur_taps > 1);
+        let reproject = moved.and_then(|before| {
+            let inverse = Matrix4::from_fn(|i, j| now.0[i][j]).try_inverse()?;
+            let rows = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| inverse[(i, j)]));
+            Some(before.view_projection(shot.aspect()).after(&Matrix(rows)))
+        });
+        let taps = if reproject.is_some() { quality.blur_taps } else { 1 };
+        // Another grain in every picture, the same for the same instant.
+        let number = (shot.time_s * 1000.0).rem_euclid(1e6).round();
+        let (width, height) = shot.size_px;
+        Self {
+            reproject: reproject.unwrap_or(Matrix::mirror(0.0)).columns(),
+            grain: [shot.finish.noise as f32, number as f32, taps as f32, shot.finish.vignette as f32],
+            size: [width as f32, height as f32, 0.0, 0.0],
+        }
+    }
+}

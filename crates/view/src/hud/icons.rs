@@ -1,0 +1,36 @@
+//! Symbols that tell by their shape alone: who cannot tell the colours apart reads the same.
+
+use super::{Colour, Item, Point, at};
+use spandrel_model::math;
+
+/// Shapes, from harmless to grave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// All is well, or worth knowing.
+    Disc,
+    /// Take care.
+    Triangle,
+    /// Danger near.
+    Diamond,
+    /// Stop.
+    Octagon,
+}
+
+/// A symbol with a dark rim; `size` is its height as a share of the picture's.
+pub fn symbol(shape: Shape, middle: Point, size: f64, aspect: f64, colour: Colour) -> Vec<Item> {
+    let ring = |count: u32, turn: f64, radius: f64| -> Vec<Point> {
+        (0..count)
+            .map(|k| {
+                let (s, c) = math::sin_cos(turn + math::TAU * f64::from(k) / f64::from(count));
+                at(middle.x + radius * s / aspect, middle.y - radius * c)
+            })
+            .collect()
+    };
+    let outline = |grown: f64| match shape {
+        Shape::Disc => ring(16, 0.0, 0.46 * size * grown),
+        Shape::Triangle => ring(3, 0.0, 0.58 * size * grown),
+        Shape::Diamond => ring(4, 0.0, 0.55 * size * grown),
+        Shape::Octagon => ring(8, math::PI / 8.0, 0.52 * size * grown),
+    };
+    vec![Item::Fill { points: outline(1.18), colour: Colour::Black }, Item::Fill { points: outline(1.0), colour }]
+}

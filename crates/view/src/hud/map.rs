@@ -1,0 +1,108 @@
+//! The small map: reference paths, pad and drone, north up.
+
+use super::pane::Pane;
+use super::state::Hud;
+use super::{Colour, Item, Side};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+
+/// Half the map's side.
+const HALF: f64 = 0.135;
+/// Middle of the map, from the right and lower edges.
+const FROM_EDGE: f64 = 0.16;
+/// A label's type, height and width.
+const TYPE: f64 = 0.022;
+const HIGH: f64 = 0.02;
+const WIDE: f64 = 0.018;
+/// Room around what is shown, as a share.
+const ROOM: f64 = 1.12;
+/// The map shows at least this far from its middle, m.
+const LEAST_M: f64 = 20.0;
+
+/// The map's left edge, if there is a map.
+pub fn left(hud: &Hud, pane: Pane) -> Option<f64> {
+    (!hud.tracks.is_empty()).then_some(pane.width - FROM_EDGE - HALF)
+}
+
+/// The map's items.
+pub fn map(hud: &Hud, pane: Pane) -> Vec<Item> {
+    if hud.tracks.is_empty() {
+        return Vec::new();
+    }
+    let (x, y) = (pane.width - FROM_EDGE, pane.height - FROM_EDGE);
+    let place = scale(hud, (x, y));
+    let mut items = vec![pane.panel((x - HALF, y - HALF), (x + HALF, y + HALF))];
+    let mut labels: Vec<(f64, f64)> = Vec::new();
+    for track in &hud.tracks {
+        let mut points: Vec<(f64, f64)> = track.path_m.iter().step_by(3).map(|p| place(*p)).collect();
+        points.extend(track.path_m.last().filter(|_| !track.closed).or(track.path_m.first()).map(|p| place(*p)));
+        let start = points[0];
+        items.push(pane.line(&points, 0.004, Colour::Blue));
+        let label = beside(&labels, (start.0, start.1 - 0.014), x + HALF - 0.5 * WIDE);
+        items.push(pane.text(label, Side::Middle, TYPE, Colour::Grey, format!("{}", track.id)));
+        labels.push(label);
+    }
+    let (pad, side) = (place(hud.pad_m), 0.007);
+    let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
+    items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), Colour::White));
+    items.push(pane.fill(&arrow(place(hud.position_m), hud.heading_rad), Colour::Yellow));
+    items.push(pane.text((x, y - HALF + 0.016), Side::Middle, TYPE, Colour::Grey, "N"));
+    items
+}
+
+/// Where a place in the world stands on a map with this middle, so that all that is shown fits.
+fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
+    let shown = hud.tracks.iter().flat_map(|t| t.path_m.iter().copied()).chain([hud.pad_m, hud.position_m]);
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for p in shown {
+        for (k, metres) in [p.east(), p.north()].into_iter().enumerate() {
+            low[k] = low[k].min(metres);
+            high[k] = high[k].max(metres);
+        }
+    }
+    let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+    let reach = (0.5 * (high[0] - low[0]).max(high[1] - low[1]) * ROOM).max(LEAST_M);
+    let share = move |metres: f64, k: usize| (metres - middle[k]) / reach * HALF * 0.94;
+    move |p| (x + share(p.east(), 0), y - share(p.north(), 1))
+}
+
+/// The place of a label: where it belongs, or beside those that stand there: to their right, or to their left where the map ends.
+fn beside(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f64) {
+    let covered = |here: (f64, f64)| {
+        let covers = |there: &(f64, f64)| (there.0 - here.0).abs() < WIDE - 1e-9 && (there.1 - here.1).abs() < HIGH;
+        labels.iter().any(covers)
+    };
+    let walk = |step: f64| {
+        let mut here = place;
+        while covered(here) {
+            here.0 += step;
+        }
+        here
+    };
+    let right = walk(WIDE);
+    if right.0 <= right_most { right } else { walk(-WIDE) }
+}
+
+/// A dart that points along the heading.
+fn arrow(tip: (f64, f64), heading_rad: f64) -> [(f64, f64); 3] {
+    let (s, c) = math::sin_cos(heading_rad);
+    [(0.0, 0.016), (0.010, -0.011), (-0.010, -0.011)].map(|(x, y): (f64, f64)| (tip.0 + (x * c + y * s), tip.1 - (y * c - x * s)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_labels_of_paths_that_begin_at_one_place_stand_beside_each_other() {
+        let mut labels = Vec::new();
+        for _ in 0..3 {
+            labels.push(beside(&labels, (0.9, 0.8), 1.0));
+        }
+        let gaps: Vec<f64> = labels.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
+        assert!(gaps.iter().all(|gap| (gap - WIDE).abs() < 1e-9), "{gaps:?}");
+        assert_eq!(beside(&labels, (0.9, 0.7), 1.0), (0.9, 0.7), "elsewhere there is room");
+        let inside = beside(&labels, (0.9, 0.8), 0.95);
+        assert!((inside.0 - (0.9 - WIDE)).abs() < 1e-9, "the map ends: {inside:?}");
+    }
+}

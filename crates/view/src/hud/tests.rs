@@ -1,0 +1,201 @@
+//! The words of the display, their colours and places.
+
+use super::state::cue;
+use super::*;
+use spandrel_model::frames::Vec3;
+
+const WIDE: f64 = 16.0 / 9.0;
+/// Every cue of the lower left.
+pub(super) const ALL_CUES: i32 = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
+
+/// Calm flight.
+pub(super) fn hud() -> Hud {
+    Hud {
+        speed_m_s: 3.2,
+        limit_m_s: 4.4704,
+        battery_pct: Some(76.0),
+        green_pct: 70.0,
+        yellow_pct: 30.0,
+        cues: 0,
+        hit: None,
+        height_m: 21.4,
+        home_m: 118.0,
+        mode: "Position".into(),
+        gnss: Some(Gnss { fixed: true, satellites: 14 }),
+        silent_s: 0.02,
+        gimbal_rad: 0.35,
+        zoom: 1.0,
+        lamp: false,
+        left_s: 1234.5,
+        pictures: 3,
+        shutter: false,
+        time_s: 100.0,
+        position_m: Vec3::new(10.0, -4.0, 20.0),
+        heading_rad: 1.2,
+        pad_m: Vec3::new(-100.0, 60.0, 5.0),
+        tracks: vec![Track { id: 1, path_m: vec![Vec3::new(-50.0, -5.0, 30.0), Vec3::new(50.0, -5.0, 30.0)], closed: false }],
+    }
+}
+
+fn texts(hud: &Hud) -> Vec<(Point, Colour, String)> {
+    let of = |item| match item {
+        Item::Text { place, colour, words, .. } => Some((place, colour, words)),
+        Item::Panel { .. } | Item::Fill { .. } | Item::Line { .. } => None,
+    };
+    layout(hud, WIDE).into_iter().filter_map(of).collect()
+}
+
+fn find(hud: &Hud, part: &str) -> Option<(Point, Colour)> {
+    texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, colour, _)| (place, colour))
+}
+
+/// Every word of the display with its place in hundredths and its colour.
+fn snapshot(hud: &Hud) -> String {
+    let line = |(place, colour, words): (Point, Colour, String)| {
+        format!("{:3.0} {:3.0} {colour:?}: {words}\n", 100.0 * place.x, 100.0 * place.y)
+    };
+    texts(hud).into_iter().map(line).collect()
+}
+
+#[test]
+fn regress_the_display_in_calm_flight() {
+    let expected = "  2   6 White: 3.2 m/s\n  2  11 Grey: 7 mph, limit 10\n 98   6 Green: 76 %\n 50   5 White: Position   GNSS 14   link ok\n \
+                    87  13 Grey: height\n 98  13 White: 21.4 m\n 87  17 Grey: home\n 98  17 White: 118 m\n 87  21 Grey: gimbal\n \
+                    98  21 White: +20°\n 87  25 Grey: time left\n 98  25 White: 20:34\n 87  28 Grey: lamp\n 98  28 White: off\n \
+                    87  32 Grey: pictures\n 98  32 White: 3\n 89  88 Grey: 1\n 91  72 Grey: N\n";
+    assert_eq!(snapshot(&hud()), expected, "\n{}", snapshot(&hud()));
+}
+
+#[test]
+fn exact_places_are_those_of_the_assessment() {
+    let all = Hud { cues: ALL_CUES, hit: Some("bridge".into()), ..hud() };
+    let speed = find(&all, "3.2 m/s").unwrap().0;
+    assert!(speed.x < 0.3 && speed.y < 0.2, "speed is upper left");
+    let battery = find(&all, "76 %").unwrap().0;
+    assert!(battery.x > 0.7 && battery.y < 0.2, "battery is upper right");
+    for words in ["CRASH: bridge", "TOO CLOSE", "TOO FAST", "OFF THE PATH"] {
+        let place = find(&all, words).unwrap().0;
+        assert!(place.x < 0.5 && place.y > 0.5, "{words} is lower left");
+        assert!(find(&hud(), words).is_none(), "{words} shows without its cue");
+    }
+}
+
+#[test]
+fn exact_the_battery_changes_at_70_and_30_and_flashes_when_red() {
+    let at = |pct: f64, time_s: f64| Hud { battery_pct: Some(pct), time_s, ..hud() };
+    assert_eq!(find(&at(70.0, 0.0), "70 %").unwrap().1, Colour::Green);
+    assert_eq!(find(&at(69.9, 0.0), "70 %").unwrap().1, Colour::Yellow);
+    assert_eq!(find(&at(30.0, 0.0), "30 %").unwrap().1, Colour::Yellow);
+    assert_eq!(find(&at(29.0, 0.0), "29 %").unwrap().1, Colour::Red);
+    let fills = |hud: &Hud| layout(hud, WIDE).iter().filter(|i| matches!(i, Item::Fill { .. })).count();
+    assert!(fills(&at(29.0, 0.1)) > fills(&at(29.0, 0.3)), "red flashes");
+    assert_eq!(fills(&at(50.0, 0.1)), fills(&at(50.0, 0.3)), "yellow does not");
+    assert!(find(&Hud { battery_pct: None, ..hud() }, "no battery").is_some());
+}
+
+#[test]
+fn exact_a_lost_link_and_a_lost_fix_are_told() {
+    let lost = Hud { silent_s: 3.0, ..hud() };
+    assert_eq!(find(&lost, "LINK LOST 3 s").unwrap().1, Colour::Orange);
+    let dark = Hud { gnss: Some(Gnss { fixed: false, satellites: 4 }), ..hud() };
+    assert_eq!(find(&dark, "GNSS lost (4)").unwrap().1, Colour::Orange);
+}
+
+#[test]
+fn prop_everything_stays_in_pictures_of_any_shape() {
+    let states = [hud(), Hud { cues: ALL_CUES, hit: Some("pedestrian 3".into()), zoom: 2.0, ..hud() }];
+    for aspect in [4.0 / 3.0, WIDE, 21.0 / 9.0] {
+        for state in &states {
+            for item in layout(state, aspect) {
+                let points = match item {
+                    Item::Panel { from, to, .. } => vec![from, to],
+                    Item::Text { place, .. } => vec![place],
+                    Item::Fill { points, .. } | Item::Line { points, .. } => points,
+                };
+                for p in points {
+                    assert!((0.0..=1.0).contains(&p.x) && (0.0..=1.0).contains(&p.y), "{p:?} at {aspect}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_shapes_differ_where_colours_do() {
+    let corners = |pct: f64| {
+        layout(&Hud { battery_pct: Some(pct), tracks: vec![], ..hud() }, WIDE).into_iter().find_map(|item| match item {
+            Item::Fill { points, .. } => Some(points.len()),
+            Item::Panel { .. } | Item::Text { .. } | Item::Line { .. } => None,
+        })
+    };
+    assert_eq!([corners(90.0), corners(50.0), corners(10.0)], [Some(16), Some(3), Some(8)]);
+}
+
+/// What a state says that calm flight does not: colours and words.
+fn news(hud: &Hud) -> Vec<String> {
+    let said = |hud: &Hud| texts(hud).into_iter().map(|(_, colour, words)| format!("{colour:?}: {words}")).collect::<Vec<_>>();
+    let calm = said(&self::hud());
+    said(hud).into_iter().filter(|line| !calm.contains(line)).collect()
+}
+
+#[test]
+fn exact_words_of_every_state_that_is_not_calm() {
+    let gnss = |fixed, satellites| Hud { gnss: Some(Gnss { fixed, satellites }), ..hud() };
+    let warned = |cues| Hud { cues, ..hud() };
+    let crash = "Red: CRASH: bridge member arch/rib-left/07";
+    let hit = Some("bridge member arch/rib-left/07".to_owned());
+    let states: [(Hud, &[&str]); 18] = [
+        (hud(), &[]),
+        (Hud { battery_pct: Some(52.4), ..hud() }, &["Yellow: 52 %"]),
+        (Hud { battery_pct: Some(17.0), ..hud() }, &["Red: 17 %"]),
+        (Hud { battery_pct: None, ..hud() }, &["Grey: no battery data"]),
+        (warned(cue::SPEEDING), &["Yellow: 3.2 m/s", "Yellow: TOO FAST: limit 10 mph"]),
+        (warned(cue::OFF_PATH), &["Blue: OFF THE PATH"]),
+        (warned(cue::TOO_CLOSE), &["Orange: TOO CLOSE"]),
+        (warned(cue::CRASH), &["Red: CRASH"]),
+        (Hud { hit: hit.clone(), ..warned(cue::CRASH) }, &[crash]),
+        (
+            Hud { hit, ..warned(ALL_CUES) },
+            &["Yellow: 3.2 m/s", crash, "Orange: TOO CLOSE", "Yellow: TOO FAST: limit 10 mph", "Blue: OFF THE PATH"],
+        ),
+        (warned(cue::BATTERY_RED), &[]),
+        (gnss(true, 255), &["White: Position   GNSS ok   link ok"]),
+        (gnss(false, 4), &["Orange: Position   GNSS lost (4)   link ok"]),
+        (gnss(false, 255), &["Orange: Position   GNSS lost   link ok"]),
+        (Hud { gnss: None, ..hud() }, &["White: Position   GNSS ?   link ok"]),
+        (Hud { silent_s: 12.3, ..hud() }, &["Orange: Position   GNSS 14   LINK LOST 12 s"]),
+        (Hud { silent_s: 12.3, ..gnss(false, 4) }, &["Orange: Position   GNSS lost (4)   LINK LOST 12 s"]),
+        (Hud { zoom: 2.0, lamp: true, ..hud() }, &["Yellow: on", "Grey: zoom", "White: 2.0 x"]),
+    ];
+    for (state, words) in states {
+        assert_eq!(news(&state), words, "{state:?}");
+    }
+}
+
+#[test]
+fn exact_a_small_picture_shows_speed_battery_and_what_is_wrong() {
+    let words = |hud: &Hud, size_px| {
+        let of = |item| match item {
+            Item::Text { height, words, .. } => Some((height, words)),
+            Item::Panel { .. } | Item::Fill { .. } | Item::Line { .. } => None,
+        };
+        layout_px(hud, size_px).into_iter().filter_map(of).collect::<Vec<_>>()
+    };
+    // The sizes of the reference pictures, and the camera's place in a small window.
+    for (width, height) in [(640.0, 360.0), (480.0, 360.0), (1280.0, 720.0)] {
+        assert_eq!(layout_px(&hud(), (width, height)), layout(&hud(), width / height), "{width} x {height}");
+    }
+    let wrong = Hud { cues: ALL_CUES, silent_s: 4.0, battery_pct: Some(17.0), ..hud() };
+    for size_px in [(432.0, 324.0), (288.0, 216.0), (192.0, 144.0)] {
+        let calm = words(&hud(), size_px);
+        assert_eq!(calm.iter().map(|(_, words)| words.as_str()).collect::<Vec<_>>(), ["3.2 m/s", "76 %"]);
+        let all = words(&wrong, size_px);
+        assert_eq!(
+            all.iter().map(|(_, words)| words.as_str()).collect::<Vec<_>>(),
+            ["3.2 m/s", "17 %", "LINK LOST 4 s", "CRASH", "TOO CLOSE", "TOO FAST", "OFF THE PATH"]
+        );
+        assert!(all.iter().all(|(height, _)| height * size_px.1 > 11.99), "{size_px:?}: {all:?}");
+    }
+    let least = words(&wrong, (144.0, 81.0));
+    assert_eq!(least.last().map(|(_, words)| words.as_str()), Some("CRASH"), "the gravest stays: {least:?}");
+}

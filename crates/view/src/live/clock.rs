@@ -1,0 +1,130 @@
+//! Which instant of the vehicle's clock is shown now: a little behind the newest telemetry, so that there is a sample on either side, and
+//! evenly, although datagrams come in bursts and the vehicle's clock may run faster or slower than the wall's.
+
+use spandrel_model::time::SimTime;
+use std::collections::VecDeque;
+
+/// How far behind the newest telemetry the picture is, s of wall time (three samples at 50 Hz; estimate: hides the usual jitter of a local
+/// network and is a tenth of a person's reaction).
+pub const BEHIND_S: f64 = 0.06;
+/// The pace of the vehicle's clock is measured over this much wall time.
+const MEASURED_OVER: SimTime = SimTime::from_ms(1_000);
+/// A picture that is this much beside the target, s of wall time, jumps there.
+const JUMP_S: f64 = 0.5;
+/// Errors smaller than that are made up for within about this time, s.
+const SETTLE_S: f64 = 0.25;
+/// Silence for this long, s, is no jitter: the picture stands at the newest sample.
+const PATIENCE_S: f64 = 0.1;
+
+/// The instant that is shown.
+#[derive(Debug, Clone, Default)]
+pub struct Playhead {
+    heard: VecDeque<(SimTime, SimTime)>,
+    shown: Option<(SimTime, SimTime)>,
+}
+
+impl Playhead {
+    /// A newest sample of the vehicle's clock came in at this wall time.
+    pub fn hear(&mut self, wall: SimTime, newest: SimTime) {
+        if self.heard.back().is_some_and(|(_, last)| newest <= *last) {
+            return;
+        }
+        self.heard.push_back((wall, newest));
+        while self.heard.front().is_some_and(|(first, _)| wall.saturating_sub(*first) > MEASURED_OVER) && self.heard.len() > 2 {
+            self.heard.pop_front();
+        }
+    }
+
+    /// The vehicle's clock has begun anew.
+    pub fn restart(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Seconds of the vehicle's clock in a second of wall time; 1 until it is known.
+    #[must_use]
+    pub fn pace(&self) -> f64 {
+        match (self.heard.front(), self.heard.back()) {
+            (Some(first), Some(last)) if (last.0 - first.0).s() > 0.2 => (last.1 - first.1).s() / (last.0 - first.0).s(),
+            _ => 1.0,
+        }
+    }
+
+    /// Moves on to a wall time and gives the instant to show; `None` while nothing has been heard.
+    pub fn advance(&mut self, wall: SimTime) -> Option<SimTime> {
+        let (arrived, newest) = *self.heard.back()?;
+        let pace = self.pace();
+        let since_s = (wall - arrived).s().clamp(0.0, PATIENCE_S);
+        let target_s = (newest.s() + pace * (since_s - BEHIND_S)).max(0.0);
+        let shown_s = match self.shown {
+            None => target_s,
+            Some((before, shown)) => {
+                let step_s = (wall - before).s().max(0.0);
+                let even_s = shown.s() + pace * step_s;
+                let error_s = target_s - even_s;
+                if error_s.abs() > JUMP_S * pace.max(1.0) {
+                    target_s
+                } else {
+                    // Never back: a picture that runs backwards looks broken.
+                    (even_s + error_s * (step_s / SETTLE_S).min(1.0)).max(shown.s())
+                }
+            }
+        };
+        let shown = SimTime::from_s(shown_s).min(newest);
+        self.shown = Some((wall, shown));
+        Some(shown)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Shown instants, s, for pictures every 1/60 s of a clock of this pace whose samples (50 Hz) come so many at once.
+    fn shown(pace: f64, burst: u32) -> Vec<f64> {
+        let mut head = Playhead::default();
+        let mut out = Vec::new();
+        let mut sample = 0;
+        for picture in 0..600 {
+            let wall_s = f64::from(picture) / 60.0;
+            while f64::from(sample + burst) * 0.02 <= wall_s * pace {
+                sample += burst;
+                head.hear(SimTime::from_s(wall_s), SimTime::from_s(f64::from(sample) * 0.02));
+            }
+            if let Some(at) = head.advance(SimTime::from_s(wall_s)) {
+                out.push(at.s());
+            }
+        }
+        out
+    }
+
+    #[test]
+    fn exact_bursts_are_shown_evenly_at_any_pace() {
+        for (pace, burst) in [(0.5, 1), (1.0, 3), (4.0, 3)] {
+            let all = shown(pace, burst);
+            let settled = &all[120..];
+            for pair in settled.windows(2) {
+                let step = pair[1] - pair[0];
+                // Bursts of 60 ms on a picture of 17 ms: unsmoothed, steps would be 0 or 3.6 times the even one.
+                assert!(step > 0.8 * pace / 60.0 && step < 1.2 * pace / 60.0, "pace {pace}: a step of {step} s");
+            }
+            let end = settled[settled.len() - 1];
+            let newest = pace * 599.0 / 60.0;
+            assert!(newest - end < 0.1 * pace.max(1.0) && newest - end > 0.0, "pace {pace}: {end} of {newest}");
+        }
+    }
+
+    #[test]
+    fn exact_silence_stops_the_picture_and_a_gap_is_jumped() {
+        let mut head = Playhead::default();
+        assert_eq!(head.advance(SimTime::ZERO), None);
+        for k in 0..50 {
+            head.hear(SimTime::from_ms(20 * k), SimTime::from_ms(20 * k));
+            head.advance(SimTime::from_ms(20 * k));
+        }
+        let stopped = (1..100).filter_map(|k| head.advance(SimTime::from_ms(980 + 20 * k))).next_back();
+        assert_eq!(stopped, Some(SimTime::from_ms(980)), "at the newest sample");
+        head.hear(SimTime::from_ms(10_000), SimTime::from_ms(10_000));
+        let after = head.advance(SimTime::from_ms(10_000)).map(SimTime::s);
+        assert!(after.is_some_and(|s| (s - (10.0 - BEHIND_S)).abs() < 0.01), "{after:?}");
+    }
+}

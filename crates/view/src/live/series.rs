@@ -1,0 +1,67 @@
+//! A number that is told now and then, and what holds between two tellings.
+
+use super::trace::{GAP, KEPT, share};
+use spandrel_model::time::SimTime;
+use std::collections::VecDeque;
+
+/// What was told lately, in the order of time.
+#[derive(Debug, Clone, Default)]
+pub struct Series {
+    points: VecDeque<(SimTime, f64)>,
+}
+
+impl Series {
+    /// Takes what was told; what comes late finds its place.
+    pub fn push(&mut self, time: SimTime, value: f64) {
+        let after = self.points.partition_point(|known| known.0 <= time);
+        self.points.insert(after, (time, value));
+        let newest = self.points.back().map_or(SimTime::ZERO, |last| last.0);
+        while self.points.len() > 2 && self.points.front().is_some_and(|first| newest.saturating_sub(first.0) > KEPT) {
+            self.points.pop_front();
+        }
+    }
+
+    /// The value at a time; before the first telling as then, after the last as then. None: nothing has been told.
+    #[must_use]
+    pub fn at(&self, time: SimTime) -> Option<f64> {
+        if let Some((before, next)) = self.around(time) {
+            return Some(before.1 + (next.1 - before.1) * share(before.0, next.0, time));
+        }
+        let after = self.points.partition_point(|known| known.0 <= time);
+        self.points.get(after.saturating_sub(1)).map(|point| point.1)
+    }
+
+    /// How fast it changes at a time, 1/s; not at all where it is held.
+    #[must_use]
+    pub fn rate_at(&self, time: SimTime) -> f64 {
+        self.around(time).map_or(0.0, |(before, next)| (next.1 - before.1) / (next.0 - before.0).s())
+    }
+
+    /// What was told before and after a time that lies between them; nothing is made up in long gaps.
+    fn around(&self, time: SimTime) -> Option<((SimTime, f64), (SimTime, f64))> {
+        let after = self.points.partition_point(|known| known.0 <= time);
+        let before = *self.points.get(after.checked_sub(1)?)?;
+        let next = *self.points.get(after)?;
+        (next.0 - before.0 <= GAP).then_some((before, next))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROUNDING: f64 = 1e-12;
+
+    #[test]
+    fn exact_between_tellings_it_goes_evenly_and_beyond_them_it_is_held() {
+        let mut series = Series::default();
+        assert_eq!(series.at(SimTime::ZERO), None);
+        for (ms, value) in [(100, 1.0), (500, 1.6), (300, 1.2), (2_000, 9.0)] {
+            series.push(SimTime::from_ms(ms), value);
+        }
+        let at = |ms: i64| series.at(SimTime::from_ms(ms)).unwrap();
+        assert!((at(350) - 1.3).abs() < ROUNDING && (series.rate_at(SimTime::from_ms(350)) - 2.0).abs() < ROUNDING);
+        assert_eq!((at(500), at(1_999), at(2_000), at(9_000)), (1.6, 1.6, 9.0, 9.0), "no gliding over a silence");
+        assert_eq!((series.rate_at(SimTime::from_ms(1_200)), series.rate_at(SimTime::from_ms(9_000))), (0.0, 0.0));
+    }
+}

@@ -1,0 +1,275 @@
+use super::*;
+use spandrel_mavlink::dialect::{
+    ATTITUDE_DATA, CAMERA_IMAGE_CAPTURED_DATA, FLIGHT_INFORMATION_DATA, GLOBAL_POSITION_INT_DATA, HEARTBEAT_DATA,
+    HIL_STATE_QUATERNION_DATA, ILLUMINATOR_STATUS_DATA, MavBool, MavModeFlag, NAMED_VALUE_INT_DATA, SERVO_OUTPUT_RAW_DATA,
+};
+
+const SCENARIO: &str = include_str!("../../../../scenarios/two-bridges.toml");
+const VEHICLE: &str = include_str!("../../../../vehicle-params/phantom2.toml");
+
+struct Wire {
+    vehicle: Encoder,
+    live: Live,
+    aircraft: Vehicle,
+}
+
+impl Wire {
+    fn new() -> Self {
+        let scenario =
+            spandrel_model::scenario::read("two-bridges.toml", SCENARIO, &|name| Err(format!("{name}: not asked for")))
+                .expect("the shipped scenario is good");
+        let aircraft = spandrel_model::vehicle::read("phantom2.toml", VEHICLE).expect("the shipped vehicle is good");
+        Self { vehicle: Encoder::new(1, 1), live: Live::new(&scenario), aircraft }
+    }
+
+    fn say(&mut self, message: &MavMessage, wall_ms: i64) {
+        let bytes = self.vehicle.encode(message);
+        self.live.handle_datagram(&bytes, SimTime::from_ms(wall_ms));
+    }
+
+    /// The truth at a time, so far east of the origin.
+    fn truth(&mut self, sim_ms: i64, wall_ms: i64, east_m: f64) {
+        let geo = self.live.plane.geo_from_enu(spandrel_model::frames::Vec3::new(east_m, 0.0, self.live.pad_up_m + 20.0));
+        let truth = HIL_STATE_QUATERNION_DATA {
+            time_usec: (sim_ms * 1000) as u64,
+            attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
+            lat: (geo.latitude_deg * 1e7).round() as i32,
+            lon: (geo.longitude_deg * 1e7).round() as i32,
+            alt: (geo.altitude_m * 1e3).round() as i32,
+            vx: 0,
+            vy: 100,
+            ..Default::default()
+        };
+        self.say(&MavMessage::HIL_STATE_QUATERNION(truth), wall_ms);
+    }
+
+    fn now(&mut self, wall_ms: i64) -> Option<Now> {
+        self.live.now(SimTime::from_ms(wall_ms), &self.aircraft)
+    }
+}
+
+/// The wire rounds places to a centimetre (degE7).
+const WIRE_M: f64 = 0.02;
+
+#[test]
+fn exact_the_moment_lies_between_samples_and_tells_what_was_heard() {
+    let mut wire = Wire::new();
+    assert!(wire.now(0).is_none());
+    for k in 0..100 {
+        wire.truth(5_000 + 20 * k, 20 * k, 0.02 * k as f64);
+        wire.now(20 * k);
+    }
+    wire.say(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_980);
+    let picture = CAMERA_IMAGE_CAPTURED_DATA {
+        time_boot_ms: 6_900,
+        image_index: 1,
+        capture_result: MavBool::MAV_BOOL_TRUE,
+        ..Default::default()
+    };
+    // Sent again, it is the same picture.
+    wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture.clone()), 1_980);
+    wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture), 1_980);
+    let beat = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, custom_mode: 3 << 16, ..Default::default() };
+    wire.say(&MavMessage::HEARTBEAT(beat), 1_980);
+    let now = wire.now(1_990).expect("it has been heard");
+    let behind_s = 6.98 + 0.01 - now.moment.at.s();
+    assert!((behind_s - clock::BEHIND_S).abs() < 0.005, "{behind_s} s behind");
+    assert!((now.moment.drone.position_m.east() - (now.moment.at.s() - 5.0)).abs() < WIRE_M);
+    assert!(now.moment.camera.lamp_on && now.moment.drone.spinning);
+    assert_eq!((now.told.pictures, now.told.taken), (1, Some(SimTime::from_ms(6_900))));
+    assert_eq!(now.told.begun, Some(SimTime::from_ms(5_000)));
+    assert_eq!(wire.live.feed().mode(), "Position");
+    let later = wire.now(4_980).expect("it stands");
+    assert!((later.told.silent_s - 3.0).abs() < 1e-9, "the link is silent");
+    assert_eq!(later.moment.at, SimTime::from_ms(6_980));
+    assert!((later.told.flash_s - now.told.flash_s - 2.99).abs() < 1e-9, "what flashes does so while everything stands");
+}
+
+#[test]
+fn exact_a_restarted_simulator_begins_anew_and_strangers_are_not_drawn() {
+    let mut wire = Wire::new();
+    for k in 0..50 {
+        wire.truth(60_000 + 20 * k, 20 * k, 5.0);
+    }
+    let mut stranger = Encoder::new(7, 1);
+    let lamp = MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() });
+    let bytes = stranger.encode(&lamp);
+    wire.live.handle_datagram(&bytes, SimTime::from_ms(990));
+    for k in 0..20 {
+        wire.truth(20 * k, 1_000 + 20 * k, -5.0);
+    }
+    let now = wire.now(1_400).expect("it flies again");
+    assert!(now.moment.at < SimTime::from_ms(500) && (now.moment.drone.position_m.east() + 5.0).abs() < WIRE_M);
+    assert!(!now.moment.camera.lamp_on);
+}
+
+#[test]
+fn exact_a_restarted_simulator_is_believed_when_it_says_another_seed() {
+    let mut wire = Wire::new();
+    let say_seed = |wire: &mut Wire, value: i32, wall_ms: i64| {
+        wire.say(
+            &MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { name: "seed".into(), value, ..Default::default() }),
+            wall_ms,
+        );
+    };
+    wire.truth(60_000, 0, 5.0);
+    say_seed(&mut wire, 7, 0);
+    wire.truth(60_020, 20, 5.0);
+    for k in 0..20 {
+        wire.truth(20 * k, 1_000 + 20 * k, -5.0);
+    }
+    assert_eq!(wire.live.seed(), None, "the former one is nobody's");
+    say_seed(&mut wire, 8, 1_400);
+    assert_eq!(wire.live.seed(), Some(8));
+    assert!(wire.now(1_400).is_some(), "one restart, not two");
+    // The next begins so soon that its clock does not go back by much: its seed tells.
+    wire.say(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_420);
+    say_seed(&mut wire, 9, 1_440);
+    assert_eq!((wire.live.seed(), wire.now(1_440)), (Some(9), None));
+    wire.truth(100, 1_460, 3.0);
+    let now = wire.now(1_460).expect("it flies");
+    assert!(!now.moment.camera.lamp_on && (now.moment.drone.position_m.east() - 3.0).abs() < WIRE_M);
+    say_seed(&mut wire, 9, 1_480);
+    assert!(wire.now(1_480).is_some(), "said again, it is the same session");
+}
+
+#[test]
+fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
+    let mut wire = Wire::new();
+    wire.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()), 0);
+    let said = |wire: &mut Wire, ms: i64| {
+        wire.live.handle_timeout(SimTime::from_ms(ms));
+        let mut decoder = Decoder::new();
+        let bytes: Vec<Vec<u8>> = std::iter::from_fn(|| wire.live.poll_transmit()).collect();
+        let asks = |message: &MavMessage| matches!(message, MavMessage::COMMAND_LONG(c) if c.command == MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL);
+        bytes.iter().flat_map(|b| decoder.datagram(b)).filter(|f| f.message.as_ref().is_some_and(asks)).count()
+    };
+    assert_eq!((said(&mut wire, 100), said(&mut wire, 3_100)), (0, INSTEAD.len()));
+    wire.say(&MavMessage::ATTITUDE(ATTITUDE_DATA { yaw: 1.0, ..Default::default() }), 3_200);
+    let origin = wire.live.plane.origin();
+    for k in 0..20 {
+        let place = GLOBAL_POSITION_INT_DATA {
+            time_boot_ms: 90_000 + 20 * k,
+            lat: (origin.latitude_deg * 1e7).round() as i32,
+            lon: (origin.longitude_deg * 1e7).round() as i32,
+            alt: ((origin.altitude_m + 30.0) * 1e3) as i32,
+            ..Default::default()
+        };
+        wire.say(&MavMessage::GLOBAL_POSITION_INT(place), 3_200 + 20 * i64::from(k));
+    }
+    let now = wire.now(3_600).expect("it is drawn");
+    assert!((now.moment.drone.position_m.up() - 30.0).abs() < WIRE_M && wire.live.is_estimated());
+    assert!((now.moment.drone.ned_from_frd.yaw_rad() - 1.0).abs() < 1e-6);
+    // The truth, once somebody says it, is drawn instead; and nobody is asked any more.
+    for k in 0..10 {
+        wire.truth(1_000 + 20 * k, 4_000 + 20 * k, 3.0);
+    }
+    let now = wire.now(4_200).expect("it is drawn");
+    assert!((now.moment.drone.position_m.east() - 3.0).abs() < WIRE_M && !wire.live.is_estimated());
+    assert_eq!(said(&mut wire, 20_000), 0);
+}
+
+#[test]
+fn exact_rotors_are_asked_for_where_they_are_heard_and_turn_by_their_outputs() {
+    let mut wire = Wire::new();
+    let armed = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, ..Default::default() };
+    wire.say(&MavMessage::HEARTBEAT(armed), 0);
+    let asked = |wire: &mut Wire, ms: i64| {
+        wire.live.handle_timeout(SimTime::from_ms(ms));
+        let bytes: Vec<u8> = std::iter::from_fn(|| wire.live.poll_transmit()).flatten().collect();
+        let frames = Decoder::new().datagram(&bytes);
+        frames.iter().any(|f| matches!(&f.message, Some(MavMessage::COMMAND_LONG(c)) if c.param1 == 36.0))
+    };
+    assert!(!asked(&mut wire, 100), "nobody hears them");
+    wire.live.hear_rotors();
+    assert!(asked(&mut wire, 200) && !asked(&mut wire, 1_000) && asked(&mut wire, 5_300), "until they are told");
+    let mut say = |pulse: u16, wall_ms: i64| {
+        let servos = SERVO_OUTPUT_RAW_DATA {
+            servo1_raw: pulse,
+            servo2_raw: 1_500,
+            servo3_raw: 900,
+            servo4_raw: 2_100,
+            ..Default::default()
+        };
+        wire.say(&MavMessage::SERVO_OUTPUT_RAW(servos), wall_ms);
+    };
+    say(1_000, 6_000);
+    let rotor = wire.aircraft.rotor;
+    let half = 0.5 * (rotor.idle_speed_rad_s + rotor.max_speed_rad_s);
+    let idle = rotor.idle_speed_rad_s;
+    assert_eq!(wire.live.rotors_rad_s(&wire.aircraft), [idle, half, idle, rotor.max_speed_rad_s], "within their range");
+    wire.say(
+        &MavMessage::HEARTBEAT(HEARTBEAT_DATA { base_mode: MavModeFlag::empty(), mavlink_version: 3, ..Default::default() }),
+        6_100,
+    );
+    assert!(wire.live.rotors_rad_s(&wire.aircraft).is_empty(), "disarmed they stand");
+}
+
+#[test]
+fn exact_the_seed_and_the_scenario_are_heard() {
+    let mut wire = Wire::new();
+    wire.truth(20, 0, 0.0);
+    for (name, value) in [("seed", 7), ("scn_crc", -2)] {
+        let named = NAMED_VALUE_INT_DATA { name: name.into(), value, ..Default::default() };
+        wire.say(&MavMessage::NAMED_VALUE_INT(named), 10);
+    }
+    assert_eq!((wire.live.seed(), wire.live.scenario_crc()), (Some(7), Some(u32::MAX - 1)));
+}
+
+#[test]
+fn exact_who_begins_to_listen_in_flight_asks_since_when_it_flies() {
+    let mut wire = Wire::new();
+    wire.truth(300_000, 0, 0.0);
+    wire.truth(300_020, 20, 0.0);
+    assert_eq!(wire.now(20).unwrap().told.begun, Some(SimTime::from_ms(300_000)), "until it is known");
+    wire.live.handle_timeout(SimTime::from_ms(20));
+    let mut decoder = Decoder::new();
+    let asked = std::iter::from_fn(|| wire.live.poll_transmit()).any(|bytes| {
+        decoder.datagram(&bytes).iter().any(|frame| match &frame.message {
+            Some(MavMessage::COMMAND_LONG(said)) => {
+                said.command == MavCmd::MAV_CMD_REQUEST_MESSAGE && said.param1 == FLIGHT as f32
+            }
+            _ => false,
+        })
+    });
+    assert!(asked);
+    let flight = FLIGHT_INFORMATION_DATA { takeoff_time_utc: 12_500_000, ..Default::default() };
+    wire.say(&MavMessage::FLIGHT_INFORMATION(flight.clone()), 40);
+    assert_eq!(wire.now(40).unwrap().told.begun, Some(SimTime::from_ms(12_500)));
+    wire.say(&MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { takeoff_time_utc: 99_000_000, ..flight }), 60);
+    assert_eq!(wire.now(60).unwrap().told.begun, Some(SimTime::from_ms(12_500)), "a flight begins once");
+}
+
+#[test]
+fn exact_a_stream_is_told_of_while_pictures_go_out_and_its_end_once() {
+    let mut wire = Wire::new();
+    let video = Video { width_px: 640, height_px: 360, rate_hz: 20.0, bits_s: 1_000_000 };
+    let mut decoder = Decoder::new();
+    let mut said = |live: &mut Live| -> Vec<bool> {
+        let frames: Vec<_> = std::iter::from_fn(|| live.poll_transmit()).flat_map(|bytes| decoder.datagram(&bytes)).collect();
+        let runs = |message: &MavMessage| match message {
+            MavMessage::VIDEO_STREAM_STATUS(status) => Some(!status.flags.is_empty()),
+            _ => None,
+        };
+        frames.iter().filter_map(|frame| frame.message.as_ref().and_then(runs)).collect()
+    };
+    let at = SimTime::from_ms;
+    wire.live.streams(None, at(0));
+    wire.live.handle_timeout(at(0));
+    assert!(said(&mut wire.live).is_empty(), "what never ran does not end");
+    wire.live.streams(Some(video), at(500));
+    let mut beats = |live: &mut Live, from_s: i64| -> Vec<Vec<bool>> {
+        let beat = |k| {
+            live.handle_timeout(at(1_000 * k));
+            said(live)
+        };
+        (from_s..from_s + 5).map(beat).collect()
+    };
+    let ended: [&[bool]; 5] = [&[true], &[true], &[true], &[false], &[]];
+    assert_eq!(beats(&mut wire.live, 1), ended, "no picture since half a second");
+    wire.live.streams(Some(video), at(10_000));
+    assert_eq!(beats(&mut wire.live, 10)[0], [true]);
+    wire.live.streams(Some(video), at(15_000));
+    wire.live.streams(None, at(15_000));
+    assert_eq!(beats(&mut wire.live, 15)[0], [false], "at once");
+}

@@ -1,0 +1,216 @@
+//! The last seconds of what moves, and what holds between two samples of it.
+
+use super::series::Series;
+use crate::stage::Turn;
+use spandrel_mavlink::telemetry::Truth;
+use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use spandrel_model::math;
+use spandrel_model::time::SimTime;
+use std::collections::VecDeque;
+
+/// Samples older than this behind the newest are forgotten.
+pub(super) const KEPT: SimTime = SimTime::from_ms(3_000);
+/// Between samples farther apart than this nothing is made up.
+pub(super) const GAP: SimTime = SimTime::from_ms(1_000);
+/// The lens is drawn so much later than everything else: it is told at 5 Hz, and with what the picture is behind anyway
+/// ([`BEHIND_S`](super::clock::BEHIND_S)) its next telling has come by then, 20 ms of jitter included (estimate).
+const LENS_BEHIND: SimTime = SimTime::from_ms(160);
+/// A step that no aircraft flies, m and m/s: it was put back.
+const JUMP_M: f64 = 3.0;
+const JUMP_M_S: f64 = 40.0;
+
+/// Where the aircraft was and how it moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Position, m.
+    pub position_m: Vec3<Enu>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Enu>,
+    /// Attitude.
+    pub ned_from_frd: Rotation<Frd, Ned>,
+}
+
+impl Pose {
+    fn of(truth: &Truth) -> Self {
+        Self { position_m: truth.position_m, velocity_m_s: truth.velocity_m_s, ned_from_frd: truth.ned_from_frd }
+    }
+}
+
+/// Recent samples in the order of time.
+#[derive(Debug, Clone, Default)]
+pub struct Trace {
+    truths: VecDeque<Truth>,
+    gimbal: Series,
+    lens: Series,
+}
+
+impl Trace {
+    /// Takes a sample; one that comes late finds its place, one that is known already changes nothing.
+    pub fn push(&mut self, truth: Truth) {
+        let after = self.truths.partition_point(|known| known.time <= truth.time);
+        if after.checked_sub(1).is_some_and(|k| self.truths[k].time == truth.time) {
+            return;
+        }
+        self.truths.insert(after, truth);
+        let newest = self.newest().unwrap_or_default();
+        while self.truths.front().is_some_and(|first| newest.saturating_sub(first.time) > KEPT) {
+            self.truths.pop_front();
+        }
+    }
+
+    /// The gimbal's pitch over the horizon, rad, at a time.
+    pub fn push_gimbal(&mut self, time: SimTime, pitch_rad: f64) {
+        self.gimbal.push(time, pitch_rad);
+    }
+
+    /// The camera's horizontal field of view, rad, at a time.
+    pub fn push_lens(&mut self, time: SimTime, hfov_rad: f64) {
+        self.lens.push(time, hfov_rad);
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Time of the newest sample.
+    #[must_use]
+    pub fn newest(&self) -> Option<SimTime> {
+        self.truths.back().map(|truth| truth.time)
+    }
+
+    /// The aircraft at a time; before the first sample as at the first, after the last as at the last.
+    #[must_use]
+    pub fn at(&self, time: SimTime) -> Option<Pose> {
+        let Some((before, next)) = self.around(time) else {
+            let after = self.truths.partition_point(|truth| truth.time <= time);
+            return self.truths.get(after.saturating_sub(1)).map(Pose::of);
+        };
+        let t = share(before.time, next.time, time);
+        Some(Pose {
+            position_m: before.position_m.lerp(next.position_m, t),
+            velocity_m_s: before.velocity_m_s.lerp(next.velocity_m_s, t),
+            ned_from_frd: before.ned_from_frd.lerp(next.ned_from_frd, t),
+        })
+    }
+
+    /// The gimbal's pitch at a time, rad; level while nothing has been heard.
+    #[must_use]
+    pub fn gimbal_at(&self, time: SimTime) -> f64 {
+        self.gimbal.at(time).unwrap_or(0.0)
+    }
+
+    /// The horizontal field of view that is drawn at a time, rad: a little late, so that a zoom goes evenly. None: nothing has been heard.
+    #[must_use]
+    pub fn lens_at(&self, time: SimTime) -> Option<f64> {
+        self.lens.at(time.saturating_sub(LENS_BEHIND))
+    }
+
+    /// The horizontal field of view at a time of a flight that is known whole, rad. None: nothing has been heard.
+    #[must_use]
+    pub fn lens_told_at(&self, time: SimTime) -> Option<f64> {
+        self.lens.at(time)
+    }
+
+    /// How fast the camera turns at a time: as evenly as between the samples; not at all where nothing is made up.
+    #[must_use]
+    pub fn turn_at(&self, time: SimTime) -> Turn {
+        let heading_rad_s = self.around(time).map_or(0.0, |(before, next)| {
+            math::wrap_pi(next.ned_from_frd.yaw_rad() - before.ned_from_frd.yaw_rad()) / (next.time - before.time).s()
+        });
+        Turn { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
+    }
+
+    /// The samples before and after a time, where the aircraft flew from one to the other.
+    fn around(&self, time: SimTime) -> Option<(&Truth, &Truth)> {
+        let after = self.truths.partition_point(|truth| truth.time <= time);
+        let before = self.truths.get(after.checked_sub(1)?)?;
+        self.truths.get(after).filter(|next| continues(before, next)).map(|next| (before, next))
+    }
+}
+
+/// How far a time is from one to another, 0 to 1.
+pub(super) fn share(from: SimTime, to: SimTime, at: SimTime) -> f64 {
+    (at - from).s() / (to - from).s().max(1e-9)
+}
+
+fn continues(before: &Truth, next: &Truth) -> bool {
+    let span = next.time - before.time;
+    span <= GAP && (next.position_m - before.position_m).norm() <= JUMP_M + JUMP_M_S * span.s()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn truth(ms: i64, east: f64, yaw_deg: f64) -> Truth {
+        Truth {
+            time: SimTime::from_ms(ms),
+            position_m: Vec3::new(east, 0.0, 10.0),
+            velocity_m_s: Vec3::new(2.0, 0.0, 0.0),
+            ned_from_frd: Rotation::from_euler(0.0, 0.0, yaw_deg.to_radians()),
+        }
+    }
+
+    #[test]
+    fn exact_between_samples_everything_goes_evenly() {
+        let mut trace = Trace::default();
+        assert_eq!(trace.at(SimTime::ZERO), None);
+        // The second comes late, and once more.
+        for sample in [truth(0, 0.0, 10.0), truth(40, 2.0, 14.0), truth(20, 1.0, 12.0), truth(20, 1.0, 12.0)] {
+            trace.push(sample);
+        }
+        let pose = trace.at(SimTime::from_ms(25)).unwrap();
+        assert!((pose.position_m.east() - 1.25).abs() < 1e-9);
+        assert!((pose.ned_from_frd.yaw_rad().to_degrees() - 12.5).abs() < 1e-4);
+        assert_eq!(trace.at(SimTime::from_ms(90)).map(|p| p.position_m.east()), Some(2.0), "nothing is foretold");
+        trace.push_gimbal(SimTime::from_ms(0), 0.0);
+        trace.push_gimbal(SimTime::from_ms(40), 0.4);
+        assert!((trace.gimbal_at(SimTime::from_ms(10)) - 0.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn exact_the_camera_turns_as_fast_as_its_samples_lie_apart() {
+        let mut trace = Trace::default();
+        assert_eq!(trace.turn_at(SimTime::ZERO), Turn::default());
+        // Over south, where headings leap by a full turn.
+        for sample in [truth(0, 0.0, 179.0), truth(20, 0.0, 181.0), truth(40, 0.0, 181.0)] {
+            trace.push(sample);
+        }
+        trace.push_gimbal(SimTime::from_ms(0), 0.0);
+        trace.push_gimbal(SimTime::from_ms(40), -0.02);
+        let turn = trace.turn_at(SimTime::from_ms(5));
+        assert!((turn.heading_rad_s.to_degrees() - 100.0).abs() < 1e-6 && (turn.pitch_rad_s + 0.5).abs() < 1e-12, "{turn:?}");
+        assert!(trace.turn_at(SimTime::from_ms(25)).heading_rad_s.abs() < 1e-9);
+        assert_eq!(trace.turn_at(SimTime::from_ms(40)), Turn::default(), "held");
+    }
+
+    #[test]
+    fn exact_a_zoom_goes_evenly_although_it_is_told_five_times_a_second() {
+        let mut trace = Trace::default();
+        assert_eq!(trace.lens_at(SimTime::ZERO), None);
+        let (mut shown, from_ms) = (Vec::new(), 2_000);
+        for ms in (0..3_000).step_by(20) {
+            if ms % 200 == 0 {
+                trace.push_lens(SimTime::from_ms(ms), 1.5 - 0.2 * ms as f64 / 1_000.0);
+            }
+            // The picture is three samples behind.
+            shown.extend((ms >= from_ms).then(|| trace.lens_at(SimTime::from_ms(ms - 60)).unwrap()));
+        }
+        for pair in shown.windows(2) {
+            assert!((pair[0] - pair[1] - 0.2 * 0.02).abs() < 1e-9, "a step of {} rad", pair[1] - pair[0]);
+        }
+    }
+
+    #[test]
+    fn exact_put_back_or_silent_it_does_not_glide() {
+        let mut trace = Trace::default();
+        trace.push(truth(0, 0.0, 0.0));
+        trace.push(truth(20, 50.0, 0.0));
+        assert_eq!(trace.at(SimTime::from_ms(10)).map(|p| p.position_m.east()), Some(0.0));
+        trace.push(truth(2_000, 51.0, 0.0));
+        assert_eq!(trace.at(SimTime::from_ms(1_000)).map(|p| p.position_m.east()), Some(50.0));
+        trace.push(truth(9_000, 52.0, 0.0));
+        assert_eq!(trace.truths.len(), 1, "old samples are forgotten");
+    }
+}

@@ -1,0 +1,33 @@
+//! The stream of the camera's view, as it is told.
+
+use spandrel_mavlink::dialect::{MavMessage, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
+
+/// A stream of the camera's view that runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Video {
+    /// Width, px.
+    pub width_px: u32,
+    /// Height, px.
+    pub height_px: u32,
+    /// Pictures a second.
+    pub rate_hz: f64,
+    /// Bits a second.
+    pub bits_s: u32,
+}
+
+impl Video {
+    /// As the vehicle is told of it: that it runs, or that it has ended.
+    pub(super) fn status(&self, runs: bool) -> MavMessage {
+        let side = |px: u32| u16::try_from(px).unwrap_or(u16::MAX);
+        let running = VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING;
+        MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
+            framerate: self.rate_hz as f32,
+            bitrate: self.bits_s,
+            flags: if runs { running } else { VideoStreamStatusFlags::empty() },
+            resolution_h: side(self.width_px),
+            resolution_v: side(self.height_px),
+            stream_id: 1,
+            ..VIDEO_STREAM_STATUS_DATA::default()
+        })
+    }
+}

@@ -1,0 +1,124 @@
+//! What each pixel of a picture shows, for people who train detectors: an element of a bridge by its AASHTO number, and a defect by its
+//! number in the session.
+
+use serde_json::{Value, json};
+use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::site::catalogue;
+use std::collections::BTreeMap;
+
+/// Labels of a picture, row by row from its upper left; 0 where there is none.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Masks {
+    /// Width, px.
+    pub width: u32,
+    /// Height, px.
+    pub height: u32,
+    /// AASHTO element numbers.
+    pub elements: Vec<u16>,
+    /// Defects' numbers.
+    pub defects: Vec<u16>,
+}
+
+/// Where a label lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Extent {
+    pixels: u64,
+    low: (u32, u32),
+    high: (u32, u32),
+}
+
+impl Masks {
+    /// The whole number that a half float (IEEE 754 binary16, not negative) holds.
+    #[must_use]
+    pub fn whole(half: u16) -> u16 {
+        let (exponent, fraction) = (i32::from((half >> 10) & 0x1F), f64::from(half & 0x3FF));
+        if exponent == 0 {
+            return 0;
+        }
+        ((1.0 + fraction / 1024.0) * spandrel_model::math::pow(2.0, f64::from(exponent - 15))).round() as u16
+    }
+
+    /// What the labels mean and where they lie: elements with their pixels, defects with kind, condition state, pixels and box (left, top,
+    /// width, height, px).
+    #[must_use]
+    pub fn legend(&self, placed: &[PlacedDefect]) -> Value {
+        let elements: Vec<Value> = self
+            .extents(&self.elements)
+            .into_iter()
+            .map(|(element, extent)| json!({ "element": element, "pixels": extent.pixels }))
+            .collect();
+        let defects: Vec<Value> =
+            self.extents(&self.defects).into_iter().filter_map(|(id, extent)| defect(placed, id, extent)).collect();
+        json!({ "format": 1, "width": self.width, "height": self.height, "elements": elements, "defects": defects })
+    }
+
+    fn extents(&self, labels: &[u16]) -> BTreeMap<u16, Extent> {
+        let mut all: BTreeMap<u16, Extent> = BTreeMap::new();
+        for (k, label) in labels.iter().enumerate().filter(|(_, label)| **label != 0) {
+            let at = (k as u32 % self.width, k as u32 / self.width);
+            let extent = all.entry(*label).or_insert(Extent { pixels: 0, low: at, high: at });
+            extent.pixels += 1;
+            extent.low = (extent.low.0.min(at.0), extent.low.1.min(at.1));
+            extent.high = (extent.high.0.max(at.0), extent.high.1.max(at.1));
+        }
+        all
+    }
+}
+
+fn defect(placed: &[PlacedDefect], id: u16, extent: Extent) -> Option<Value> {
+    let defect = placed.iter().find(|defect| defect.id == u32::from(id))?;
+    let (low, high) = (extent.low, extent.high);
+    Some(json!({
+        "id": id,
+        "element": defect.element,
+        "member": defect.member,
+        "kind": defect.kind,
+        "name": catalogue::kind_name(defect.kind),
+        "condition_state": defect.condition_state,
+        "pixels": extent.pixels,
+        "box_px": [low.0, low.1, high.0 - low.0 + 1, high.1 - low.1 + 1],
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::frames::Vec3;
+
+    #[test]
+    fn exact_half_floats_hold_whole_numbers() {
+        // IEEE 754-2019, binary16.
+        for (half, whole) in
+            [(0x0000, 0), (0x3C00, 1), (0x4000, 2), (0x4200, 3), (0x4A00, 12), (0x5880, 144), (0x5D2C, 331), (0x6800, 2048)]
+        {
+            assert_eq!(Masks::whole(half), whole, "{half:#06x}");
+        }
+    }
+
+    #[test]
+    fn exact_the_legend_names_what_is_there_and_its_box() {
+        let placed = PlacedDefect {
+            id: 7,
+            element: 144,
+            member: "arch/rib-left/07".into(),
+            kind: catalogue::CRACK,
+            condition_state: 3,
+            position_m: Vec3::zero(),
+            normal: Vec3::new(0.0, 0.0, 1.0),
+            along: Vec3::new(1.0, 0.0, 0.0),
+            length_m: 1.0,
+            width_m: 0.002,
+            line: true,
+        };
+        let masks = Masks {
+            width: 4,
+            height: 3,
+            elements: vec![0, 144, 144, 0, 0, 144, 144, 0, 0, 0, 12, 0],
+            defects: vec![0, 7, 0, 0, 0, 0, 7, 0, 0, 0, 0, 0],
+        };
+        let legend = masks.legend(&[placed]);
+        assert_eq!(legend["elements"], json!([{ "element": 12, "pixels": 1 }, { "element": 144, "pixels": 4 }]));
+        assert_eq!(legend["defects"][0]["box_px"], json!([1, 0, 2, 2]));
+        assert_eq!((&legend["defects"][0]["kind"], &legend["defects"][0]["pixels"]), (&json!(1130), &json!(2)));
+    }
+}

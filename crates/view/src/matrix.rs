@@ -1,0 +1,93 @@
+//! 4 x 4 matrices for the graphics card: worked out in f64, handed over column by column in f32.
+
+use spandrel_model::frames::{Enu, Vec3};
+
+/// Row-major, applied to column vectors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Matrix(pub [[f64; 4]; 4]);
+
+impl Matrix {
+    /// Rows of a rotation (unit vectors right, up, back) and the eye that becomes the origin.
+    #[must_use]
+    pub fn view(eye: Vec3<Enu>, right: Vec3<Enu>, up: Vec3<Enu>, back: Vec3<Enu>) -> Self {
+        let row = |axis: Vec3<Enu>| {
+            let [x, y, z] = axis.array();
+            [x, y, z, -axis.dot(eye)]
+        };
+        Self([row(right), row(up), row(back), [0.0, 0.0, 0.0, 1.0]])
+    }
+
+    /// Pinhole with half sizes at distance 1; depth is `near`/distance, 1 at `near` and 0 at infinity.
+    #[must_use]
+    pub fn perspective(half_width: f64, half_height: f64, near: f64) -> Self {
+        Self([
+            [1.0 / half_width, 0.0, 0.0, 0.0],
+            [0.0, 1.0 / half_height, 0.0, 0.0],
+            [0.0, 0.0, 0.0, near],
+            [0.0, 0.0, -1.0, 0.0],
+        ])
+    }
+
+    /// A box of half size `radius` around the view's axis; depth is 1 at `near` and 0 at `far` in front.
+    #[must_use]
+    pub fn box_of(radius: f64, near: f64, far: f64) -> Self {
+        let depth = far - near;
+        Self([
+            [1.0 / radius, 0.0, 0.0, 0.0],
+            [0.0, 1.0 / radius, 0.0, 0.0],
+            [0.0, 0.0, 1.0 / depth, far / depth],
+            [0.0, 0.0, 0.0, 1.0],
+        ])
+    }
+
+    /// Mirrors at the level `up_m`.
+    #[must_use]
+    pub fn mirror(up_m: f64) -> Self {
+        Self([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 2.0 * up_m], [0.0, 0.0, 0.0, 1.0]])
+    }
+
+    /// `other` first, then this.
+    #[must_use]
+    pub fn after(&self, other: &Self) -> Self {
+        let cell = |i: usize, j: usize| (0..4).map(|k| self.0[i][k] * other.0[k][j]).sum();
+        Self([0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| cell(i, j))))
+    }
+
+    /// A point in clip space.
+    #[must_use]
+    pub fn apply(&self, p: Vec3<Enu>) -> [f64; 4] {
+        let [x, y, z] = p.array();
+        self.0.map(|row| row[0] * x + row[1] * y + row[2] * z + row[3])
+    }
+
+    /// Column by column, as shaders read it.
+    #[must_use]
+    pub fn columns(&self) -> [[f32; 4]; 4] {
+        [0, 1, 2, 3].map(|j| [0, 1, 2, 3].map(|i| self.0[i][j] as f32))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_pinhole_maps_its_frustum_to_the_cube() {
+        let view =
+            Matrix::view(Vec3::new(1.0, 2.0, 3.0), Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.0, -1.0, 0.0));
+        let clip = Matrix::perspective(0.5, 0.25, 0.1).after(&view).apply(Vec3::new(3.0, 6.0, 2.0));
+        // 4 m in front, 2 m right and 1 m below: the corner of a frustum with half sizes 0.5 and 0.25.
+        assert!((clip[3] - 4.0).abs() < 1e-12);
+        assert!((clip[0] / clip[3] - 1.0).abs() < 1e-12 && (clip[1] / clip[3] + 1.0).abs() < 1e-12);
+        assert!((clip[2] / clip[3] - 0.1 / 4.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn exact_a_box_has_depth_one_in_front_and_nothing_behind() {
+        let boxed = Matrix::box_of(2.0, 10.0, 30.0);
+        let depth = |back: f64| boxed.apply(Vec3::new(0.0, 0.0, back))[2];
+        assert!((depth(-10.0) - 1.0).abs() < 1e-12 && depth(-30.0).abs() < 1e-12);
+        let mirrored = Matrix::mirror(5.0).apply(Vec3::new(1.0, 2.0, 7.0));
+        assert_eq!(mirrored, [1.0, 2.0, 3.0, 1.0]);
+    }
+}

@@ -1,0 +1,124 @@
+//! One tile of noise for all materials, with its means over larger and larger squares: the shaders read it at the size of a pixel, so that
+//! nothing glitters far away, and one look costs the same for any number of octaves.
+
+use spandrel_model::random::RandomStream;
+
+/// Texels along a side.
+pub const SIDE: usize = 512;
+/// Lattice cells along a side: the tile repeats after so many units.
+pub const CELLS: usize = 16;
+/// Octaves of the first channel; the finest has cells of two texels.
+const OCTAVES: usize = 5;
+/// Distances in the third channel are stored as shares of this, cells.
+pub const FARTHEST: f64 = 1.28;
+
+/// One level: texels row by row, four channels: several octaves of noise, one octave, distance to the nearest of scattered points, a number
+/// of that point.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Level {
+    /// Texels along a side.
+    pub side: usize,
+    /// Four bytes each.
+    pub rgba: Vec<u8>,
+}
+
+/// The tile and its means, finest first.
+#[must_use]
+pub fn levels() -> Vec<Level> {
+    let mut values = tile();
+    let mut side = SIDE;
+    let mut all = Vec::new();
+    loop {
+        let rgba = values.iter().flatten().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect();
+        all.push(Level { side, rgba });
+        if side == 1 {
+            return all;
+        }
+        values = halved(&values, side);
+        side /= 2;
+    }
+}
+
+fn halved(values: &[[f64; 4]], side: usize) -> Vec<[f64; 4]> {
+    let half = side / 2;
+    let mean = |k: usize| {
+        let (x, y) = (2 * (k % half), 2 * (k / half));
+        let at = |dx: usize, dy: usize| values[(y + dy) * side + x + dx];
+        [0, 1, 2, 3].map(|c| 0.25 * (at(0, 0)[c] + at(1, 0)[c] + at(0, 1)[c] + at(1, 1)[c]))
+    };
+    (0..half * half).map(mean).collect()
+}
+
+fn tile() -> Vec<[f64; 4]> {
+    let mut stream = RandomStream::new(0, "view.noise");
+    let mut lattice = |cells: usize| -> Vec<f64> { (0..cells * cells).map(|_| stream.uniform()).collect() };
+    let octaves: Vec<Vec<f64>> = (0..OCTAVES).map(|k| lattice(CELLS << k)).collect();
+    let single = lattice(CELLS);
+    let (east, north, own) = (lattice(CELLS), lattice(CELLS), lattice(CELLS));
+    let texel = |k: usize| {
+        let unit = CELLS as f64 / SIDE as f64;
+        let (x, y) = ((k % SIDE) as f64 * unit, (k / SIDE) as f64 * unit);
+        let mut sum = 0.5;
+        let mut share = 0.5;
+        for (k, octave) in octaves.iter().enumerate() {
+            let finer = f64::from(1u32 << k);
+            sum += share * (smooth(octave, CELLS << k, x * finer, y * finer) - 0.5);
+            share *= 0.5;
+        }
+        let (distance, number) = nearest(&east, &north, &own, x, y);
+        [sum, smooth(&single, CELLS, x, y), distance / FARTHEST, number]
+    };
+    (0..SIDE * SIDE).map(texel).collect()
+}
+
+/// Smooth between the corners of a lattice that repeats.
+fn smooth(lattice: &[f64], cells: usize, x: f64, y: f64) -> f64 {
+    let (cx, cy) = (x.floor(), y.floor());
+    let fade = |t: f64| t * t * (3.0 - 2.0 * t);
+    let (fx, fy) = (fade(x - cx), fade(y - cy));
+    let at = |i: usize, j: usize| lattice[(cy as usize + j) % cells * cells + (cx as usize + i) % cells];
+    let low = at(0, 0) + (at(1, 0) - at(0, 0)) * fx;
+    let high = at(0, 1) + (at(1, 1) - at(0, 1)) * fx;
+    low + (high - low) * fy
+}
+
+/// Distance to the nearest of one scattered point a cell, and that point's number.
+fn nearest(east: &[f64], north: &[f64], own: &[f64], x: f64, y: f64) -> (f64, f64) {
+    let mut best = (f64::INFINITY, 0.0);
+    let cell = |v: f64, step: i64| (v.floor() as i64 + step).rem_euclid(CELLS as i64) as usize;
+    for dy in -1..=1 {
+        for dx in -1..=1 {
+            let k = cell(y, dy) * CELLS + cell(x, dx);
+            let px = x.floor() + dx as f64 + 0.15 + 0.7 * east[k];
+            let py = y.floor() + dy as f64 + 0.15 + 0.7 * north[k];
+            let distance = ((px - x) * (px - x) + (py - y) * (py - y)).sqrt();
+            if distance < best.0 {
+                best = (distance, own[k]);
+            }
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_levels_halve_down_to_the_mean() {
+        let levels = levels();
+        assert_eq!(levels.len(), 10);
+        assert!(levels.iter().all(|l| l.rgba.len() == 4 * l.side * l.side));
+        let mean = f64::from(levels[9].rgba[0]) / 255.0;
+        assert!((mean - 0.5).abs() < 0.05, "{mean}");
+    }
+
+    #[test]
+    fn prop_the_tile_repeats_without_a_seam() {
+        let fine = &levels()[0];
+        let at = |x: usize, y: usize| f64::from(fine.rgba[4 * (y * SIDE + x)]);
+        // Across the seam the step is no larger than the largest within.
+        let within = (0..SIDE - 1).map(|x| (at(x + 1, 100) - at(x, 100)).abs()).fold(0.0, f64::max);
+        assert!((at(0, 100) - at(SIDE - 1, 100)).abs() <= within);
+    }
+}

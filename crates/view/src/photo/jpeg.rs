@@ -1,0 +1,50 @@
+//! The JPEG around it all, as good as its size allows.
+
+use super::PhotoError;
+use crate::picture::Picture;
+use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
+
+/// Best and coarsest quality (of libjpeg's scale of 100): above the first one sees no difference, below the second cracks go.
+const BEST: u8 = 92;
+const COARSEST: u8 = 20;
+/// XMP's name before its packet in an APP1 segment (XMP specification, part 3).
+const XMP: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
+
+/// EXIF and XMP of a photograph.
+pub type Tags<'a> = (&'a [u8], &'a str);
+
+/// The best quality whose file is not larger than `most` bytes, by halving.
+pub fn encode(picture: &Picture, tags: Option<Tags<'_>>, most: usize) -> Result<Vec<u8>, PhotoError> {
+    let best = with_quality(picture, tags, BEST)?;
+    if best.len() <= most {
+        return Ok(best);
+    }
+    let mut fits = with_quality(picture, tags, COARSEST)?;
+    let (mut low, mut high) = (COARSEST, BEST);
+    while fits.len() <= most && high - low > 1 {
+        let middle = low + (high - low) / 2;
+        let tried = with_quality(picture, tags, middle)?;
+        if tried.len() <= most {
+            (low, fits) = (middle, tried);
+        } else {
+            high = middle;
+        }
+    }
+    Ok(fits)
+}
+
+fn with_quality(picture: &Picture, tags: Option<Tags<'_>>, quality: u8) -> Result<Vec<u8>, PhotoError> {
+    let refused = |error: jpeg_encoder::EncodingError| PhotoError::Refused(error.to_string());
+    let side = |px: u32| u16::try_from(px).map_err(|_| PhotoError::Refused(format!("{px} px is too large")));
+    let (width, height) = (side(picture.width)?, side(picture.height)?);
+    let mut out = Vec::new();
+    let mut encoder = Encoder::new(&mut out, quality);
+    encoder.set_sampling_factor(SamplingFactor::F_2_2);
+    encoder.set_optimized_huffman_tables(true);
+    if let Some((exif, xmp)) = tags {
+        encoder.add_exif_metadata(exif).map_err(refused)?;
+        encoder.add_app_segment(1, [XMP, xmp.as_bytes()].concat()).map_err(refused)?;
+    }
+    encoder.encode(&picture.rgba, width, height, ColorType::Rgba).map_err(refused)?;
+    Ok(out)
+}

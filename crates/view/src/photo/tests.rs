@@ -1,0 +1,110 @@
+use super::*;
+use exif::{In, Tag};
+
+fn about() -> About {
+    About {
+        number: 3,
+        taken_unix_us: 1_781_943_330_250_000,
+        taken_utc: ("2026:06:20".into(), "08:15:30".into()),
+        at_s: 95.25,
+        place: Geo { latitude_deg: 47.123_456_78, longitude_deg: -8.999_999_99, altitude_m: 432.1 },
+        over_pad_m: 20.5,
+        yaw_deg: 271.5,
+        pitch_deg: 30.25,
+        aircraft_deg: [271.5, -1.0, 2.0],
+        lens: Camera {
+            width_px: 4000,
+            height_px: 3000,
+            hfov_rad: std::f64::consts::FRAC_PI_2,
+            ..spandrel_model::site::defects::REFERENCE_CAMERA
+        },
+        exposure_s: 0.004,
+        iso: 200.0,
+        lamp: true,
+        distance_m: Some(4.0),
+        model: "Phantom 2".into(),
+        job: "two-bridges".into(),
+    }
+}
+
+fn noise(width: u32, height: u32) -> Picture {
+    let mut random = spandrel_model::random::RandomStream::new(7, "picture");
+    Picture { width, height, rgba: (0..4 * width * height).map(|_| (random.bits() >> 40) as u8).collect() }
+}
+
+#[test]
+fn exact_exif_tells_place_lens_and_direction() {
+    let file = jpeg(&noise(64, 48), &about()).unwrap();
+    let read = exif::Reader::new().read_from_container(&mut std::io::Cursor::new(&file)).unwrap();
+    let value = |tag| read.get_field(tag, In::PRIMARY).map(|field| field.display_value().to_string()).unwrap_or_default();
+    let numbers = |tag| match &read.get_field(tag, In::PRIMARY).unwrap().value {
+        exif::Value::Rational(parts) => parts.iter().map(exif::Rational::to_f64).collect::<Vec<_>>(),
+        other => panic!("{other:?}"),
+    };
+    let [degrees, minutes, seconds] = numbers(Tag::GPSLatitude)[..] else { panic!("three parts") };
+    // A ten-thousandth of a second, rounded.
+    assert!((degrees + minutes / 60.0 + seconds / 3600.0 - 47.123_456_78).abs() < 0.5e-4 / 3600.0 + 1e-12);
+    assert_eq!(numbers(Tag::GPSLongitude), [9.0, 0.0, 0.0], "a second is carried, never 60");
+    assert_eq!((value(Tag::GPSLatitudeRef), value(Tag::GPSLongitudeRef)), ("N".into(), "W".into()));
+    assert_eq!((numbers(Tag::GPSAltitude), numbers(Tag::GPSImgDirection)), (vec![432.1], vec![271.5]));
+    // Ninety degrees: the focal length is half the sensor's width, 18 mm on film.
+    assert_eq!((numbers(Tag::FocalLength), value(Tag::FocalLengthIn35mmFilm)), (vec![3.085], "18".into()));
+    // Pixels over a centimetre (unit 3) of a sensor 6.17 mm wide, to a thousandth.
+    assert_eq!(read.get_field(Tag::FocalPlaneResolutionUnit, In::PRIMARY).unwrap().value.get_uint(0), Some(3));
+    for tag in [Tag::FocalPlaneXResolution, Tag::FocalPlaneYResolution] {
+        assert!((numbers(tag)[0] - 64.0 / 0.617).abs() <= 0.5e-3, "{:?}", numbers(tag));
+    }
+    assert_eq!(value(Tag::DateTimeOriginal), "2026-06-20 08:15:30");
+    assert_eq!(numbers(Tag::ExposureTime), [0.004]);
+}
+
+#[test]
+fn exact_a_heading_is_told_straight_up_and_down_too() {
+    use spandrel_model::frames::Rotation;
+    let camera = spandrel_model::site::defects::REFERENCE_CAMERA;
+    for yaw_deg in [0.5_f64, 45.0, 135.0, 180.0, 271.5, 359.0] {
+        for pitch_deg in [-90.0_f64, -30.0, 0.0, 89.0, 90.0] {
+            let attitude = Rotation::from_euler(0.1, -0.05, yaw_deg.to_radians());
+            let pose = CameraPose::on(&camera, (Vec3::new(0.0, 0.0, 0.0), attitude), pitch_deg.to_radians(), false);
+            let (yaw, pitch) = direction_deg(&pose);
+            // The arc sine is flat at its ends: rounding errors of 1e-16 there are 1e-6 degrees.
+            assert!((yaw - yaw_deg).abs() < 1e-9 && (pitch - pitch_deg).abs() < 1e-5, "{yaw_deg} {pitch_deg}: {yaw} {pitch}");
+        }
+    }
+}
+
+#[test]
+fn exact_the_ground_sampling_distance_is_that_of_the_drawn_picture() {
+    // Ninety degrees, 4 m away: 8 m over 4000 px, and over 1000.
+    let close = |width, mm: f64| (about().gsd_mm(width).unwrap() - mm).abs() < 1e-9;
+    assert!(close(4000, 2.0) && close(1000, 8.0));
+    let text = xmp::write(&about(), (1000, 750));
+    assert!(text.contains("spandrel:GroundSamplingDistanceMillimetre=\"8.0000\""), "{text}");
+    assert!(text.contains("drone-dji:GimbalYawDegree=\"-88.50\"") && text.contains("drone-dji:GimbalPitchDegree=\"+30.25\""));
+    assert!(!xmp::write(&About { distance_m: None, ..about() }, (10, 10)).contains("GroundSampling"));
+}
+
+#[test]
+fn exact_a_file_is_as_good_as_fits() {
+    let picture = noise(400, 300);
+    let free = plain(&picture, usize::MAX).unwrap();
+    let most = free.len() / 2;
+    let fitted = plain(&picture, most).unwrap();
+    // Halving stops a step of quality below the limit; for noise a step is a few hundredths of the size.
+    assert!(fitted.len() <= most && fitted.len() > most * 9 / 10, "{} of {most}", fitted.len());
+}
+
+#[test]
+fn exact_a_copy_is_as_wide_as_fits_and_a_photograph_is_not_made_coarser() {
+    let picture = noise(1600, 1200);
+    let size = |file: &[u8]| {
+        let image = image::load_from_memory(file).unwrap();
+        (image.width(), image.height())
+    };
+    let free = copy(&picture, usize::MAX).unwrap();
+    assert_eq!(size(&free), (1280, 960));
+    let quarter = copy(&picture, free.len() / 10).unwrap();
+    assert!(quarter.len() <= free.len() / 10 && size(&quarter) == (640, 480), "{} of {}", quarter.len(), free.len());
+    assert_eq!(size(&copy(&picture, 1_000).unwrap()), (320, 240), "never narrower, though it is too large");
+    assert_eq!(size(&jpeg(&picture, &about()).unwrap()), (1600, 1200));
+}

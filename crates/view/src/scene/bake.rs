@@ -1,0 +1,111 @@
+//! Indirect light at corners, by the light model of the measures: where a soffit is dark for the score it is dark in the picture.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::light::spread;
+use spandrel_model::site::{At, RayHit, Site};
+
+/// Samples keep this distance from the edges of their face, so that what touches the edge does not blacken it, m.
+pub const INSET_M: f64 = 0.25;
+/// A sample with another solid nearer than this above it lies inside or under it, m.
+const BURIED_M: f64 = 0.04;
+/// Height over the surface at which that is looked for, m.
+const PROBE_M: f64 = 0.05;
+
+/// Height over a face at which it is looked whether another member begins there, m (members that touch leave no gap of this width).
+const OVER_M: f64 = 0.005;
+
+/// Works light out at points of one site.
+pub struct Bake<'a> {
+    site: &'a Site,
+    sun: Vec3<Enu>,
+    rays: Vec<(f64, f64)>,
+}
+
+impl<'a> Bake<'a> {
+    /// With so many rays at each point.
+    pub fn new(site: &'a Site, sun: Vec3<Enu>, rays: usize) -> Self {
+        Self { site, sun, rays: spread(rays) }
+    }
+
+    /// Shares of sky and sun that arrive at a surface indirectly.
+    pub fn at(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> [f32; 2] {
+        let cast = |o: Vec3<Enu>, d: Vec3<Enu>, max_m: f64| -> Option<RayHit> { self.site.geometry().ray(o, d, max_m) };
+        let (sky, sun) = self.site.light().indirect_shares(position_m, normal, self.sun, &self.rays, &cast);
+        [sky as f32, sun as f32]
+    }
+
+    /// The same on a face of a member; `None` where another member covers it.
+    pub fn on_member(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> Option<[f32; 2]> {
+        let near = self.site.geometry().nearest_member(position_m + normal * PROBE_M, PROBE_M);
+        let buried = near.is_some_and(|n| n.distance_m < BURIED_M);
+        (!buried).then(|| self.at(position_m, normal))
+    }
+
+    /// Just over a face it is inside another member: nobody sees it here.
+    pub fn is_inside(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> bool {
+        let near = self.site.geometry().nearest_member(position_m + normal * OVER_M, OVER_M);
+        near.is_some_and(|n| n.distance_m < 0.0)
+    }
+}
+
+/// A grid of samples whose gaps take the mean of their neighbours.
+pub fn filled(samples: &[Option<[f32; 2]>], columns: usize) -> Vec<[f32; 2]> {
+    let mut known = samples.to_vec();
+    let rows = samples.len() / columns.max(1);
+    for _ in 0..columns.max(rows) {
+        if known.iter().all(Option::is_some) {
+            break;
+        }
+        let before = known.clone();
+        for (k, slot) in known.iter_mut().enumerate().filter(|(_, slot)| slot.is_none()) {
+            let (row, column) = (k / columns, k % columns);
+            let mut sum = [0.0, 0.0];
+            let mut count = 0.0;
+            let mut offer = |row: usize, column: usize| {
+                if let Some([a, b]) = before[row * columns + column] {
+                    sum = [sum[0] + a, sum[1] + b];
+                    count += 1.0;
+                }
+            };
+            if row > 0 {
+                offer(row - 1, column);
+            }
+            if row + 1 < rows {
+                offer(row + 1, column);
+            }
+            if column > 0 {
+                offer(row, column - 1);
+            }
+            if column + 1 < columns {
+                offer(row, column + 1);
+            }
+            if count > 0.0 {
+                *slot = Some([sum[0] / count, sum[1] / count]);
+            }
+        }
+    }
+    known.into_iter().map(|sample| sample.unwrap_or([0.0, 0.0])).collect()
+}
+
+/// Light around a small thing in the air: on what faces up, and on what faces down.
+pub fn around(site: &Site, position_m: Vec3<Enu>, at: At) -> [f32; 4] {
+    const RAYS: usize = 24;
+    let bake = Bake::new(site, site.light().daylight(at).sun, RAYS);
+    let up = Vec3::new(0.0, 0.0, 1.0);
+    let ([a, b], [c, d]) = (bake.at(position_m, up), bake.at(position_m, -up));
+    [a, b, c, d]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_gaps_take_the_mean_of_their_neighbours() {
+        let a = Some([1.0, 0.0]);
+        let b = Some([3.0, 2.0]);
+        let filled = filled(&[a, None, b, a, None, b], 3);
+        assert_eq!(filled[1], [2.0, 1.0]);
+        assert_eq!(super::filled(&[None, None], 2), [[0.0, 0.0]; 2]);
+    }
+}

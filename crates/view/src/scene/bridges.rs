@@ -1,0 +1,345 @@
+//! Every member of every bridge, with coordinates in its faces and light at its corners.
+
+use super::super::mesh::{Material, Mesh, Vertex, single};
+use super::super::quality::Quality;
+use super::bake::{Bake, INSET_M, filled};
+use super::{Part, Seen};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::bridges::Member;
+use spandrel_model::scenario::{Bridge, Scenario};
+
+/// Coat of the main steelwork, linear (a weathered green, as many old suspension bridges are painted; estimate).
+pub(super) const COAT: [u8; 3] = [38, 68, 56];
+/// Coat of railings.
+const RAIL: [u8; 3] = [58, 76, 74];
+/// Bearings: bare, greased steel.
+const BEARING: [u8; 3] = [38, 34, 30];
+/// Wires.
+const WIRE: [u8; 3] = [92, 94, 92];
+const WHITE: [u8; 3] = [255, 255, 255];
+/// Faces narrower than this have the same light across, m.
+const NARROW_M: f64 = 0.8;
+/// Shares of sky and sun may come out wrong by this where triangles are saved (a hundredth of what is there in the open is not seen; rays of a
+/// lean preset scatter more).
+const LIGHT_OFF: f32 = 0.03;
+/// And by this on what is slim.
+const LIGHT_OFF_SLIM: f32 = 0.12;
+
+/// What an element is made of, by its AASHTO number, and its coat.
+pub(super) fn matter(element: u32) -> (Material, [u8; 3]) {
+    match element {
+        147..=149 => (Material::Cable, WIRE),
+        310..=316 => (Material::Steel, BEARING),
+        330 => (Material::Steel, RAIL),
+        28..=30 | 102 | 107 | 113 | 120 | 141 | 152 | 161 | 162 | 202 | 207 | 225 | 231 => (Material::Steel, COAT),
+        _ => (Material::Concrete, WHITE),
+    }
+}
+
+/// Bridges' own axes for coordinates in faces.
+struct Axes {
+    origin_m: Vec3<Enu>,
+    along: Vec3<Enu>,
+    left: Vec3<Enu>,
+    half_deck_m: f64,
+}
+
+/// Spacing at which it is looked whether a face is covered, and from its edges, m (estimate: what shows between is not seen).
+const PROBED_M: (f64, f64) = (0.5, 0.02);
+/// But everywhere it is looked in the middle too.
+const STEPS_MIN: f64 = 2.0;
+/// A face that rises so is level: the lake, from where one looks up, never shows it.
+const LEVEL: f64 = 0.999;
+
+/// Hangers and railings: what a small mirror of a far bridge shows nothing of.
+const SLIM: [u32; 3] = [148, 330, 331];
+
+/// Of a face, by its element and normal: how far light between its corners may come out off; `None` leaves it out.
+type Thinned<'a> = &'a dyn Fn(u32, Vec3<Enu>) -> Option<f32>;
+/// Nothing is as near as this: every sample stays.
+const WHOLE: f32 = f32::NEG_INFINITY;
+
+/// All members; where triangles are saved the lake has simpler ones.
+pub fn parts(scenario: &Scenario, bake: &Bake, quality: &Quality) -> Vec<Part> {
+    if !quality.sparse {
+        let [mesh] = meshes(scenario, bake, quality, [&|_, _| Some(WHOLE)]);
+        return vec![Part::here("bridges", mesh, true)];
+    }
+    let is_slim = |element: u32| SLIM.contains(&element);
+    let straight = |element: u32, _| Some(if is_slim(element) { LIGHT_OFF_SLIM } else { LIGHT_OFF });
+    // In the lake light is taken at the corners of faces alone.
+    let in_lake = |element: u32, normal: Vec3<Enu>| (!is_slim(element) && normal.up() < LEVEL).then_some(f32::INFINITY);
+    let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
+    let (straight, in_lake) = (Part::here("bridges", straight, true), Part::here("bridges in the lake", in_lake, false));
+    vec![Part { seen: Seen::STRAIGHT, ..straight }, Part { seen: Seen::IN_LAKE, ..in_lake }]
+}
+
+/// A mesh for each way to thin out; light is worked out once for all of them.
+fn meshes<const N: usize>(scenario: &Scenario, bake: &Bake, quality: &Quality, thinned: [Thinned; N]) -> [Mesh; N] {
+    let mut meshes = [(); N].map(|()| Mesh::default());
+    for bridge in &scenario.bridges {
+        let axes = axes(bridge);
+        for member in bridge.members() {
+            add(&mut meshes, &member, &axes, bake, (quality.light_cell_m, &thinned));
+        }
+    }
+    meshes
+}
+
+fn axes(bridge: &Bridge) -> Axes {
+    let placement = bridge.placement();
+    Axes {
+        origin_m: bridge.centre_m,
+        along: placement.direction([1.0, 0.0, 0.0]),
+        left: placement.direction([0.0, 1.0, 0.0]),
+        half_deck_m: 0.5 * bridge.deck_width_m(),
+    }
+}
+
+fn add(meshes: &mut [Mesh], member: &Member, axes: &Axes, bake: &Bake, (light_cell_m, thinned): (f64, &[Thinned])) {
+    let (material, tint) = matter(member.element);
+    for face in &member.solid.faces {
+        let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
+        let normal = normal(&corners);
+        let off = |thinned: &Thinned| thinned(member.element, normal);
+        if thinned.iter().all(|thinned| off(thinned).is_none()) || is_covered(&corners, normal, bake) {
+            continue;
+        }
+        let road = matches!(member.element, 12 | 13 | 15 | 16 | 28..=31 | 38 | 39) && normal.up() > 0.9;
+        let look = Look {
+            element: member.element,
+            normal,
+            material: if road { Material::Deck } else { material },
+            tint,
+            smooth: material == Material::Cable && face.len() == 4,
+        };
+        let wanted = meshes.iter_mut().zip(thinned).filter_map(|(mesh, thinned)| Some((mesh, off(thinned)?)));
+        match <[Vec3<Enu>; 4]>::try_from(corners.as_slice()) {
+            Ok(quad) => quad_face(wanted, member, &Quad(quad), &look, axes, bake, light_cell_m),
+            Err(_) => fan_face(wanted, &corners, &look, axes, bake),
+        }
+    }
+}
+
+/// A face with four corners.
+struct Quad([Vec3<Enu>; 4]);
+
+impl Quad {
+    /// At shares of its first and its second side.
+    fn at(&self, s: f64, t: f64) -> Vec3<Enu> {
+        let [a, b, c, d] = self.0;
+        a.lerp(b, s).lerp(d.lerp(c, s), t)
+    }
+
+    /// The longer of its first and third side, of its second and fourth, m.
+    fn lengths_m(&self) -> (f64, f64) {
+        let [a, b, c, d] = self.0;
+        ((b - a).norm().max((c - d).norm()), (d - a).norm().max((c - b).norm()))
+    }
+}
+
+fn middle(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
+    corners.iter().fold(Vec3::zero(), |sum, c| sum + *c) / corners.len() as f64
+}
+
+/// Other members cover all of a face.
+fn is_covered(corners: &[Vec3<Enu>], normal: Vec3<Enu>, bake: &Bake) -> bool {
+    let Ok(quad) = <[Vec3<Enu>; 4]>::try_from(corners).map(Quad) else {
+        let middle = middle(corners);
+        let near = |corner: &Vec3<Enu>| corner.lerp(middle, (PROBED_M.1 / (*corner - middle).norm()).min(1.0));
+        return bake.is_inside(middle, normal) && corners.iter().all(|corner| bake.is_inside(near(corner), normal));
+    };
+    let shares = |length: f64| {
+        let steps = (length / PROBED_M.0).ceil().max(STEPS_MIN);
+        let edge = (PROBED_M.1 / length).min(0.5);
+        (0..=steps as u32).map(move |k| (f64::from(k) / steps).clamp(edge, 1.0 - edge))
+    };
+    let (along, across) = quad.lengths_m();
+    shares(along).all(|s| shares(across).all(|t| bake.is_inside(quad.at(s, t), normal)))
+}
+
+struct Look {
+    element: u32,
+    normal: Vec3<Enu>,
+    material: Material,
+    tint: [u8; 3],
+    smooth: bool,
+}
+
+fn normal(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
+    let count = corners.len();
+    (0..count).fold(Vec3::zero(), |sum, k| sum + corners[k].cross(corners[(k + 1) % count])).unit()
+}
+
+/// Coordinates in a face: along the bridge and across it on level faces, level and up on walls.
+fn uv(p: Vec3<Enu>, normal: Vec3<Enu>, axes: &Axes) -> [f32; 2] {
+    let from = p - axes.origin_m;
+    if normal.up().abs() > 0.8 {
+        return [from.dot(axes.along) as f32, from.dot(axes.left) as f32];
+    }
+    let level = Vec3::new(0.0, 0.0, 1.0).cross(normal).unit();
+    [from.dot(level) as f32, from.dot(normal.cross(level)) as f32]
+}
+
+fn corner(p: Vec3<Enu>, look: &Look, axes: &Axes, light: [f32; 2]) -> Vertex {
+    let [r, g, b] = look.tint;
+    Vertex {
+        position: single(p),
+        normal: single(look.normal),
+        uv: uv(p, look.normal, axes),
+        light,
+        material: look.material as u32 | (look.element << 8),
+        tint: [r, g, b, 255],
+        aux: if look.material == Material::Deck { axes.half_deck_m as f32 } else { 0.0 },
+    }
+}
+
+/// Meshes that show a face, and how far its light may come out off in each.
+trait Wanted<'a>: Iterator<Item = (&'a mut Mesh, f32)> {}
+impl<'a, T: Iterator<Item = (&'a mut Mesh, f32)>> Wanted<'a> for T {}
+
+fn fan_face<'a>(wanted: impl Wanted<'a>, corners: &[Vec3<Enu>], look: &Look, axes: &Axes, bake: &Bake) {
+    let light = bake.on_member(middle(corners), look.normal).unwrap_or([0.0, 0.0]);
+    for (mesh, _) in wanted {
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices.extend(corners.iter().map(|c| corner(*c, look, axes, light)));
+        for k in 2..corners.len() as u32 {
+            mesh.indices.extend([first, first + k - 1, first + k]);
+        }
+    }
+}
+
+fn quad_face<'a>(
+    wanted: impl Wanted<'a>,
+    member: &Member,
+    quad: &Quad,
+    look: &Look,
+    axes: &Axes,
+    bake: &Bake,
+    light_cell_m: f64,
+) {
+    let lengths = quad.lengths_m();
+    let steps = |length: f64| ((length / light_cell_m).ceil() as usize).max(1);
+    let (nu, nv) = if look.smooth { (1, 1) } else { (steps(lengths.0), steps(lengths.1)) };
+    // Samples stay a little inside; across a narrow face one is enough.
+    let inside = |k: usize, n: usize, length: f64| {
+        let margin = (INSET_M / length).min(0.25);
+        if length < NARROW_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }
+    };
+    let (columns, rows) = (nu + 1, nv + 1);
+    let mut samples: Vec<Option<[f32; 2]>> = Vec::with_capacity(columns * rows);
+    for row in 0..rows {
+        for column in 0..columns {
+            let same = if column > 0 && lengths.0 < NARROW_M {
+                Some(samples.len() - 1)
+            } else if row > 0 && lengths.1 < NARROW_M {
+                Some(samples.len() - columns)
+            } else {
+                None
+            };
+            let sample = match same {
+                Some(known) => samples[known],
+                None => bake.on_member(quad.at(inside(column, nu, lengths.0), inside(row, nv, lengths.1)), look.normal),
+            };
+            samples.push(sample);
+        }
+    }
+    let light = filled(&samples, columns);
+    let light_at = |row: usize, column: usize| light[row * columns + column];
+    for (mesh, off) in wanted {
+        let kept_rows = kept(rows, off, &|row| (0..columns).map(|column| light_at(row, column)).collect());
+        let kept_columns = kept(columns, off, &|column| (0..rows).map(|row| light_at(row, column)).collect());
+        let first = mesh.vertices.len() as u32;
+        for &row in &kept_rows {
+            for &column in &kept_columns {
+                let p = quad.at(column as f64 / nu as f64, row as f64 / nv as f64);
+                let mut vertex = corner(p, look, axes, light_at(row, column));
+                if look.smooth {
+                    vertex.normal = single(rounded(member, p, look.normal));
+                }
+                mesh.vertices.push(vertex);
+            }
+        }
+        let stride = kept_columns.len() as u32;
+        for row in 0..kept_rows.len() as u32 - 1 {
+            for column in 0..stride - 1 {
+                let i = first + row * stride + column;
+                let over = i + stride;
+                mesh.indices.extend([i, i + 1, over + 1, i, over + 1, over]);
+            }
+        }
+    }
+}
+
+/// Of so many lines of samples the first, the last, and those between without which the light would come out off by more.
+fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<usize> {
+    let all: Vec<Vec<[f32; 2]>> = (0..lines).map(line).collect();
+    let smooth = |from: usize, to: usize| {
+        (from + 1..to).all(|k| {
+            let t = (k - from) as f32 / (to - from) as f32;
+            let near = |a: f32, b: f32, c: f32| (a + (b - a) * t - c).abs() <= off;
+            let ends = all[from].iter().zip(&all[to]).zip(&all[k]);
+            ends.into_iter().all(|((a, b), c)| near(a[0], b[0], c[0]) && near(a[1], b[1], c[1]))
+        })
+    };
+    let mut kept = vec![0];
+    for k in 1..lines {
+        let from = kept[kept.len() - 1];
+        if k + 1 == lines || !smooth(from, k + 1) {
+            kept.push(k);
+        }
+    }
+    kept
+}
+
+/// Normal of a round bar at one of its corners: the mean of the sides that meet there.
+fn rounded(member: &Member, p: Vec3<Enu>, own: Vec3<Enu>) -> Vec3<Enu> {
+    let solid = &member.solid;
+    let meets = |face: &&Vec<u32>| face.len() == 4 && face.iter().any(|k| (solid.vertices_m[*k as usize] - p).norm() < 1e-6);
+    let sides = solid.faces.iter().filter(meets);
+    let sum = sides
+        .fold(Vec3::zero(), |sum, face| sum + normal(&face.iter().map(|k| solid.vertices_m[*k as usize]).collect::<Vec<_>>()));
+    if sum.norm() > 1e-6 { sum.unit() } else { own }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_only_what_is_covered_is_left_out() {
+        let text = include_str!("../../../../scenarios/two-bridges.toml");
+        let scenario = spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap();
+        let site = spandrel_model::site::Site::build(&scenario, 7);
+        let bake = Bake::new(&site, Vec3::new(0.0, 0.0, 1.0), 1);
+        let (mut bearings, mut stringers, mut slabs) = (0, 0, 0);
+        for bridge in &scenario.bridges {
+            for member in bridge.members() {
+                for face in &member.solid.faces {
+                    let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
+                    let normal = normal(&corners);
+                    let covered = is_covered(&corners, normal, &bake);
+                    // Bearings stand free on all sides; stringers hang under the slab, their webs between flanges.
+                    let side = normal.up().abs() < 0.1;
+                    assert!(!(covered && side && (311..=316).contains(&member.element)), "{}", member.name);
+                    bearings += u32::from(side && (311..=316).contains(&member.element));
+                    let level = corners.iter().map(|c| (*c - corners[0]).norm()).fold(0.0, f64::max);
+                    let long = side && level > 2.0 && member.element == 113;
+                    assert!(!(covered && long), "{}", member.name);
+                    stringers += u32::from(long);
+                    slabs += u32::from(covered && matches!(member.element, 107 | 113 | 116) && normal.up() > 0.9);
+                }
+            }
+        }
+        assert!(bearings >= 40 && stringers >= 100 && slabs > 0, "{bearings} {stringers} {slabs}");
+    }
+
+    #[test]
+    fn exact_lines_of_samples_are_left_out_where_light_runs_straight() {
+        let of = |values: &[f32]| kept(values.len(), LIGHT_OFF, &|k| vec![[values[k], 0.0], [0.5, 1.0 - values[k]]]);
+        assert_eq!(of(&[0.1, 0.2, 0.3, 0.4, 0.5]), [0, 4]);
+        assert_eq!(of(&[0.1, 0.1, 0.1, 0.9, 0.9, 0.9]), [0, 2, 3, 5]);
+        assert_eq!(of(&[0.3, 0.31, 0.3]), [0, 2], "what is not seen is left out");
+        assert_eq!(of(&[0.3, 0.4]), [0, 1]);
+    }
+}

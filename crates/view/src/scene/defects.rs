@@ -1,0 +1,115 @@
+//! Defects as patches on their members' faces.
+
+use super::bake::Bake;
+use super::bridges;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::site::Site;
+use spandrel_model::site::catalogue;
+
+/// Rays for the light on a patch: as many as the measures use.
+const RAYS: usize = 64;
+/// Room around a line for what seeps out of it, m (the face goes on at least this far, `site::defects`).
+const SEEP_M: f64 = 0.03;
+/// Room around an area for its ragged edge, as a share of its size.
+const RAGGED: f64 = 1.06;
+
+/// One defect for the shader `defect`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
+#[repr(C)]
+pub struct Patch {
+    /// Centre, m; AASHTO code.
+    pub centre: [f32; 4],
+    /// Outward normal; a number of its own in 0..1.
+    pub normal: [f32; 4],
+    /// Along the longest extent; length, m.
+    pub along: [f32; 4],
+    /// Width, m; condition state; down, along and across.
+    pub size: [f32; 4],
+    /// Indirect light (shares of sky and sun); half sizes of what is drawn, m.
+    pub light: [f32; 4],
+    /// The coat on steel, linear; the defect's number.
+    pub tint: [f32; 4],
+}
+
+/// All defects of a site.
+pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<Patch> {
+    let bake = Bake::new(site, sun, RAYS);
+    site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()
+}
+
+/// The code that a defect is drawn by. A resolved file may place kinds that no seed does: what is scored must be seen, so they look like a crack
+/// or like bare aggregate.
+fn look(defect: &PlacedDefect) -> u32 {
+    match (catalogue::KINDS.contains(&defect.kind), defect.line) {
+        (true, _) => defect.kind,
+        (false, true) => catalogue::CRACK,
+        (false, false) => catalogue::ABRASION,
+    }
+}
+
+/// One defect under a light.
+#[must_use]
+pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> Patch {
+    let four = |v: Vec3<Enu>, last: f64| {
+        let [x, y, z] = v.array();
+        [x as f32, y as f32, z as f32, last as f32]
+    };
+    let across = defect.normal.cross(defect.along);
+    let half = if defect.line {
+        (0.5 * defect.length_m + SEEP_M, 0.5 * defect.width_m + SEEP_M)
+    } else {
+        (0.5 * RAGGED * defect.length_m, 0.5 * RAGGED * defect.width_m)
+    };
+    let [r, g, b] = bridges::matter(defect.element).1.map(|c| f32::from(c) / 255.0);
+    // Any number that differs between defects and stays the same for one.
+    let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
+    Patch {
+        centre: four(defect.position_m, f64::from(look(defect))),
+        normal: four(defect.normal, own),
+        along: four(defect.along, defect.length_m),
+        size: [defect.width_m as f32, f32::from(defect.condition_state), -defect.along.up() as f32, -across.up() as f32],
+        light: [sky, sun, half.0 as f32, half.1 as f32],
+        tint: [r, g, b, defect.id as f32],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A crack that runs straight down.
+    fn streak() -> PlacedDefect {
+        PlacedDefect {
+            id: 3,
+            element: 144,
+            member: "arch/rib-left/07".into(),
+            kind: 1130,
+            condition_state: 3,
+            position_m: Vec3::new(1.0, 2.0, 3.0),
+            normal: Vec3::new(0.0, -1.0, 0.0),
+            along: Vec3::new(0.0, 0.0, -1.0),
+            length_m: 1.0,
+            width_m: 0.002,
+            line: true,
+        }
+    }
+
+    #[test]
+    fn exact_a_line_has_room_to_seep_and_an_area_room_for_its_edge() {
+        let defect = streak();
+        let line = patch(&defect, [0.2, 0.1]);
+        assert_eq!(line.light[2..], [0.53, 0.031]);
+        assert_eq!((line.centre[3], line.size[2]), (1130.0, 1.0), "it runs straight down");
+        let area = patch(&PlacedDefect { line: false, width_m: 0.5, ..defect }, [0.2, 0.1]);
+        assert_eq!(area.light[2..], [0.53, 0.265]);
+    }
+
+    #[test]
+    fn exact_what_no_seed_places_is_drawn_all_the_same() {
+        let decay = PlacedDefect { kind: 1140, line: false, ..streak() };
+        assert_eq!(patch(&decay, [0.2, 0.1]).centre[3], 1190.0);
+        assert_eq!(patch(&PlacedDefect { line: true, ..decay }, [0.2, 0.1]).centre[3], 1130.0);
+    }
+}

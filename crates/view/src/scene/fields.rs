@@ -1,0 +1,96 @@
+//! Which of the ground's corners are shown: all of them, or fewer where nobody sees the difference.
+
+use super::sparse::{self, Square};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+
+/// Largest square that is drawn as two triangles, cells.
+const LARGEST: usize = 8;
+/// Ground may lie off by this angle from where people and aircraft are: four pixels of a view 640 px and 84 degrees wide, on hills that roll.
+const ANGLE_RAD: f64 = 0.012;
+/// But never by more than this, m, nor is it asked to be nearer than that, m (estimates: a step that one overlooks, the thickness of grass).
+const OFF_M: (f64, f64) = (0.15, 3.0);
+/// At the shore a little height moves the waterline far: the share of the tolerance there, and the heights over and under the water, m.
+const SHORE: (f64, f64) = (0.4, 1.0);
+/// A bed deeper than this is not seen, m (the shader `water` loses 99 % of its light on the way there and back).
+pub const UNSEEN_M: f64 = 5.0;
+/// Light is worked out this near to a bridge and changes from cell to cell: squares there have no more cells than that.
+const LIT: (f64, usize) = (30.0, 2);
+
+/// The whole ground, triangle by triangle.
+pub fn all(site: &Site) -> Vec<[u32; 3]> {
+    site.geometry().terrain.ground.triangles().1
+}
+
+/// The ground by fewer triangles, `rough` times farther off than where it is looked at itself.
+pub fn sparse(scenario: &Scenario, site: &Site, rough: f64) -> Vec<[u32; 3]> {
+    let (points, triangles) = site.geometry().terrain.ground.triangles();
+    let side = points.len().isqrt();
+    if side * side != points.len() {
+        return triangles;
+    }
+    let field = Field { scenario, site, points: &points, side, eyes_m: eyes(scenario), rough };
+    sparse::triangles(side, LARGEST, &|square| field.flat(square))
+}
+
+/// Those of the ground's triangles that do not lie deeper than `under_m` under the lake.
+pub fn shallow(scenario: &Scenario, site: &Site, triangles: &[[u32; 3]], under_m: f64) -> Vec<[u32; 3]> {
+    let (points, _) = site.geometry().terrain.ground.triangles();
+    let bottom_m = scenario.terrain.water_level_m - under_m;
+    triangles.iter().filter(|corners| corners.iter().any(|k| points[*k as usize].up() > bottom_m)).copied().collect()
+}
+
+/// Where people stand and aircraft fly.
+fn eyes(scenario: &Scenario) -> Vec<Vec3<Enu>> {
+    let team = &scenario.ground_team;
+    let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().step_by(4).copied());
+    paths.chain([team.pad_m, team.truck_m, team.inspector_m]).collect()
+}
+
+struct Field<'a> {
+    scenario: &'a Scenario,
+    site: &'a Site,
+    points: &'a [Vec3<Enu>],
+    side: usize,
+    eyes_m: Vec<Vec3<Enu>>,
+    rough: f64,
+}
+
+impl Field<'_> {
+    /// A square may be drawn by its corners alone.
+    fn flat(&self, square: &Square) -> bool {
+        let corners = square.corners(self.side).map(|k| self.points[k]);
+        let middle = corners[0].lerp(corners[2], 0.5);
+        let half_m = 0.5 * (corners[2] - corners[0]).horizontal_norm();
+        if square.size > LIT.1 && self.site.geometry().nearest_member(middle, LIT.0 + half_m).is_some() {
+            return false;
+        }
+        let over_water_m = |p: &Vec3<Enu>| p.up() - self.scenario.terrain.water_level_m;
+        if self.inside(square).all(|p| over_water_m(&p) < -UNSEEN_M) {
+            return true;
+        }
+        let from_m = |eye: &Vec3<Enu>| math::hypot(eye.east() - middle.east(), eye.north() - middle.north()) - half_m;
+        let nearest_m = self.eyes_m.iter().map(from_m).fold(f64::INFINITY, f64::min);
+        let shore = self.inside(square).any(|p| over_water_m(&p).abs() < SHORE.1);
+        let allowed_m = self.rough * (ANGLE_RAD * nearest_m).clamp(OFF_M.0, OFF_M.1) * if shore { SHORE.0 } else { 1.0 };
+        self.inside(square).all(|p| (p.up() - between(&corners, p)).abs() <= allowed_m)
+    }
+
+    /// All corners of cells in a square.
+    fn inside(&self, square: &Square) -> impl Iterator<Item = Vec3<Enu>> {
+        let (first, size) = (square.row * self.side + square.column, square.size);
+        (0..=size).flat_map(move |row| (0..=size).map(move |column| self.points[first + row * self.side + column]))
+    }
+}
+
+/// Height of the two triangles over a square at a place in it, m.
+fn between([sw, se, ne, nw]: &[Vec3<Enu>; 4], p: Vec3<Enu>) -> f64 {
+    let (x, y) = ((p.east() - sw.east()) / (ne.east() - sw.east()), (p.north() - sw.north()) / (ne.north() - sw.north()));
+    if x >= y {
+        sw.up() + x * (se.up() - sw.up()) + y * (ne.up() - se.up())
+    } else {
+        sw.up() + y * (nw.up() - sw.up()) + x * (ne.up() - nw.up())
+    }
+}

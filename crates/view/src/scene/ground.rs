@@ -1,0 +1,212 @@
+//! Ground, mountains beyond it, the lake's surface and the pad.
+
+use super::super::mesh::{Material, Mesh, Vertex, single};
+use super::bake::Bake;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+
+/// Around bridges and pad the light on the ground is worked out within this distance of a member, m.
+const SHADED_M: f64 = 30.0;
+/// Rings of mountains, as shares of the field's half side: pictures only, nothing of a job reaches there.
+const RINGS: [f64; 15] = [0.98, 1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.4, 6.8, 8.6, 11.0];
+/// Corners on each side of a ring.
+const SIDE: usize = 48;
+/// Inside the rim mountains begin so far under the ground, m: the rim has fewer corners than the ground and would leave gaps to see through.
+const UNDER_M: f64 = 8.0;
+/// How high mountains rise over the rim, m (estimate: a lake in a pre-alpine valley).
+const PEAKS_M: f64 = 620.0;
+/// The rim is land from this height over the water on, m.
+const SHORE_M: f64 = 45.0;
+/// The lake reaches this far, m.
+const LAKE_M: f64 = 9_000.0;
+/// Depth that is as good as bottomless, m.
+const DEEP_M: f64 = 30.0;
+
+fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m: f64) -> Vertex {
+    Vertex {
+        position: single(p),
+        normal: single(normal),
+        uv: [p.east() as f32, p.north() as f32],
+        light,
+        material: Material::Ground as u32,
+        tint: [255; 4],
+        aux: over_water_m as f32,
+    }
+}
+
+/// The ground that collides, by those of its corners that are shown.
+pub fn mesh(scenario: &Scenario, site: &Site, bake: &Bake, shown: &[[u32; 3]]) -> Mesh {
+    let (points, triangles) = site.geometry().terrain.ground.triangles();
+    let normals = smooth(&points, &triangles);
+    let vertex = |k: u32| {
+        let (p, n) = (&points[k as usize], &normals[k as usize]);
+        let near = site.geometry().nearest_member(*p, SHADED_M).is_some();
+        // In the open a slope sees the sky over its own horizon and a little of the ground.
+        let open = [0.5 + 0.5 * n.up() as f32, 0.02];
+        let light = if near { bake.at(*p + *n * 0.3, *n) } else { open };
+        ground_vertex(*p, *n, light, p.up() - scenario.terrain.water_level_m)
+    };
+    of_corners(points.len(), shown.iter().copied(), vertex)
+}
+
+/// A mesh of triangles whose corners are made when they are first met.
+fn of_corners(corners: usize, triangles: impl Iterator<Item = [u32; 3]>, vertex: impl Fn(u32) -> Vertex) -> Mesh {
+    let mut mesh = Mesh::default();
+    let mut placed: Vec<Option<u32>> = vec![None; corners];
+    for k in triangles.flatten() {
+        let index = placed[k as usize].unwrap_or_else(|| {
+            mesh.vertices.push(vertex(k));
+            mesh.vertices.len() as u32 - 1
+        });
+        placed[k as usize] = Some(index);
+        mesh.indices.push(index);
+    }
+    mesh
+}
+
+fn smooth(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
+    let mut sums = vec![Vec3::zero(); points.len()];
+    for [a, b, c] in triangles {
+        let at = |k: &u32| points[*k as usize];
+        let normal = (at(b) - at(a)).cross(at(c) - at(a));
+        for k in [a, b, c] {
+            sums[*k as usize] += normal;
+        }
+    }
+    sums.into_iter().map(Vec3::unit).collect()
+}
+
+/// Mountains around the field, rising from its rim; where the lake leaves the field it goes on between them. `coarse`: every second corner of
+/// every second ring beyond the rim.
+pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
+    let half = 0.5 * scenario.terrain.size_m;
+    let water = scenario.terrain.water_level_m;
+    let every = if coarse { 2 } else { 1 };
+    let around = 4 * SIDE / every;
+    let last = RINGS.len() - 1;
+    let rings: Vec<(usize, f64)> =
+        RINGS.into_iter().enumerate().filter(|(ring, _)| !coarse || ring % 2 == 1 || [0, last].contains(ring)).collect();
+    let mut points = Vec::with_capacity(rings.len() * around);
+    for (ring, share) in &rings {
+        for k in 0..around {
+            let (x, y) = rim(k * every);
+            let edge = share.min(0.9995) * half;
+            let rim_up = site.geometry().terrain.ground.ground(x * edge, y * edge).0;
+            let (east, north) = (x * half * share, y * half * share);
+            let up = match ring {
+                0 => rim_up - UNDER_M,
+                1 => rim_up,
+                _ => slope_up_m(rim_up - water, *share, east, north) + water,
+            };
+            points.push(Vec3::new(east, north, up));
+        }
+    }
+    let mut triangles = Vec::new();
+    for ring in 0..rings.len() - 1 {
+        for k in 0..around {
+            let i = |ring: usize, k: usize| (ring * around + k % around) as u32;
+            // The rim runs counter-clockwise: outward lies to its right.
+            triangles.push([i(ring, k), i(ring + 1, k), i(ring + 1, k + 1)]);
+            triangles.push([i(ring, k), i(ring + 1, k + 1), i(ring, k + 1)]);
+        }
+    }
+    let normals = smooth(&points, &triangles);
+    let vertices =
+        points.iter().zip(&normals).map(|(p, n)| ground_vertex(*p, *n, [0.6 + 0.4 * n.up() as f32, 0.02], p.up() - water));
+    Mesh { vertices: vertices.collect(), indices: triangles.into_iter().flatten().collect() }
+}
+
+/// Places on the square's rim, -1..1, counter-clockwise from the south-west.
+fn rim(k: usize) -> (f64, f64) {
+    let t = 2.0 * (k % SIDE) as f64 / SIDE as f64 - 1.0;
+    match k / SIDE {
+        0 => (t, -1.0),
+        1 => (1.0, t),
+        2 => (-t, 1.0),
+        _ => (-1.0, -t),
+    }
+}
+
+/// Height over the water beyond the rim: the rim's own, then ridges; a lake stays a lake for a while.
+fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
+    let ridges = 0.5
+        + 0.30 * math::sin(east / 610.0 + 1.7 * math::sin(north / 930.0)) * math::cos(north / 480.0 - 0.8)
+        + 0.20 * math::sin(east / 233.0 + 2.0) * math::sin(north / 271.0 + math::cos(east / 350.0));
+    // Between lake and land the rim goes over from one to the other, or a wall would stand there.
+    let wet = {
+        let t = ((SHORE_M - rim_up_m) / SHORE_M).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    };
+    let beyond = (share - math::lerp(1.0, 2.2, wet)).max(0.0) / 2.4;
+    // It begins gently and steepens, as a valley's end does.
+    let climb = 1.0 - math::exp(-beyond * beyond / (0.3 + beyond));
+    let far = PEAKS_M * climb * (0.35 + 0.9 * ridges);
+    rim_up_m * (1.0 - 0.4 * climb * (1.0 - wet)) + far
+}
+
+/// The lake: over the field a corner for each of the ground's with its depth, and far out a frame.
+pub fn water(scenario: &Scenario, site: &Site, bake: &Bake, shown: &[[u32; 3]]) -> Mesh {
+    let level = scenario.terrain.water_level_m;
+    let (points, _) = site.geometry().terrain.ground.triangles();
+    let wet = |k: &u32| level - points[*k as usize].up() > -1.5;
+    let vertex = |k: u32| {
+        let p = points[k as usize];
+        let at = Vec3::new(p.east(), p.north(), level);
+        let near = site.geometry().nearest_member(at, SHADED_M).is_some();
+        let light = if near { bake.at(at, Vec3::new(0.0, 0.0, 1.0)) } else { [1.0, 0.0] };
+        water_vertex(at, light, level - p.up())
+    };
+    let mut mesh = of_corners(points.len(), shown.iter().filter(|t| t.iter().any(wet)).copied(), vertex);
+    let half = 0.5 * scenario.terrain.size_m;
+    let frame = [
+        (-LAKE_M, -LAKE_M, LAKE_M, -half),
+        (-LAKE_M, half, LAKE_M, LAKE_M),
+        (-LAKE_M, -half, -half, half),
+        (half, -half, LAKE_M, half),
+    ];
+    for (west, south, east, north) in frame {
+        let first = mesh.vertices.len() as u32;
+        for (x, y) in [(west, south), (east, south), (east, north), (west, north)] {
+            mesh.vertices.push(water_vertex(Vec3::new(x, y, level), [1.0, 0.0], DEEP_M));
+        }
+        mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|k| first + k));
+    }
+    mesh
+}
+
+fn water_vertex(p: Vec3<Enu>, light: [f32; 2], depth_m: f64) -> Vertex {
+    Vertex {
+        position: single(p),
+        normal: [0.0, 0.0, 1.0],
+        uv: [p.east() as f32, p.north() as f32],
+        light,
+        material: Material::Ground as u32,
+        tint: [255; 4],
+        aux: depth_m as f32,
+    }
+}
+
+/// The take-off pad, a hair over its slab.
+pub fn pad(site: &Site) -> Mesh {
+    let slab = &site.geometry().pad().solid.vertices_m;
+    let top = slab.iter().map(|v| v.up()).fold(f64::NEG_INFINITY, f64::max);
+    let centre = slab.iter().fold(Vec3::zero(), |sum, v| sum + *v) / slab.len() as f64;
+    let half = slab.iter().map(|v| (v.east() - centre.east()).abs()).fold(0.0, f64::max);
+    let mut mesh = Mesh::default();
+    for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+        let p = Vec3::new(centre.east() + x * half, centre.north() + y * half, top + 0.004);
+        mesh.vertices.push(Vertex {
+            position: single(p),
+            normal: [0.0, 0.0, 1.0],
+            uv: [(x * half) as f32, (y * half) as f32],
+            light: [1.0, 0.02],
+            material: Material::Pad as u32,
+            tint: [255; 4],
+            aux: 0.0,
+        });
+    }
+    mesh.indices.extend([0, 1, 2, 0, 2, 3]);
+    mesh
+}

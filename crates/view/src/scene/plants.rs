@@ -1,0 +1,237 @@
+//! Conifers and boulders for scale. They stand where nobody flies a task: clear of bridges, task paths and pad, since nothing collides with
+//! them.
+
+use super::super::mesh::{Finish, Material, Mesh, Vertex};
+use super::super::quality::Quality;
+use super::{Instance, Part, Seen};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::{Scenario, TerrainSource};
+use spandrel_model::site::Site;
+
+/// From every member, m (a tree's crown and the room to fly around a bridge).
+const CLEAR_BRIDGE_M: f64 = 14.0;
+/// From every point of a task's path, m.
+const CLEAR_PATH_M: f64 = 16.0;
+/// From the pad, m.
+const CLEAR_PAD_M: f64 = 26.0;
+/// Trees stand at least this high over the water, m.
+const DRY_M: f64 = 2.2;
+/// And on ground no steeper than this (the normal's rise).
+const STEEP: f64 = 0.72;
+/// Where triangles are saved the lake mirrors trees no farther than this, m (there one is three pixels of its mirror).
+const MIRRORED_M: f64 = 160.0;
+/// And boulders end here, m: the largest are three pixels of a view 640 px and 84 degrees wide, most are one.
+const BOULDERS_M: f64 = 150.0;
+/// And trees have fewer boughs from here on, m: the tallest are 25 pixels high. Both kinds stand where one goes over into the other.
+const FAR_M: f64 = 220.0;
+const OVERLAP_M: f64 = 5.0;
+/// Side of the patches in which trees stand together, m.
+const GROVE_M: f64 = 55.0;
+
+const NEEDLES: Finish = Finish::new(Material::Foliage, [17, 30, 15]);
+const BARK: Finish = Finish::new(Material::Bark, [42, 30, 22]);
+const STONE: Finish = Finish::new(Material::Rock, [74, 70, 64]);
+
+/// Trees and boulders of a site; their places come from the terrain's own seed.
+pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<Part> {
+    let seed = match &scenario.terrain.source {
+        TerrainSource::Valley { seed, .. } => *seed,
+        TerrainSource::Flat { .. } | TerrainSource::File { .. } => 1,
+    };
+    let mut stream = RandomStream::new(seed, "view.plants");
+    let (mut tall, mut slim, mut rocks) = (Vec::new(), Vec::new(), Vec::new());
+    let half = 0.49 * scenario.terrain.size_m;
+    for _ in 0..40 * quality.trees {
+        if tall.len() + slim.len() >= quality.trees {
+            break;
+        }
+        let (east, north) = (stream.range(-half, half), stream.range(-half, half));
+        let (size, turn, kind) = (stream.range(6.0, 15.0), stream.range(0.0, math::TAU), stream.uniform());
+        if stream.uniform() > grove(east, north) {
+            continue;
+        }
+        let Some(foot) = room(scenario, site, east, north, DRY_M) else { continue };
+        let list = if kind < 0.5 { &mut tall } else { &mut slim };
+        list.push(grown(foot, size, turn));
+    }
+    for _ in 0..20 * quality.trees {
+        if rocks.len() >= quality.trees / 2 {
+            break;
+        }
+        let (east, north) = (stream.range(-half, half), stream.range(-half, half));
+        let (size, turn) = (0.25 + 1.1 * stream.uniform() * stream.uniform(), stream.range(0.0, math::TAU));
+        let shore = site.ground_up_m(east, north) - scenario.terrain.water_level_m;
+        if !(-0.5..2.5).contains(&shore) {
+            continue;
+        }
+        let Some(foot) = room(scenario, site, east, north, -0.5) else { continue };
+        rocks.push(grown(foot, size, turn));
+    }
+    let on_shore =
+        if quality.sparse { Seen { straight_m: Seen::within(BOULDERS_M), ..Seen::STRAIGHT } } else { Seen::EVERYWHERE };
+    let (spruce, fir) = (conifer(0.21, 5, quality.boughs), conifer(0.15, 6, quality.boughs));
+    let copies = |name, mesh, instances, seen| Part { name, mesh, instances, casts: true, seen, backdrop: false };
+    let boulders = copies("boulders", boulder(quality.boughs), rocks, on_shore);
+    if quality.sparse {
+        // Software draws copies one by one: a wood in one piece takes less.
+        let wood = |spruce: &Mesh, fir: &Mesh| {
+            let mut wood = stamped(spruce, &tall);
+            wood.append(&stamped(fir, &slim));
+            wood
+        };
+        let near = Seen { straight_m: Seen::within(FAR_M + OVERLAP_M), in_lake_m: Seen::within(MIRRORED_M) };
+        let far = Seen { straight_m: Seen::beyond(FAR_M), ..Seen::STRAIGHT };
+        return vec![
+            Part { seen: near, ..Part::here("trees", wood(&spruce, &fir), true) },
+            Part { seen: far, ..Part::here("trees far away", wood(&distant(0.21), &distant(0.15)), false) },
+            boulders,
+        ];
+    }
+    vec![copies("spruces", spruce, tall, Seen::EVERYWHERE), copies("firs", fir, slim, Seen::EVERYWHERE), boulders]
+}
+
+/// How likely a tree is here: groves and clearings.
+fn grove(east: f64, north: f64) -> f64 {
+    let wave = math::sin(east / GROVE_M + 1.3 * math::sin(north / (1.4 * GROVE_M))) * math::cos(north / GROVE_M - 0.5);
+    (0.25 + 0.75 * wave).clamp(0.03, 1.0)
+}
+
+/// The ground at a place with room for a plant.
+fn room(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f64) -> Option<Vec3<Enu>> {
+    let (up, normal) = site.geometry().terrain.ground.ground(east, north);
+    let at = Vec3::new(east, north, up);
+    let fits = up - scenario.terrain.water_level_m >= over_water_m && normal.up() >= STEEP;
+    let clear = |p: &Vec3<Enu>, room_m: f64| math::hypot(p.east() - east, p.north() - north) >= room_m;
+    let team = &scenario.ground_team;
+    let from_team = clear(&team.pad_m, CLEAR_PAD_M) && clear(&team.truck_m, 12.0) && clear(&team.inspector_m, 12.0);
+    let from_paths = || scenario.tasks.iter().flat_map(|t| t.path_m.iter().step_by(4)).all(|p| clear(p, CLEAR_PATH_M));
+    let from_bridges = || {
+        let lifted = Vec3::new(east, north, up + 5.0);
+        site.geometry().nearest_member(lifted, CLEAR_BRIDGE_M).is_none() && !roofed(scenario, at)
+    };
+    (fits && from_team && from_paths() && from_bridges()).then_some(at)
+}
+
+/// Under or beside a deck, or on its approach.
+fn roofed(scenario: &Scenario, at: Vec3<Enu>) -> bool {
+    scenario.bridges.iter().any(|bridge| {
+        let [x, y, _] = bridge.placement().local(at);
+        y.abs() < 0.5 * bridge.deck_width_m() + 9.0 && x.abs() < 0.5 * bridge.deck_length_m() + 90.0
+    })
+}
+
+fn grown(foot: Vec3<Enu>, size: f64, turn: f64) -> Instance {
+    let (s, c) = math::sin_cos(turn);
+    let axes = [Vec3::new(c, s, 0.0) * size, Vec3::new(-s, c, 0.0) * size, Vec3::new(0.0, 0.0, size)];
+    Instance::placed(foot, axes, [0.8, 0.02, 0.25, 0.06])
+}
+
+/// A conifer of height 1: whorls of drooping boughs with a ragged rim.
+fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
+    // Fewer boughs stand in fewer whorls.
+    let whorls = if boughs < 8 { whorls - 2 } else { whorls };
+    let mut mesh = Mesh::default();
+    if boughs < 8 {
+        trunk(&mut mesh);
+    } else {
+        mesh.round((Vec3::new(0.0, 0.0, -0.05), 0.018), (Vec3::new(0.0, 0.0, 0.3), 0.012), 5, BARK);
+    }
+    for whorl in 0..whorls {
+        let share = f64::from(whorl) / f64::from(whorls);
+        let low = 0.10 + 0.80 * share;
+        let high = (low + 0.34 * (1.0 - 0.45 * share)).min(1.0);
+        let wide = radius * (1.0 - 0.82 * share);
+        let rim = |k: u32| {
+            let (s, c) = math::sin_cos(math::TAU * (f64::from(k % boughs) + 0.37 * f64::from(whorl)) / f64::from(boughs));
+            // Boughs stick out by turns.
+            let (ragged, droop) = if (k % boughs).is_multiple_of(2) { (1.0, -0.035) } else { (0.68, 0.01) };
+            Vec3::new(wide * ragged * c, wide * ragged * s, low + droop)
+        };
+        let top = Vec3::new(0.0, 0.0, high);
+        if boughs < 8 {
+            cone(&mut mesh, &(0..boughs).map(rim).collect::<Vec<_>>(), top);
+            continue;
+        }
+        let hollow = Vec3::new(0.0, 0.0, low + 0.05);
+        for k in 0..boughs {
+            mesh.polygon(&[rim(k), rim(k + 1), top], NEEDLES);
+            mesh.polygon(&[rim(k + 1), rim(k), hollow], NEEDLES);
+        }
+    }
+    soften(&mut mesh);
+    mesh
+}
+
+/// A conifer of height 1 as it looks from afar: two whorls of four boughs.
+fn distant(radius: f64) -> Mesh {
+    const WHORLS: [(f64, f64, f64); 2] = [(0.08, 0.62, 1.0), (0.40, 1.0, 0.62)];
+    let mut mesh = Mesh::default();
+    for (low, high, share) in WHORLS {
+        let rim = |k: u32| {
+            let (s, c) = math::sin_cos(math::TAU * (f64::from(k) + low) / 4.0);
+            Vec3::new(0.85 * radius * share * c, 0.85 * radius * share * s, low)
+        };
+        cone(&mut mesh, &(0..4).map(rim).collect::<Vec<_>>(), Vec3::new(0.0, 0.0, high));
+    }
+    soften(&mut mesh);
+    mesh
+}
+
+/// A whorl whose faces share their corners: a third of the corners of separate faces.
+fn cone(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
+    let (first, count) = (mesh.vertices.len() as u32, rim.len() as u32);
+    mesh.polygon(rim, NEEDLES);
+    mesh.indices.truncate(mesh.indices.len() - 3 * (rim.len() - 2));
+    for (corner, at) in mesh.vertices.iter_mut().skip(first as usize).zip(rim) {
+        corner.normal = super::single((Vec3::new(at.east(), at.north(), 0.0).unit() + Vec3::new(0.0, 0.0, 0.35)).unit());
+    }
+    let Some(apex) =
+        mesh.vertices.last().map(|corner| Vertex { position: super::single(top), normal: [0.0, 0.0, 1.0], ..*corner })
+    else {
+        return;
+    };
+    mesh.vertices.push(apex);
+    mesh.indices.extend((0..count).flat_map(|k| [first + k, first + (k + 1) % count, first + count]));
+}
+
+/// A trunk of three faces.
+fn trunk(mesh: &mut Mesh) {
+    let foot = |k: u32| {
+        let (s, c) = math::sin_cos(math::TAU * f64::from(k) / 3.0);
+        Vec3::new(0.022 * c, 0.022 * s, -0.05)
+    };
+    for k in 0..3 {
+        mesh.polygon(&[foot(k), foot(k + 1), Vec3::new(0.0, 0.0, 0.5)], BARK);
+    }
+}
+
+/// All copies as one mesh where they stand, with their light.
+fn stamped(mesh: &Mesh, copies: &[Instance]) -> Mesh {
+    let mut all = Mesh::default();
+    for copy in copies {
+        let first = all.vertices.len() as u32;
+        all.vertices.extend(mesh.vertices.iter().map(|v| copy.applied(v)));
+        all.indices.extend(mesh.indices.iter().map(|k| first + k));
+    }
+    all
+}
+
+/// Needles scatter light: normals lean outward and up, and the inside is darker.
+fn soften(mesh: &mut Mesh) {
+    for v in &mut mesh.vertices {
+        let [x, y, z] = v.position.map(f64::from);
+        let out = Vec3::<Enu>::new(x, y, 0.12 + 0.1 * z);
+        let [nx, ny, nz] = v.normal.map(f64::from);
+        v.normal = super::single((Vec3::new(nx, ny, nz) + out.unit() * 0.8).unit());
+        let reach = (math::hypot(x, y) / 0.16).min(1.0) as f32;
+        v.light = [0.35 + 0.65 * reach, 1.0];
+    }
+}
+
+fn boulder(sides: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    mesh.ball_of((sides.min(8), sides + 1), Vec3::new(0.0, 0.0, 0.15), [0.62, 0.5, 0.42], 0.35, STONE);
+    mesh
+}

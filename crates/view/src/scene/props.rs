@@ -1,0 +1,189 @@
+//! Cars, lorries and people, each within the boxes that collide (`site::movers`): x forward, y left, z up from the feet.
+
+use super::super::mesh::{Finish, Material, Mesh};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::movers::Kind;
+
+const PAINT: Finish = Finish::new(Material::Paint, [120, 120, 120]);
+const GLASS: Finish = Finish::new(Material::Glass, [6, 8, 10]);
+const TYRE: Finish = Finish::new(Material::Rubber, [6, 6, 6]);
+const RIM: Finish = Finish::new(Material::Enamel, [90, 90, 92]);
+const DARK: Finish = Finish::new(Material::Rubber, [12, 12, 13]);
+const LAMP: Finish = Finish::new(Material::Glass, [200, 200, 190]);
+const TAIL: Finish = Finish::new(Material::Glass, [120, 6, 4]);
+const BOX: Finish = Finish::new(Material::Enamel, [150, 150, 146]);
+const SKIN: Finish = Finish::new(Material::Cloth, [120, 72, 50]);
+const TROUSERS: Finish = Finish::new(Material::Cloth, [16, 20, 34]);
+const HAIR: Finish = Finish::new(Material::Cloth, [22, 14, 8]);
+
+/// Colours of cars as they stand on car parks, linear.
+const CARS: [[f32; 3]; 8] = [
+    [0.62, 0.62, 0.60],
+    [0.02, 0.02, 0.022],
+    [0.19, 0.20, 0.21],
+    [0.32, 0.33, 0.34],
+    [0.30, 0.015, 0.012],
+    [0.012, 0.045, 0.16],
+    [0.55, 0.54, 0.50],
+    [0.03, 0.09, 0.05],
+];
+/// Cabs of lorries.
+const CABS: [[f32; 3]; 4] = [[0.45, 0.02, 0.015], [0.02, 0.08, 0.28], [0.6, 0.6, 0.58], [0.55, 0.25, 0.02]];
+/// Jackets.
+const JACKETS: [[f32; 3]; 6] =
+    [[0.35, 0.03, 0.03], [0.03, 0.07, 0.25], [0.4, 0.3, 0.05], [0.05, 0.2, 0.08], [0.3, 0.3, 0.3], [0.25, 0.05, 0.2]];
+/// The inspector's high-visibility vest.
+pub const VEST: [f32; 3] = [0.85, 0.28, 0.01];
+/// The crew's truck: white with a company's blue would need letters; safety yellow is seen from afar.
+pub const CREW_TRUCK: [f32; 3] = [0.75, 0.48, 0.03];
+
+/// The colour of the k-th mover.
+pub fn colour(kind: Kind, k: usize) -> [f32; 3] {
+    let pick = k.wrapping_mul(7) + 3;
+    match kind {
+        Kind::Car => CARS[pick % CARS.len()],
+        Kind::Truck => CABS[pick % CABS.len()],
+        Kind::Pedestrian => JACKETS[pick % JACKETS.len()],
+    }
+}
+
+/// How round wheels and limbs are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rounds {
+    /// As round as they look from a step away.
+    Fine,
+    /// As round as they look across a road: with half the sides.
+    Plain,
+}
+
+impl Rounds {
+    /// Sides of what has so many at its finest.
+    fn sides(self, finest: u32) -> u32 {
+        match self {
+            Self::Fine => finest,
+            Self::Plain => finest.div_ceil(2).max(4),
+        }
+    }
+
+    /// Rings and sides of a ball.
+    fn ball(self) -> (u32, u32) {
+        match self {
+            Self::Fine => (8, 12),
+            Self::Plain => (4, 6),
+        }
+    }
+}
+
+fn p(x: f64, y: f64, z: f64) -> Vec3<Enu> {
+    Vec3::new(x, y, z)
+}
+
+fn wheel(mesh: &mut Mesh, x: f64, y: f64, (radius, width): (f64, f64), rounds: Rounds) {
+    let side = y.signum();
+    mesh.round((p(x, y - side * width, radius), radius), (p(x, y, radius), radius), rounds.sides(14), TYRE);
+    mesh.round((p(x, y, radius), 0.62 * radius), (p(x, y + side * 0.015, radius), 0.55 * radius), rounds.sides(12), RIM);
+}
+
+/// A family car, 4.5 m long.
+pub fn car(rounds: Rounds) -> Mesh {
+    let mut mesh = Mesh::default();
+    // Sills, waist, bonnet and boot.
+    mesh.block([-2.2, -0.86, 0.22], [2.2, 0.86, 0.55], [0.0, 0.0, -0.03], PAINT);
+    mesh.block([-2.22, -0.89, 0.55], [2.22, 0.89, 0.86], [0.25, 0.10, 0.07], PAINT);
+    mesh.block([0.85, -0.80, 0.84], [2.02, 0.80, 0.94], [0.55, 0.0, 0.06], PAINT);
+    // Windows all around under the roof.
+    mesh.block([-1.75, -0.80, 0.84], [1.02, 0.80, 1.36], [0.75, 0.55, 0.17], GLASS);
+    mesh.block([-1.22, -0.64, 1.35], [0.30, 0.64, 1.45], [0.12, 0.12, 0.10], PAINT);
+    // Pillars between the windows.
+    mesh.block([-0.40, -0.81, 0.84], [-0.30, 0.81, 1.37], [0.0, 0.0, 0.17], PAINT);
+    for x in [1.38, -1.38] {
+        for y in [0.88, -0.88] {
+            wheel(&mut mesh, x, y, (0.33, 0.22), rounds);
+        }
+    }
+    for y in [0.62, -0.62] {
+        mesh.block([2.16, y - 0.18, 0.62], [2.235, y + 0.18, 0.76], [0.0; 3], LAMP);
+        mesh.block([-2.235, y - 0.18, 0.66], [-2.16, y + 0.18, 0.80], [0.0; 3], TAIL);
+    }
+    mesh.block([2.17, -0.5, 0.36], [2.24, 0.5, 0.50], [0.0; 3], DARK);
+    mesh.block([-2.24, -0.26, 0.46], [-2.19, 0.26, 0.57], [0.0; 3], BOX);
+    mesh
+}
+
+/// A lorry, 10 m long: a cab and a box body.
+pub fn truck(rounds: Rounds) -> Mesh {
+    let mut mesh = Mesh::default();
+    mesh.block([-5.0, -0.45, 0.55], [4.6, 0.45, 0.85], [0.0; 3], DARK);
+    // Cab with a raked windscreen.
+    mesh.block([2.9, -1.18, 0.55], [4.95, 1.18, 1.55], [0.02, 0.0, 0.0], PAINT);
+    mesh.block([2.9, -1.18, 1.55], [4.93, 1.18, 2.55], [0.28, 0.0, 0.08], PAINT);
+    mesh.block([3.05, -1.12, 2.55], [4.55, 1.12, 2.78], [0.35, 0.1, 0.12], PAINT);
+    mesh.block([4.62, -1.04, 1.62], [4.95, 1.04, 2.40], [0.235, 0.0, 0.06], GLASS);
+    mesh.block([3.55, -1.195, 1.66], [4.35, 1.195, 2.30], [0.14, 0.0, 0.06], GLASS);
+    mesh.block([4.9, -0.8, 0.75], [4.99, 0.8, 1.25], [0.0; 3], DARK);
+    for y in [0.92, -0.92] {
+        mesh.block([4.9, y - 0.17, 0.72], [4.985, y + 0.17, 0.92], [0.0; 3], LAMP);
+        mesh.block([-5.0, y - 0.15, 0.72], [-4.96, y + 0.15, 0.86], [0.0; 3], TAIL);
+    }
+    // Box body with a ribbed frame, and the gap and bars of its doors. No two faces lie in one plane: they would flicker.
+    mesh.block([-4.98, -1.22, 0.95], [2.56, 1.22, 3.46], [0.0; 3], BOX);
+    mesh.block([-5.0, -1.25, 0.88], [2.58, 1.25, 1.02], [0.0; 3], DARK);
+    for x in [-4.92, -2.45, 0.05, 2.5] {
+        mesh.block([x - 0.05, -1.245, 0.95], [x + 0.05, 1.245, 3.5], [0.0; 3], DARK);
+    }
+    mesh.block([-4.99, -0.012, 1.02], [-4.97, 0.012, 3.44], [0.0; 3], DARK);
+    for y in [0.35, -0.35] {
+        mesh.block([-5.0, y - 0.02, 1.10], [-4.97, y + 0.02, 3.38], [0.0; 3], RIM);
+    }
+    for x in [3.85, -2.35, -3.5] {
+        for y in [1.2, -1.2] {
+            wheel(&mut mesh, x, y, (0.5, 0.3), rounds);
+        }
+    }
+    mesh
+}
+
+/// A person, 1.75 m tall, standing.
+pub fn person(rounds: Rounds) -> Mesh {
+    let mut mesh = Mesh::default();
+    for y in [0.09, -0.09] {
+        mesh.round((p(0.02, y, 0.06), 0.055), (p(0.0, y, 0.48), 0.07), rounds.sides(8), TROUSERS);
+        mesh.round((p(0.0, y, 0.48), 0.07), (p(0.0, y, 0.88), 0.09), rounds.sides(8), TROUSERS);
+        mesh.block([-0.08, y - 0.05, 0.0], [0.18, y + 0.05, 0.09], [0.08, 0.0, 0.01], DARK);
+    }
+    for y in [0.225, -0.225] {
+        mesh.round((p(0.04, y * 1.02, 0.82), 0.035), (p(0.0, y * 0.96, 1.12), 0.045), rounds.sides(7), PAINT);
+        mesh.round((p(0.0, y * 0.96, 1.12), 0.045), (p(0.0, y * 0.88, 1.42), 0.055), rounds.sides(7), PAINT);
+        mesh.ball_of(rounds.ball(), p(0.05, y * 1.03, 0.78), [0.04, 0.03, 0.05], 0.0, SKIN);
+    }
+    mesh.block([-0.11, -0.17, 0.84], [0.11, 0.17, 1.46], [0.02, 0.02, -0.03], PAINT);
+    mesh.round((p(0.0, 0.0, 1.44), 0.055), (p(0.0, 0.0, 1.54), 0.05), rounds.sides(8), SKIN);
+    mesh.ball_of(rounds.ball(), p(0.01, 0.0, 1.62), [0.095, 0.08, 0.115], 0.0, SKIN);
+    mesh.ball_of(rounds.ball(), p(-0.015, 0.0, 1.665), [0.098, 0.086, 0.085], 0.0, HAIR);
+    mesh
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is drawn keeps within this of what collides, m.
+    const SLACK_M: f64 = 0.03;
+
+    #[test]
+    fn exact_what_is_drawn_lies_within_what_collides() {
+        for (mesh, kind, half_width, height) in [
+            (car(Rounds::Fine), Kind::Car, 0.9, 1.5),
+            (truck(Rounds::Fine), Kind::Truck, 1.25, 3.5),
+            (person(Rounds::Fine), Kind::Pedestrian, 0.29, 1.78),
+            (person(Rounds::Plain), Kind::Pedestrian, 0.29, 1.78),
+        ] {
+            let half_length = kind.half_length_m();
+            for v in &mesh.vertices {
+                let [x, y, z] = v.position.map(f64::from);
+                assert!(x.abs() <= half_length + SLACK_M && y.abs() <= half_width + SLACK_M, "{kind:?} {:?}", v.position);
+                assert!((-SLACK_M..=height + SLACK_M).contains(&z), "{kind:?} {:?}", v.position);
+            }
+        }
+    }
+}

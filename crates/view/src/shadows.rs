@@ -1,0 +1,79 @@
+//! Where shadow maps look: the sun's, over the whole site or in steps ahead of the eye, and the lamp's.
+
+use super::camera::Eye;
+use super::matrix::Matrix;
+use super::quality::Quality;
+use super::shot::Beam;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+
+/// Mountains and bridges this far towards the sun still throw shadows into a map, m.
+const TOWARDS_M: f64 = 700.0;
+/// And this far beyond its middle they receive them, m.
+const BEYOND_M: f64 = 400.0;
+/// Radii of the maps that follow the eye, m, by their number.
+const RADII_3: [f64; 3] = [16.0, 80.0, 380.0];
+const RADII_4: [f64; 4] = [10.0, 38.0, 130.0, 440.0];
+/// The lamp's map begins in front of the aircraft's own parts, m.
+const LAMP_NEAR_M: f64 = 0.35;
+/// The lamp's map is this much wider than its beam.
+const LAMP_MARGIN: f64 = 1.08;
+
+/// One map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Map {
+    /// World to clip space.
+    pub projection: Matrix,
+    /// Size of a texel, m (of the lamp's: at 1 m).
+    pub texel_m: f64,
+}
+
+/// Maps of the sun, finest first.
+#[must_use]
+pub fn sun_maps(quality: &Quality, eye: &Eye, bounds_m: (Vec3<Enu>, f64), sun: Vec3<Enu>) -> Vec<Map> {
+    let ahead = |radius: f64| sun_map(eye.position_m + eye.forward * (0.75 * radius), radius, quality.shadow_px, sun);
+    match quality.cascades {
+        0 | 1 => vec![sun_map(bounds_m.0, bounds_m.1, quality.shadow_px, sun)],
+        2 | 3 => RADII_3.iter().map(|r| ahead(*r)).collect(),
+        _ => RADII_4.iter().map(|r| ahead(*r)).collect(),
+    }
+}
+
+fn sun_map(centre_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> Map {
+    let helper = if sun.up().abs() < 0.95 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(0.0, 1.0, 0.0) };
+    let right = helper.cross(sun).unit();
+    let up = sun.cross(right);
+    let texel_m = 2.0 * radius_m / f64::from(side_px);
+    // Whole texels only: shadows' edges do not crawl when the eye moves.
+    let snap = |x: f64| (x / texel_m).round() * texel_m;
+    let (x, y) = (snap(centre_m.dot(right)), snap(centre_m.dot(up)));
+    let middle = right * x + up * y + sun * centre_m.dot(sun);
+    let projection = Matrix::box_of(radius_m, -TOWARDS_M, BEYOND_M).after(&Matrix::view(middle, right, up, sun));
+    Map { projection, texel_m }
+}
+
+/// The lamp's map.
+#[must_use]
+pub fn lamp_map(beam: &Beam, side_px: u32) -> Map {
+    let half = math::tan(beam.half_rad) * LAMP_MARGIN;
+    let up = beam.right.cross(beam.forward);
+    let view = Matrix::view(beam.position_m, beam.right, up, -beam.forward);
+    Map { projection: Matrix::perspective(half, half, LAMP_NEAR_M).after(&view), texel_m: 2.0 * half / f64::from(side_px) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_what_is_nearer_to_the_sun_is_nearer_in_the_map() {
+        let sun = Vec3::new(0.6, 0.0, 0.8);
+        let map = sun_map(Vec3::new(10.0, 20.0, 30.0), 50.0, 1024, sun);
+        let low = map.projection.apply(Vec3::new(10.0, 20.0, 30.0));
+        let high = map.projection.apply(Vec3::new(10.0, 20.0, 30.0) + sun * 25.0);
+        assert!(high[2] > low[2] && low[2] > 0.0 && high[2] < 1.0);
+        // Both on one ray of the sun: the same texel.
+        assert!((high[0] - low[0]).abs() < 1e-9 && (high[1] - low[1]).abs() < 1e-9);
+        assert!(low[0].abs() < 2.0 / 1024.0 && low[1].abs() < 2.0 / 1024.0, "in the middle, to the texel");
+    }
+}

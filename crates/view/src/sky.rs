@@ -1,0 +1,140 @@
+//! The sky as it looks: how bright and of which colour in every direction, scaled so that its horizontal illuminance is the one that the
+//! measures use. The shader `sky.wgsl` holds the same function; the clouds that it draws are to be looked at and light nothing.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::site::light::Daylight;
+
+/// Colour with luminance 1 of the clear sky's zenith (estimate: about 15,000 K).
+const ZENITH: [f64; 3] = [0.62, 0.97, 2.0];
+/// Of its horizon (estimate: about 8,000 K).
+const HORIZON: [f64; 3] = [0.94, 0.995, 1.24];
+/// Of clouds (estimate: about 6,500 K).
+const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
+/// Optical depths of the clear air for red, green and blue light, per air mass (Rayleigh's inverse fourth power with a little haze;
+/// estimate).
+const AIR: [f64; 3] = [0.07, 0.12, 0.24];
+
+/// Share of the shade's blue that a camera's white balance takes out (estimate).
+const BALANCE: f64 = 0.55;
+
+/// What the shaders need of the day.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sky {
+    /// Towards the sun.
+    pub sun: Vec3<Enu>,
+    /// Sun on a surface that faces it, lx.
+    pub direct_lux: f64,
+    /// Its colour, luminance 1.
+    pub sun_rgb: [f64; 3],
+    /// Horizontal illuminance of the sky, lx.
+    pub sky_lux: f64,
+    /// Colour of the whole sky's light, luminance 1.
+    pub sky_rgb: [f64; 3],
+    /// Share under cloud.
+    pub cloud: f64,
+    /// Factor on [`relative`], so that the hemisphere gives `sky_lux`: π times luminance, lx.
+    pub scale: f64,
+}
+
+/// Luminance of an RGB colour (ITU-R BT.709).
+#[must_use]
+pub fn luminance(rgb: [f64; 3]) -> f64 {
+    0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
+}
+
+fn coloured(rgb: [f64; 3], luminance_is: f64) -> [f64; 3] {
+    let k = luminance_is / luminance(rgb);
+    rgb.map(|c| c * k)
+}
+
+/// The sky's relative radiance towards a direction that looks up.
+#[must_use]
+pub fn relative(direction: Vec3<Enu>, sun: Vec3<Enu>, cloud: f64) -> [f64; 3] {
+    let up = direction.up().clamp(0.0, 1.0);
+    let fall = math::pow(1.0 - up, 4.0);
+    let towards = direction.dot(sun).clamp(-1.0, 1.0);
+    let angle = math::acos(towards);
+    // Brighter at the horizon and around the sun, as CIE's clear sky is (general shape; estimate).
+    let glow = 1.0 + 2.2 * math::exp(-3.2 * angle) + 5.0 * math::exp(-22.0 * angle);
+    let clear = (0.32 + 0.68 * fall) * glow;
+    // CIE overcast sky: three times as bright overhead as at the horizon.
+    let grey = (1.0 + 2.0 * up) / 3.0;
+    [0, 1, 2].map(|k| math::lerp(clear * math::lerp(ZENITH[k], HORIZON[k], fall), grey * CLOUD[k], cloud))
+}
+
+impl Sky {
+    /// The sky of a day under a share of clouds.
+    #[must_use]
+    pub fn new(day: &Daylight, cloud: f64) -> Self {
+        const BANDS: u32 = 16;
+        const TURNS: u32 = 32;
+        let mut sum = [0.0; 3];
+        // Equal shares of cos θ dω: the horizontal illuminance is the mean of π L over them.
+        for band in 0..BANDS {
+            let up = ((f64::from(band) + 0.5) / f64::from(BANDS)).sqrt();
+            let out = (1.0 - up * up).sqrt();
+            for turn in 0..TURNS {
+                let (s, c) = math::sin_cos(math::TAU * (f64::from(turn) + 0.5) / f64::from(TURNS));
+                let rgb = relative(Vec3::new(out * s, out * c, up), day.sun, cloud);
+                sum = [0, 1, 2].map(|k| sum[k] + rgb[k] / f64::from(BANDS * TURNS));
+            }
+        }
+        let elevation_deg = math::asin(day.sun.up()).to_degrees().max(0.0);
+        let mass = 1.0 / (day.sun.up().max(0.0) + 0.505_72 * math::pow(elevation_deg + 6.079_95, -1.6364));
+        Self {
+            sun: day.sun,
+            direct_lux: day.direct_normal_lux,
+            sun_rgb: coloured(AIR.map(|depth| math::exp(-depth * mass)), 1.0),
+            sky_lux: day.sky_lux,
+            sky_rgb: coloured(sum, 1.0).map(|c| math::lerp(c, 1.0, BALANCE)),
+            cloud,
+            scale: day.sky_lux / luminance(sum),
+        }
+    }
+
+    /// π times the luminance towards a direction, lx.
+    #[must_use]
+    pub fn seen_lux(&self, direction: Vec3<Enu>) -> f64 {
+        self.scale * luminance(relative(direction, self.sun, self.cloud))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_sky_gives_the_illuminance_of_the_measures() {
+        // A quadrature of 20,000 directions of its own against the one inside; per cent of the coarse one.
+        const TOLERANCE: f64 = 0.02;
+        for (up, cloud) in [(0.9, 0.0), (0.2, 0.3), (0.5, 1.0)] {
+            let sun = Vec3::new((1.0_f64 - up * up).sqrt(), 0.0, up);
+            let sky = Sky::new(&Daylight::at(sun, cloud), cloud);
+            let mut lux = 0.0;
+            let (bands, turns) = (100, 200);
+            for band in 0..bands {
+                let up = (f64::from(band) + 0.5) / f64::from(bands);
+                let out = (1.0 - up * up).sqrt();
+                for turn in 0..turns {
+                    let (s, c) = math::sin_cos(math::TAU * f64::from(turn) / f64::from(turns));
+                    // dω = dup dφ, and seen_lux is π L.
+                    let share = 2.0 / f64::from(bands * turns);
+                    lux += sky.seen_lux(Vec3::new(out * c, out * s, up)) * up * share;
+                }
+            }
+            assert!((lux / sky.sky_lux - 1.0).abs() < TOLERANCE, "{lux} against {}", sky.sky_lux);
+        }
+    }
+
+    #[test]
+    fn prop_the_clear_sky_is_blue_and_the_low_sun_red() {
+        let at = |up: f64| {
+            let sun = Vec3::new((1.0_f64 - up * up).sqrt(), 0.0, up);
+            Sky::new(&Daylight::at(sun, 0.0), 0.0)
+        };
+        assert!(at(0.8).sky_rgb[2] > 1.1 * at(0.8).sky_rgb[0]);
+        assert!(at(0.05).sun_rgb[0] > 2.0 * at(0.05).sun_rgb[2]);
+        assert!(at(0.8).sun_rgb[0] < 1.3 * at(0.8).sun_rgb[2]);
+    }
+}

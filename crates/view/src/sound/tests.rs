@@ -1,0 +1,132 @@
+//! Frequencies, levels, silence, and no clicks.
+
+use super::propellers::BLADES;
+use super::{Heard, RATE_HZ, Settings, Sound, spoken};
+use crate::hud::state::cue;
+use spandrel_model::math;
+use spandrel_model::random::RandomStream;
+
+fn heard(rad_s: f64, distance_m: f64, cues: i32) -> Heard {
+    Heard { rotors_rad_s: vec![rad_s; 4], distance_m, cues, silent: false }
+}
+
+/// So many seconds of a sound, after a second in which levels settle.
+fn played(sound: &mut Sound, heard: Heard, seconds: f64) -> Vec<f64> {
+    sound.set(heard);
+    let mut out = vec![0.0_f32; RATE_HZ as usize + (seconds * f64::from(RATE_HZ)) as usize];
+    sound.fill(&mut out);
+    out[RATE_HZ as usize..].iter().map(|sample| f64::from(*sample)).collect()
+}
+
+/// Amplitude of one frequency (a bin of the discrete Fourier transform).
+fn amplitude(samples: &[f64], hz: f64) -> f64 {
+    let step = math::TAU * hz / f64::from(RATE_HZ);
+    let (mut re, mut im) = (0.0, 0.0);
+    for (k, sample) in samples.iter().enumerate() {
+        let (s, c) = math::sin_cos(step * k as f64);
+        (re, im) = (re + sample * c, im + sample * s);
+    }
+    2.0 * math::hypot(re, im) / samples.len() as f64
+}
+
+fn only(propellers: bool, warnings: bool) -> Settings {
+    Settings { propellers, warnings, speech: false, volume: 1.0 }
+}
+
+#[test]
+fn exact_the_blades_frequency_and_its_harmonics_are_heard_and_nothing_between() {
+    // 120 turns a second: two blades pass 240 times.
+    let rad_s = 120.0 * math::TAU;
+    let samples = played(&mut Sound::new(only(true, true)), heard(rad_s, 1.0, 0), 1.0);
+    let first = amplitude(&samples, BLADES * 120.0);
+    assert!(first > 0.05, "{first}");
+    for (k, share) in [(2.0, 0.5), (3.0, 0.25)] {
+        let ratio = amplitude(&samples, k * BLADES * 120.0) / first;
+        assert!((ratio - share).abs() < 0.01, "harmonic {k}: {ratio}");
+    }
+    for hz in [120.0, 200.0, 350.0, 1_000.0] {
+        assert!(amplitude(&samples, hz) < 0.01 * first, "{hz} Hz");
+    }
+}
+
+#[test]
+fn exact_the_level_grows_with_the_square_of_speed_and_falls_with_distance() {
+    let level = |turns: f64, distance_m: f64| {
+        let samples = played(&mut Sound::new(only(true, true)), heard(turns * math::TAU, distance_m, 0), 1.0);
+        amplitude(&samples, BLADES * turns)
+    };
+    let near = level(80.0, 1.0);
+    assert!((level(160.0, 1.0) / near - 4.0).abs() < 0.05);
+    assert!((level(80.0, 30.0) / near - 0.5).abs() < 0.01, "15 m is full, 30 m half");
+    assert!((level(80.0, 10.0) / near - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn exact_each_warning_has_a_pitch_of_its_own_and_the_gravest_is_heard() {
+    let pitches = [220.0, 1_050.0, 700.0, 440.0, 330.0];
+    let cues = [cue::CRASH, cue::TOO_CLOSE, cue::SPEEDING, cue::OFF_PATH, cue::BATTERY_RED];
+    for (own, cue) in pitches.into_iter().zip(cues) {
+        let samples = played(&mut Sound::new(only(true, true)), heard(0.0, 1.0, cue), 6.0);
+        let loudest = pitches.into_iter().max_by(|a, b| amplitude(&samples, *a).total_cmp(&amplitude(&samples, *b)));
+        assert_eq!(loudest, Some(own), "cue {cue}");
+    }
+    let all = cues.into_iter().fold(0, |mask, cue| mask | cue);
+    let samples = played(&mut Sound::new(only(true, true)), heard(0.0, 1.0, all), 6.0);
+    assert!(amplitude(&samples, 220.0) > 10.0 * amplitude(&samples, 1_050.0), "a crash before all else");
+    assert_eq!(spoken(0, all), Some("Crash"));
+    assert_eq!(spoken(cue::SPEEDING, cue::SPEEDING | cue::OFF_PATH), Some("Off the path"));
+    assert_eq!(spoken(all, cue::SPEEDING), None);
+}
+
+#[test]
+fn exact_what_is_off_is_silent() {
+    let flying = heard(700.0, 5.0, cue::SPEEDING);
+    let peak = |settings: Settings, heard: Heard| {
+        played(&mut Sound::new(settings), heard, 1.0).into_iter().fold(0.0, |most: f64, sample| most.max(sample.abs()))
+    };
+    // What is left of a level a second after it was let go: exp(-50).
+    const REST: f64 = 1e-12;
+    assert!(peak(only(true, true), flying.clone()) > 0.1);
+    assert!(peak(only(false, false), flying.clone()) < REST);
+    assert!(peak(only(true, true), Heard { silent: true, ..flying.clone() }) < REST);
+    assert!(peak(Settings { volume: 0.0, ..only(true, true) }, flying) < REST);
+    assert!(peak(only(true, true), heard(0.0, 5.0, 0)) < REST, "standing propellers");
+}
+
+#[test]
+fn prop_whatever_is_heard_nothing_clips_and_nothing_clicks() {
+    // The steepest that steady parts can be: each at its full level with all its harmonics in step.
+    let top_hz = BLADES * 2.0 * 1_100.0 / math::TAU;
+    let harmonics: f64 = (1..=6).map(|k| f64::from(k) * math::pow(0.5, f64::from(k - 1))).sum::<f64>() / 1.968_75;
+    let slope = |amplitude: f64, hz: f64| amplitude * math::TAU * hz / f64::from(RATE_HZ);
+    // Edges of tones and levels add a little.
+    const MORE: f64 = 1.1;
+    let steepest = MORE * (slope(0.5 * harmonics, top_hz) + slope(0.45, 1_050.0) + 0.45 / (0.008 * f64::from(RATE_HZ)));
+    assert!(steepest < 0.5, "a click would be seen: {steepest}");
+    for seed in 0..20 {
+        let mut random = RandomStream::new(seed, "sound");
+        let mut sound = Sound::new(only(true, true));
+        let mut last = 0.0_f32;
+        for _ in 0..60 {
+            let mut any = |most: f64| most * random.uniform();
+            sound.set(Heard {
+                rotors_rad_s: (0..(any(9.0) as usize)).map(|_| any(4_000.0) - 500.0).collect(),
+                distance_m: any(300.0) - 10.0,
+                cues: any(64.0) as i32,
+                silent: any(1.0) < 0.2,
+            });
+            let mut out = vec![0.0_f32; 240 + any(2_000.0) as usize];
+            sound.fill(&mut out);
+            for sample in out {
+                assert!(sample.abs() <= 1.0, "seed {seed}: {sample}");
+                assert!(f64::from((sample - last).abs()) < steepest, "seed {seed}: a click of {}", (sample - last).abs());
+                last = sample;
+            }
+        }
+    }
+    let mut sound = Sound::new(only(true, true));
+    sound.set(Heard { rotors_rad_s: vec![f64::NAN, f64::INFINITY], distance_m: f64::NAN, ..Heard::default() });
+    let mut out = [0.0_f32; 480];
+    sound.fill(&mut out);
+    assert!(out.iter().all(|sample| sample.is_finite()));
+}

@@ -1,0 +1,63 @@
+//! Warnings as tones that are told apart by pitch and rhythm; the gravest one alone is heard.
+
+use super::RATE_HZ;
+use crate::hud::state::cue;
+use spandrel_model::math;
+
+/// A tone grows and falls within this, s: no click, and still a clear beginning.
+const EDGE_S: f64 = 0.008;
+
+/// A cue as a tone: pitch, Hz; on for so long of every period, s.
+struct Tone {
+    cue: i32,
+    hz: f64,
+    on_s: f64,
+    period_s: f64,
+    words: &'static str,
+}
+
+/// From the gravest to the mildest. Pitches and rhythms are estimates: a fifth or more apart, faster the more urgent (after the order of
+/// ISO 7731's and IEC 60601-1-8's bursts).
+const TONES: [Tone; 5] = [
+    Tone { cue: cue::CRASH, hz: 220.0, on_s: 0.35, period_s: 0.5, words: "Crash" },
+    Tone { cue: cue::TOO_CLOSE, hz: 1_050.0, on_s: 0.09, period_s: 0.18, words: "Too close" },
+    Tone { cue: cue::SPEEDING, hz: 700.0, on_s: 0.15, period_s: 0.6, words: "Too fast" },
+    Tone { cue: cue::OFF_PATH, hz: 440.0, on_s: 0.25, period_s: 1.2, words: "Off the path" },
+    Tone { cue: cue::BATTERY_RED, hz: 330.0, on_s: 0.4, period_s: 3.0, words: "Battery low" },
+];
+
+/// The words for what has come up since, the gravest alone.
+#[must_use]
+pub fn spoken(before: i32, now: i32) -> Option<&'static str> {
+    TONES.iter().find(|tone| now & !before & tone.cue != 0).map(|tone| tone.words)
+}
+
+/// One oscillator.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Warnings {
+    tone: Option<usize>,
+    clock_s: f64,
+    phase: f64,
+    gate: f64,
+}
+
+impl Warnings {
+    /// The next sample, within -1 and 1, while these cues are on.
+    pub fn next(&mut self, cues: i32) -> f64 {
+        let step_s = 1.0 / f64::from(RATE_HZ);
+        let wanted = TONES.iter().position(|tone| cues & tone.cue != 0);
+        // Another tone waits until this one has faded.
+        if wanted != self.tone && self.gate <= 0.0 {
+            (self.tone, self.clock_s) = (wanted, 0.0);
+        }
+        let Some(tone) = self.tone.map(|k| &TONES[k]) else { return 0.0 };
+        let sounds = wanted == self.tone && self.clock_s.rem_euclid(tone.period_s) < tone.on_s;
+        let way = if sounds { 1.0 } else { -1.0 };
+        self.gate = (self.gate + way * step_s / EDGE_S).clamp(0.0, 1.0);
+        self.clock_s += step_s;
+        self.phase = (self.phase + tone.hz * step_s).rem_euclid(1.0);
+        // A raised cosine has no corner at either end.
+        let level = 0.5 - 0.5 * math::cos(math::PI * self.gate);
+        level * math::sin(math::TAU * self.phase)
+    }
+}

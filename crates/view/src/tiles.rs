@@ -1,0 +1,182 @@
+//! Ready-made tiles for presets that save: slow patterns of ground and of concrete, several to one texture, so that one look shows what noise
+//! would take four or five for. They repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader `lean` reads them.
+
+use spandrel_model::random::RandomStream;
+
+/// Texels along a side.
+pub const SIDE: usize = 1024;
+/// Side of the ground's tile, m.
+pub const GROUND_M: f64 = 32.0;
+/// Side of the concrete's tile, m: whole boards, whole lengths of boards.
+pub const CONCRETE_M: f64 = 38.4;
+/// Boards of the formwork, m wide and long (as in the shader `surface`).
+const BOARD_M: (f64, f64) = (0.16, 2.4);
+/// Side of the squares of which a few hold a bird's splash, m (the shader takes 1.7; here a tile holds whole ones).
+const SPLASH_CELL_M: f64 = 1.6;
+/// Share of those squares, and a splash's radius, m.
+const SPLASHES: (f64, f64) = (0.07, 0.045);
+
+/// A tile and its means over larger and larger squares, finest first: side and four bytes for each texel.
+pub type Levels = Vec<(usize, Vec<u8>)>;
+
+/// One pattern over the tile, row by row.
+type Field = Vec<f32>;
+
+/// Noise with so many cells across and down in its first octave, each octave twice as fine and half as strong; about 0.5.
+fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u32) -> Field {
+    let mut field = vec![0.5; SIDE * SIDE];
+    for octave in 0..octaves {
+        let (columns, rows) = (columns << octave, rows << octave);
+        let lattice: Vec<f32> = (0..columns * rows).map(|_| stream.uniform() as f32 - 0.5).collect();
+        add(&mut field, &lattice, (columns, rows), 0.5 / f32::from(1u16 << octave));
+    }
+    field
+}
+
+/// Where texels lie between a lattice's corners: the corner before, the one behind, and how far between, smoothly.
+fn between(cells: usize) -> Vec<(usize, usize, f32)> {
+    let of = |k: usize| {
+        let at = k as f32 * cells as f32 / SIDE as f32;
+        let t = at - at.floor();
+        let cell = at as usize % cells;
+        (cell, (cell + 1) % cells, t * t * (3.0 - 2.0 * t))
+    };
+    (0..SIDE).map(of).collect()
+}
+
+fn add(field: &mut Field, lattice: &[f32], (columns, rows): (usize, usize), share: f32) {
+    let across = between(columns);
+    for ((above, below, t), line) in between(rows).into_iter().zip(field.chunks_exact_mut(SIDE)) {
+        let (above, below) = (&lattice[above * columns..][..columns], &lattice[below * columns..][..columns]);
+        let row: Vec<f32> = above.iter().zip(below).map(|(a, b)| share * (a + (b - a) * t)).collect();
+        for (texel, (left, right, t)) in line.iter_mut().zip(&across) {
+            *texel += row[*left] + (row[*right] - row[*left]) * t;
+        }
+    }
+}
+
+fn step(low: f32, high: f32, x: f32) -> f32 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Of the ground: patches two metres wide, blocks of rock, its beds, what is fine.
+#[must_use]
+pub fn ground() -> Levels {
+    let mut stream = RandomStream::new(0, "view.tiles.ground");
+    let (near, block) = (noise(&mut stream, (16, 16), 5), noise(&mut stream, (26, 26), 5));
+    let (straight, fine) = (noise(&mut stream, (4, 22), 4), noise(&mut stream, (128, 128), 3));
+    // Beds of rock waver by a metre or so.
+    let bed = |k: usize| {
+        let shift = (30.0 * (near[k] - 0.5)) as i64;
+        let row = ((k / SIDE) as i64 + shift).rem_euclid(SIDE as i64) as usize;
+        straight[row * SIDE + k % SIDE]
+    };
+    levels((0..SIDE * SIDE).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
+}
+
+/// Of concrete: its tone about 0.5 (blotches and boards), streaks of rain, soot, birds' splashes; the last three as shares.
+#[must_use]
+pub fn concrete() -> Levels {
+    let mut stream = RandomStream::new(0, "view.tiles.concrete");
+    let (blotch, streak) = (noise(&mut stream, (17, 17), 5), noise(&mut stream, (119, 9), 3));
+    let soot = noise(&mut stream, (7, 7), 5);
+    let (lengths, boards) = (whole(CONCRETE_M / BOARD_M.1), whole(CONCRETE_M / BOARD_M.0));
+    let board: Vec<f32> = (0..lengths * boards).map(|_| stream.uniform() as f32 - 0.5).collect();
+    let splashes = splashes(&mut stream);
+    let texel = |k: usize| {
+        let (x, row) = ((k % SIDE) as f64 / SIDE as f64, (k / SIDE) * boards / SIDE);
+        // Every other board is laid with its joints elsewhere.
+        let shift = if row % 2 == 1 { 0.37 } else { 0.0 };
+        let length = (x * lengths as f64 + shift) as usize % lengths;
+        let tone = 0.5 + 0.55 * (blotch[k] - 0.5) + 0.07 * board[row * lengths + length];
+        [tone, step(0.52, 0.78, streak[k]), step(0.6, 0.8, soot[k]), splashes[k]].map(byte)
+    };
+    levels((0..SIDE * SIDE).map(texel).collect())
+}
+
+fn whole(x: f64) -> usize {
+    x.round() as usize
+}
+
+/// White splashes, drawn out downwards.
+fn splashes(stream: &mut RandomStream) -> Field {
+    let mut field = vec![0.0; SIDE * SIDE];
+    let (cells, texel_m) = (whole(CONCRETE_M / SPLASH_CELL_M), CONCRETE_M / SIDE as f64);
+    for cell in 0..cells * cells {
+        let (lucky, at) = (stream.uniform() < SPLASHES.0, (0.3 + 0.4 * stream.uniform(), 0.3 + 0.4 * stream.uniform()));
+        let centre_m = (((cell % cells) as f64 + at.0) * SPLASH_CELL_M, ((cell / cells) as f64 + at.1) * SPLASH_CELL_M);
+        if !lucky {
+            continue;
+        }
+        let middle = (whole(centre_m.0 / texel_m), whole(centre_m.1 / texel_m));
+        for k in 0..16 * 16 {
+            let (x, y) = (middle.0 + k % 16 - 8, middle.1 + k / 16 - 8);
+            let (dx, dy) = (x as f64 * texel_m - centre_m.0, 0.45 * (y as f64 * texel_m - centre_m.1));
+            let d_m = (dx * dx + dy * dy).sqrt();
+            field[y % SIDE * SIDE + x % SIDE] = 1.0 - step(0.6, 1.4, (d_m / SPLASHES.1) as f32);
+        }
+    }
+    field
+}
+
+fn byte(x: f32) -> u8 {
+    (255.0 * x.clamp(0.0, 1.0)).round() as u8
+}
+
+fn levels(finest: Vec<[u8; 4]>) -> Levels {
+    let (mut side, mut texels, mut all) = (SIDE, finest, Vec::new());
+    loop {
+        all.push((side, texels.iter().flatten().copied().collect()));
+        if side == 1 {
+            return all;
+        }
+        let half = side / 2;
+        let mean = |k: usize| {
+            let corner = 2 * (k / half) * side + 2 * (k % half);
+            let four = [corner, corner + 1, corner + side, corner + side + 1];
+            [0, 1, 2, 3].map(|c| (four.iter().map(|k| u32::from(texels[*k][c])).sum::<u32>().div_ceil(4)) as u8)
+        };
+        texels = (0..half * half).map(mean).collect();
+        side = half;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Value of a channel at a texel of the finest level.
+    fn at(levels: &Levels, x: usize, y: usize, channel: usize) -> f64 {
+        f64::from(levels[0].1[4 * (y * SIDE + x) + channel]) / 255.0
+    }
+
+    #[test]
+    fn prop_tiles_repeat_without_a_seam_and_lie_about_their_mean() {
+        for (tile, patterns) in [(ground(), 4), (concrete(), 1)] {
+            assert_eq!(tile.iter().map(|level| level.0).collect::<Vec<_>>(), [1024, 512, 256, 128, 64, 32, 16, 8, 4, 2, 1]);
+            assert!(tile.iter().all(|(side, rgba)| rgba.len() == 4 * side * side));
+            for channel in 0..patterns {
+                let steps = |y: usize| (0..SIDE - 1).map(move |x| (x, y));
+                let step = |(x, y): (usize, usize)| (at(&tile, x + 1, y, channel) - at(&tile, x, y, channel)).abs();
+                let within = (0..SIDE).step_by(37).flat_map(steps).map(step).fold(0.0, f64::max);
+                for y in (0..SIDE).step_by(37) {
+                    let seam = (at(&tile, 0, y, channel) - at(&tile, SIDE - 1, y, channel)).abs();
+                    assert!(seam <= within, "channel {channel}, row {y}: {seam} over {within}");
+                }
+                let mean = f64::from(tile[10].1[channel]) / 255.0;
+                assert!((mean - 0.5).abs() < 0.06, "channel {channel}: {mean}");
+            }
+        }
+    }
+
+    #[test]
+    fn exact_splashes_are_few_and_small() {
+        let tile = concrete();
+        let cells = whole(CONCRETE_M / SPLASH_CELL_M);
+        let white = tile[0].1.chunks(4).filter(|texel| texel[3] > 127).count() as f64 / (SIDE * SIDE) as f64;
+        // An ellipse of 45 x 100 mm in some of the squares; chance gives or takes a third.
+        let expected = SPLASHES.0 * core::f64::consts::PI * SPLASHES.1 * SPLASHES.1 / 0.45 / (SPLASH_CELL_M * SPLASH_CELL_M);
+        assert!((white / expected - 1.0).abs() < 0.34, "{white} of the tile, {expected} expected from {} squares", cells * cells);
+    }
+}

@@ -1,0 +1,28 @@
+//! How many pictures a second go out.
+
+use spandrel_model::time::SimTime;
+use std::collections::VecDeque;
+
+/// The rate is a mean over this much wall time.
+const MEASURED_OVER: SimTime = SimTime::from_ms(2_000);
+
+/// Pictures a second, by when the last ones went out.
+#[derive(Debug, Clone, Default)]
+pub struct Rate(VecDeque<SimTime>);
+
+impl Rate {
+    /// A picture went out at a wall time.
+    pub fn count(&mut self, wall: SimTime) {
+        self.0.push_back(wall);
+        while self.0.len() > 2 && self.0.front().is_some_and(|first| wall.saturating_sub(*first) > MEASURED_OVER) {
+            self.0.pop_front();
+        }
+    }
+
+    /// Pictures a second, Hz; `None` before the second picture.
+    #[must_use]
+    pub fn hz(&self) -> Option<f64> {
+        let (first, last) = (self.0.front()?, self.0.back()?);
+        (last > first).then(|| (self.0.len() - 1) as f64 / (*last - *first).s())
+    }
+}

@@ -1,0 +1,101 @@
+//! Gamepads and transmitters over gilrs, by their raw axes: what a transmitter's axis means is the calibration's business.
+
+use crate::errors::AppError;
+use gilrs::{EventType, GamepadId, Gilrs, GilrsBuilder};
+use spandrel_clients::rc::{Device, Event};
+
+/// Linux packs the kind of an event above its number; this one is an absolute axis (linux/input-event-codes.h, EV_ABS).
+const ABSOLUTE: u32 = 3;
+
+/// A connected device.
+#[derive(Debug)]
+pub struct Gamepad {
+    system: Gilrs,
+    id: GamepadId,
+    device: Device,
+}
+
+fn system() -> Result<Gilrs, AppError> {
+    // No filters: dead bands and the like are the profile's. No mappings: raw axes.
+    let built = GilrsBuilder::new().with_default_filters(false).add_included_mappings(false).add_env_mappings(false).build();
+    built.map_err(|error| AppError::failed(format!("gamepads and transmitters cannot be read on this machine: {error}")))
+}
+
+fn describe(gamepad: gilrs::Gamepad) -> Device {
+    let id = match (gamepad.vendor_id(), gamepad.product_id()) {
+        (Some(vendor), Some(product)) => format!("{vendor:04x}:{product:04x}"),
+        _ => gamepad.uuid().iter().map(|byte| format!("{byte:02x}")).collect(),
+    };
+    Device { name: gamepad.os_name().to_owned(), id }
+}
+
+/// Waits for a device while there is none: the system is asked once and tells from then on.
+#[cfg(feature = "view")]
+#[derive(Debug)]
+pub struct Watch(Gilrs);
+
+#[cfg(feature = "view")]
+impl Watch {
+    /// Begins.
+    pub fn start() -> Result<Self, AppError> {
+        system().map(Self)
+    }
+
+    /// A device has come since the last look.
+    pub fn has_come(&mut self) -> bool {
+        std::iter::from_fn(|| self.0.next_event()).filter(|event| event.event == EventType::Connected).count() > 0
+    }
+}
+
+/// All devices that are connected.
+pub fn connected() -> Result<Vec<Device>, AppError> {
+    Ok(system()?.gamepads().map(|(_, gamepad)| describe(gamepad)).collect())
+}
+
+impl Gamepad {
+    /// The device with this name or id, or the only one.
+    pub fn open(wanted: Option<&str>) -> Result<Self, AppError> {
+        let system = system()?;
+        let all: Vec<(GamepadId, Device)> = system.gamepads().map(|(id, gamepad)| (id, describe(gamepad))).collect();
+        let fits =
+            |device: &Device| wanted.is_none_or(|w| device.id == w || device.name.to_lowercase().contains(&w.to_lowercase()));
+        let fitting: Vec<&(GamepadId, Device)> = all.iter().filter(|(_, device)| fits(device)).collect();
+        let names = all.iter().map(|(_, d)| format!("'{}' ({})", d.name, d.id)).collect::<Vec<_>>().join(", ");
+        let names = if names.is_empty() { "none".to_owned() } else { names };
+        match (fitting.as_slice(), wanted) {
+            ([(id, device)], _) => Ok(Self { id: *id, device: device.clone(), system }),
+            ([], None) => Err(AppError::failed("no gamepad or transmitter is connected; --keyboard flies without one")),
+            ([], Some(wanted)) => Err(AppError::failed(format!("no device is called '{wanted}' (connected: {names})"))),
+            _ => Err(AppError::wrong(format!("several devices fit: choose one with --device (connected: {names})"))),
+        }
+    }
+
+    /// What it is.
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// The next thing that it reported.
+    pub fn next(&mut self) -> Option<Event> {
+        while let Some(event) = self.system.next_event() {
+            if event.id != self.id {
+                continue;
+            }
+            match event.event {
+                EventType::AxisChanged(_, value, code) => {
+                    return Some(Event::Axis { axis: code.into_u32(), value: f64::from(value) });
+                }
+                // A trigger that is an axis: 0 to 1.
+                EventType::ButtonChanged(_, value, code) if code.into_u32() >> 16 == ABSOLUTE => {
+                    return Some(Event::Axis { axis: code.into_u32(), value: 2.0 * f64::from(value) - 1.0 });
+                }
+                EventType::ButtonPressed(_, code) => return Some(Event::Button { button: code.into_u32(), pressed: true }),
+                EventType::ButtonReleased(_, code) => return Some(Event::Button { button: code.into_u32(), pressed: false }),
+                EventType::Connected => return Some(Event::Found),
+                EventType::Disconnected => return Some(Event::Lost),
+                _ => {}
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,46 @@
+//! How a run ends when it does not end well: told once, here, with the exit code that design and scripts rely on.
+
+use spandrel_model::toml::Problems;
+use std::process::ExitCode;
+
+/// Shown under every help text.
+pub const EXIT_CODES: &str = "Exit codes: 0 done; 1 the thing asked for failed; 2 the arguments or a file are wrong.";
+
+/// Why a subcommand did not do what was asked.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum AppError {
+    /// Arguments or a file are wrong (exit code 2).
+    #[error("{0}")]
+    Wrong(String),
+    /// The thing asked for failed (exit code 1).
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl AppError {
+    /// Arguments or a file are wrong.
+    pub fn wrong(message: impl Into<String>) -> Self {
+        Self::Wrong(message.into())
+    }
+
+    /// The thing asked for failed.
+    pub fn failed(message: impl Into<String>) -> Self {
+        Self::Failed(message.into())
+    }
+
+    /// Tells it on standard error and gives the exit code.
+    pub(super) fn report(&self) -> ExitCode {
+        let (code, message) = match self {
+            Self::Wrong(message) => (2, message),
+            Self::Failed(message) => (1, message),
+        };
+        eprintln!("spandrel: {message}");
+        ExitCode::from(code)
+    }
+}
+
+impl From<Problems> for AppError {
+    fn from(problems: Problems) -> Self {
+        Self::Wrong(problems.to_string())
+    }
+}

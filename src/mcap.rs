@@ -1,0 +1,186 @@
+//! Recordings in MCAP, and the recovery of one that broke off.
+//!
+//! A chunk goes to the disk whole once it has gathered 16 KiB or a second of the flight, so that a program that is killed loses no more than
+//! that; a file without its end is read up to its last whole chunk.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use mcap::records::MessageHeader;
+use mcap::{MAGIC, McapError, McapResult, MessageStream, WriteOptions, Writer};
+use spandrel_model::foxglove::{CHANNELS, Message};
+use std::collections::BTreeMap;
+use std::io::{Seek, Write};
+
+/// Bytes of a chunk.
+const CHUNK: u64 = 16 * 1024;
+/// A chunk is written after so much of the flight at the latest, ns.
+const FLUSH_AFTER_NS: u64 = 1_000_000_000;
+
+fn options() -> WriteOptions {
+    // Without seeking no half-written chunk is ever on the disk with a length that is still to come.
+    WriteOptions::new().compression(None).library("spandrel").chunk_size(Some(CHUNK)).disable_seeking(true)
+}
+
+/// A recording under way.
+pub struct Recording<W: Write + Seek> {
+    writer: Writer<W>,
+    channels: Vec<u16>,
+    sequences: Vec<u32>,
+    flushed_ns: u64,
+}
+
+impl<W: Write + Seek> std::fmt::Debug for Recording<W> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Recording").field("sequences", &self.sequences).finish_non_exhaustive()
+    }
+}
+
+impl<W: Write + Seek> Recording<W> {
+    /// Begins a file with all schemas and channels.
+    ///
+    /// # Errors
+    /// When the disk does not take it.
+    pub fn begin(to: W) -> McapResult<Self> {
+        let mut writer = options().create(to)?;
+        let mut channels = Vec::new();
+        for channel in &CHANNELS {
+            let schema = writer.add_schema(channel.schema, "jsonschema", channel.json_schema().as_bytes())?;
+            channels.push(writer.add_channel(schema, channel.topic, "json", &BTreeMap::new())?);
+        }
+        Ok(Self { writer, channels, sequences: vec![0; CHANNELS.len()], flushed_ns: 0 })
+    }
+
+    /// Adds a message.
+    ///
+    /// # Errors
+    /// When the disk does not take it.
+    pub fn write(&mut self, message: &Message) -> McapResult<()> {
+        let topic = message.topic as usize;
+        let at = message.unix_ns;
+        let header =
+            MessageHeader { channel_id: self.channels[topic], sequence: self.sequences[topic], log_time: at, publish_time: at };
+        self.sequences[topic] = self.sequences[topic].wrapping_add(1);
+        self.writer.write_to_known_channel(&header, message.json.as_bytes())?;
+        if at.saturating_sub(self.flushed_ns) >= FLUSH_AFTER_NS {
+            self.flushed_ns = at;
+            self.writer.flush()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the index and the end.
+    ///
+    /// # Errors
+    /// When the disk does not take it.
+    pub fn end(mut self) -> McapResult<W> {
+        self.writer.finish()?;
+        Ok(self.writer.into_inner())
+    }
+}
+
+/// Bytes as text.
+#[must_use]
+pub fn base64(bytes: &[u8]) -> String {
+    STANDARD.encode(bytes)
+}
+
+/// What came of a recovery.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Recovered {
+    /// The whole file.
+    pub bytes: Vec<u8>,
+    /// Messages in it.
+    pub messages: usize,
+    /// Why reading stopped, where the file had no proper end.
+    pub broken: Option<String>,
+}
+
+/// Reads a file as far as it goes and writes it anew, with its index and its end.
+///
+/// # Errors
+/// When it is no MCAP file.
+pub fn recover(file: &[u8]) -> McapResult<Recovered> {
+    if !file.starts_with(MAGIC) {
+        return Err(McapError::BadMagic);
+    }
+    let mut writer = options().create(std::io::Cursor::new(Vec::new()))?;
+    let mut messages = 0;
+    let mut broken = None;
+    for message in MessageStream::new_with_options(file, mcap::read::Options::IgnoreEndMagic.into())? {
+        match message {
+            Ok(message) => {
+                writer.write(&message)?;
+                messages += 1;
+            }
+            Err(error) => {
+                broken = Some(error.to_string());
+                break;
+            }
+        }
+    }
+    writer.finish()?;
+    Ok(Recovered { bytes: writer.into_inner().into_inner(), messages, broken })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::foxglove;
+    use std::io::Cursor;
+
+    const START_NS: u64 = 1_700_000_000_000_000_000;
+    const STEP_NS: u64 = 10_000_000;
+
+    fn recorded(messages: u64) -> Vec<u8> {
+        let mut recording = Recording::begin(Cursor::new(Vec::new())).unwrap();
+        for k in 0..messages {
+            recording.write(&foxglove::log(START_NS + k * STEP_NS, 6, &format!("message {k}"))).unwrap();
+        }
+        recording.end().unwrap().into_inner()
+    }
+
+    fn texts(file: &[u8]) -> Vec<String> {
+        let text = |m: mcap::Message| {
+            serde_json::from_slice::<serde_json::Value>(&m.data).unwrap()["message"].as_str().unwrap().to_owned()
+        };
+        MessageStream::new(file).unwrap().map(|m| text(m.unwrap())).collect()
+    }
+
+    #[test]
+    fn exact_what_is_written_is_read_and_its_index_counts_it() {
+        let file = recorded(2_000);
+        let expected: Vec<_> = (0..2_000).map(|k| format!("message {k}")).collect();
+        assert_eq!(texts(&file), expected);
+        let summary = mcap::Summary::read(&file).unwrap().unwrap();
+        assert_eq!(summary.stats.unwrap().message_count, 2_000);
+        assert!(summary.chunk_indexes.len() >= 20, "small chunks: {}", summary.chunk_indexes.len());
+        assert_eq!(recover(&file).unwrap().broken, None);
+    }
+
+    /// Wherever it breaks off, what is lost is at most the chunk that was being written.
+    #[test]
+    fn exact_a_file_that_broke_off_anywhere_is_recovered_to_its_last_whole_chunk() {
+        let file = recorded(600);
+        let summary = mcap::Summary::read(&file).unwrap().unwrap();
+        let count = |chunk| summary.stream_chunk(&file, chunk).unwrap().count();
+        let chunks: Vec<_> =
+            summary.chunk_indexes.iter().map(|c| ((c.chunk_start_offset + c.chunk_length) as usize, count(c))).collect();
+        let last = chunks.last().unwrap().0;
+        for cut in (0..last + 40).step_by(997).chain([last - 1, last]) {
+            let cut = cut.min(file.len());
+            let whole: usize = chunks.iter().filter(|(end, _)| *end <= cut).map(|(_, messages)| messages).sum();
+            match recover(&file[..cut]) {
+                Ok(recovered) => {
+                    let read = texts(&recovered.bytes);
+                    let expected: Vec<_> = (0..read.len()).map(|k| format!("message {k}")).collect();
+                    assert_eq!(read, expected, "cut at {cut}");
+                    assert_eq!(read.len(), recovered.messages);
+                    assert!(read.len() >= whole, "{} messages of {whole} in whole chunks at {cut}", read.len());
+                    mcap::Summary::read(&recovered.bytes).unwrap().unwrap();
+                }
+                Err(error) => assert!(cut < 8, "cut at {cut}: {error}"),
+            }
+        }
+        assert!(recover(b"no such file").is_err());
+    }
+}

@@ -1,0 +1,114 @@
+//! `spandrel plan`: what to fly next.
+
+use super::args::TraineeId;
+use super::clock;
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::records::{Place, from_lines};
+use spandrel_monitor::export::json_text;
+use spandrel_training::plan::{Change, Plan, RULES, Rules, plan_counting, read_rules};
+use spandrel_training::record::{Incomplete, left_out_words};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Say what a trainee should fly next, and why
+///
+/// Reads the trainee's records (see `spandrel records import`): which task, which axis, speeding where, crashing into what, defects
+/// missed by what the picture lacked. The rules are a file; --rules takes another.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel plan anna
+  spandrel plan anna --json
+  spandrel plan anna --rules our-rules.toml
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Pseudonym
+    #[arg(value_name = "ID")]
+    trainee: TraineeId,
+    #[command(flatten)]
+    place: Place,
+    /// Records as `spandrel records export` writes them, instead of a database
+    #[arg(long, value_name = "FILE")]
+    records: Option<PathBuf>,
+    /// Other rules than the shipped ones
+    #[arg(long, value_name = "FILE")]
+    rules: Option<PathBuf>,
+    /// Plan by incomplete sessions as well; they are left out otherwise
+    #[arg(long)]
+    include_incomplete: bool,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files or the database are wrong, or the trainee has no session.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let trainee = args.trainee.as_str();
+    let mut records = match &args.records {
+        Some(file) => from_lines(file)?,
+        None => args.place.open()?.records(Some(trainee))?,
+    };
+    records.retain(|record| record.trainee == trainee);
+    records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
+    let rules = rules(args.rules.as_deref())?;
+    let incomplete = Incomplete::included(args.include_incomplete);
+    let Some(plan) = plan_counting(records, incomplete, &rules, clock::unix_us()) else {
+        return Err(AppError::wrong(format!(
+            "there is no session of '{trainee}' in the records; spandrel records import takes them in"
+        )));
+    };
+    files::write("-", if args.json { json_text(&plan) } else { words(&plan) }.as_bytes())
+}
+
+/// The shipped rules, or those of a file.
+///
+/// # Errors
+/// When the file cannot be read or is wrong.
+pub fn rules(file: Option<&Path>) -> Result<Rules, AppError> {
+    match file {
+        Some(path) => Ok(read_rules(&path.display().to_string(), &files::read(path)?)?),
+        None => Ok(read_rules("rules.toml", RULES)?),
+    }
+}
+
+fn words(plan: &Plan) -> String {
+    let day = |unix_us: u64| clock::utc(unix_us).0.chars().take(10).collect::<String>();
+    let mut out = format!("After {}, fly between {} and {}:\n", plan.session, day(plan.from_unix_us), day(plan.until_unix_us));
+    for (k, step) in plan.steps.iter().enumerate() {
+        let _ = writeln!(out, "{}. {}", k + 1, step.scenario);
+        for reason in &step.reasons {
+            let _ = writeln!(out, "   {}", reason.words);
+        }
+    }
+    if let Some(words) = left_out_words(plan.left_out) {
+        let _ = writeln!(out, "{words} (--include-incomplete counts them)");
+    }
+    if let Some(changes) = &plan.changes {
+        let _ = writeln!(out, "Since {}:", changes.since);
+        let told = |change: &&Change| change.better.is_some();
+        for change in changes.changes.iter().filter(told) {
+            let better = if change.better == Some(true) { "better" } else { "worse" };
+            let _ = writeln!(out, "   {}: {:.1} -> {:.1}, {better}", change.what, change.before, change.now);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_scenario_that_a_rule_names_is_shipped() {
+        let rules = rules(None).unwrap();
+        let names = rules.rules.iter().map(|rule| &rule.scenario).chain([&rules.job, &rules.retention_scenario]);
+        for name in names {
+            assert!(files::scenario_names().contains(&name.as_str()), "{name}");
+        }
+    }
+}

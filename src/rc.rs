@@ -1,0 +1,298 @@
+//! `spandrel rc`: a controller, a clock and a socket around the sans-IO bridge to MANUAL_CONTROL.
+
+use super::args;
+use super::clock::Stopwatch;
+use super::controller::{self, Hand, Look, Profiles, Source, Terminal};
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::net::{Arrival, Hub, SocketId};
+use super::stop::Stop;
+use spandrel_clients::rc::keyboard::Keyboard;
+use spandrel_clients::rc::link::Link;
+use spandrel_clients::rc::record::Record;
+use spandrel_clients::rc::wizard::Wizard;
+use spandrel_clients::rc::{Profile, StickMode};
+use spandrel_model::time::SimTime;
+use std::io::BufRead;
+use std::net::{IpAddr, SocketAddr};
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// Longest wait for a datagram: a quarter of the time between two stick samples.
+const WAIT: Duration = Duration::from_millis(5);
+/// A vehicle that was heard and then is silent for this much wall time is gone.
+const SILENT: Duration = Duration::from_secs(10);
+/// A vehicle that has not been heard after this much wall time is told to be waited for.
+const PATIENCE: Duration = Duration::from_secs(3);
+/// The key that ends flying in the terminal.
+const ENDS: &str = "escape";
+/// Between two looks of the wizard at the device.
+const LOOK: Duration = Duration::from_millis(5);
+const NO_ENTER: &str = "nothing was kept: calibrating asks for Enter, and standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
+
+/// Fly with a gamepad, a transmitter or the keyboard
+///
+/// Sends a controller's sticks to the vehicle as MANUAL_CONTROL, 50 times a second, and its buttons as commands. A device is calibrated
+/// once (--calibrate) and known from then on. When it is lost, the sticks are centred for a moment and then silent, so that the vehicle's
+/// own failsafe acts.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel rc --list                       what is connected, and whether it is calibrated
+  spandrel rc --calibrate                  asks which stick is which, in the terminal
+  spandrel rc                              fly the simulator on this machine
+  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take-off, L land, Escape ends
+  spandrel rc --record flight.jsonl        keeps what the device reports; --replay flies it again
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Dial the vehicle here
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, default_value = "127.0.0.1:18570")]
+    connect: SocketAddr,
+    /// Local address to bind
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
+    listen: IpAddr,
+    /// Print the connected devices, one a line, and end
+    #[arg(long)]
+    list: bool,
+    /// Ask which axis is which stick, and keep the answer
+    #[arg(long, conflicts_with_all = ["list", "keyboard", "replay"])]
+    calibrate: bool,
+    /// Which device, by a part of its name or its id [default: the only one]
+    #[arg(long, value_name = "NAME")]
+    device: Option<String>,
+    /// Which stick does what, 1 to 4, when calibrating; 2 has throttle and yaw on the left
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(i64).range(1..=4))]
+    stick_mode: i64,
+    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration]
+    #[arg(long, value_name = "DIR")]
+    profiles: Option<PathBuf>,
+    /// Use this profile, whatever the device
+    #[arg(long, value_name = "FILE")]
+    profile: Option<PathBuf>,
+    /// Fly with the terminal's keyboard
+    #[arg(long, conflicts_with_all = ["replay", "device", "profile"])]
+    keyboard: bool,
+    /// Which key does what (TOML: format = 1, push, [sticks], [actions], [window]); the same file as that of `spandrel view`
+    #[arg(long, value_name = "FILE", requires = "keyboard")]
+    keys: Option<PathBuf>,
+    /// Write down what the device reports
+    #[arg(long, value_name = "FILE", conflicts_with = "keyboard")]
+    record: Option<PathBuf>,
+    /// Play what was written down instead of a device, and end with it
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["device", "record"])]
+    replay: Option<PathBuf>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When there is no device or terminal, it is not calibrated, files are wrong, or the vehicle vanishes.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let profiles = Profiles::at(args.profiles.clone());
+    if args.list {
+        return list(&profiles);
+    }
+    let stop = Stop::install(false)?;
+    if args.calibrate {
+        return calibrate(args, &profiles, &stop);
+    }
+    let mut pilot = pilot(args, &profiles)?;
+    let mut hub = Hub::new();
+    let socket = hub.bind(args.listen, 0, "--listen")?;
+    let flown = fly(&mut pilot, &mut hub, socket, args.connect, &stop);
+    drop(pilot);
+    flown
+}
+
+fn list(profiles: &Profiles) -> Result<(), AppError> {
+    let devices = controller::connected()?;
+    for device in &devices {
+        let known = if profiles.find(device)?.is_some() { "calibrated" } else { "not calibrated" };
+        println!("{}  {}  {known}", device.id, device.name);
+    }
+    if devices.is_empty() {
+        tracing::info!("no gamepad or transmitter is connected");
+    }
+    Ok(())
+}
+
+/// Who holds the sticks.
+enum Pilot {
+    Device(Box<Hand>),
+    Keyboard { terminal: Terminal, board: Keyboard },
+}
+
+fn pilot(args: &Args, profiles: &Profiles) -> Result<Pilot, AppError> {
+    if args.keyboard {
+        let keys = controller::keys(args.keys.as_deref())?;
+        if let Some(duty) = keys.duty(ENDS) {
+            let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
+            return Err(AppError::wrong(format!("{file}{duty} = \"{ENDS}\": in the terminal this key ends; give another one")));
+        }
+        let words = keys.explain();
+        let terminal = Terminal::take()?;
+        say(&format!("{words}\n{ENDS:10} end"));
+        if !terminal.tells_releases {
+            say(
+                "this terminal does not tell when a key comes up: sticks let go by themselves, and what a key does once it does again after a rest of 0.7 s",
+            );
+        }
+        return Ok(Pilot::Keyboard { terminal, board: Keyboard::new(keys) });
+    }
+    let source = match &args.replay {
+        Some(path) => Source::Record(Record::read(&path.display().to_string(), &files::read(path)?).map_err(AppError::wrong)?),
+        None => Source::device(args.device.as_deref())?,
+    };
+    Ok(Pilot::Device(Box::new(Hand::take(source, profiles, args.profile.as_deref(), args.record.as_deref())?)))
+}
+
+/// A line on standard error that also begins at the left when the terminal gives single keys.
+fn say(text: &str) {
+    eprint!("{}\r\n", text.replace('\n', "\r\n"));
+}
+
+impl Pilot {
+    fn look(&mut self, link: &mut Link, flown: SimTime, now: SimTime) -> Result<Look, AppError> {
+        match self {
+            Self::Device(hand) => hand.look(link, flown, now),
+            Self::Keyboard { terminal, board } => {
+                let mut over = false;
+                while let Some(key) = terminal.next() {
+                    match key {
+                        controller::Key::Down(key) => {
+                            board.press(&key, terminal.tells_releases, now).into_iter().for_each(|action| link.act(action, now))
+                        }
+                        controller::Key::Up(key) => board.release(&key),
+                        controller::Key::LetGo => board.let_go(),
+                        controller::Key::End => over = true,
+                    }
+                }
+                Ok(Look { sticks: Some(board.sticks(now)), over })
+            }
+        }
+    }
+}
+
+fn fly(pilot: &mut Pilot, hub: &mut Hub, socket: SocketId, vehicle: SocketAddr, stop: &Stop) -> Result<(), AppError> {
+    let (watch, mut link, mut heard) = (Stopwatch::start(), Link::default(), None);
+    // A record begins when the vehicle is there.
+    let (mut begin, mut told) = (None, false);
+    if let Pilot::Keyboard { board, .. } = pilot {
+        link.set_arm_key(&board.keys().label("arm"));
+    }
+    while !stop.asked() {
+        if let Some(Arrival::Datagram { from, bytes, .. }) = hub.next(WAIT)
+            && from == vehicle
+        {
+            if heard.is_none() {
+                say(&format!("the vehicle at {vehicle} answers"));
+            }
+            heard = Some(watch.elapsed());
+            link.receive(&bytes);
+        }
+        if heard.is_none() && !told && watch.elapsed() > PATIENCE {
+            say(&format!("no vehicle on {vehicle} yet; waiting"));
+            told = true;
+        }
+        let now = SimTime::from_s(watch.elapsed().as_secs_f64());
+        if link.heard.system.is_some() {
+            begin.get_or_insert(now);
+        }
+        let flown = begin.map_or(SimTime::ZERO, |begin| now - begin);
+        let look = pilot.look(&mut link, flown, now)?;
+        link.set_sticks(look.sticks, now);
+        link.handle_timeout(now);
+        while let Some(bytes) = link.poll_transmit() {
+            hub.send(socket, vehicle, &bytes);
+        }
+        while let Some(text) = link.poll_told() {
+            say(&text);
+        }
+        if look.over {
+            return Ok(());
+        }
+        if heard.is_some_and(|last| watch.elapsed().saturating_sub(last) > SILENT) {
+            return Err(AppError::failed(format!("the vehicle has been silent for {} s", SILENT.as_secs())));
+        }
+    }
+    Ok(())
+}
+
+fn calibrate(args: &Args, profiles: &Profiles, stop: &Stop) -> Result<(), AppError> {
+    // What cannot be kept is not asked for.
+    profiles.folder()?;
+    let mut source = Source::device(args.device.as_deref())?;
+    let mode = StickMode::numbered(args.stick_mode).unwrap_or(StickMode::Two);
+    let profile = ask(&mut source, mode, &enters(), stop)?;
+    println!("{}", profiles.keep(&profile)?.display());
+    Ok(())
+}
+
+fn ask(source: &mut Source, mode: StickMode, enters: &Receiver<()>, stop: &Stop) -> Result<Profile, AppError> {
+    let mut wizard = Wizard::new(source.of().clone(), mode);
+    let watch = Stopwatch::start();
+    let mut told = String::new();
+    while !stop.asked() {
+        let now = SimTime::from_s(watch.elapsed().as_secs_f64());
+        while let Some(event) = source.next(now) {
+            wizard.handle(event, now);
+        }
+        match enters.recv_timeout(LOOK) {
+            Ok(()) => wizard.confirm(now),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return Err(AppError::failed(NO_ENTER)),
+        }
+        wizard.handle_timeout(now);
+        if let Some(profile) = wizard.profile() {
+            return Ok(profile);
+        }
+        let prompt = wizard.prompt();
+        if prompt != told {
+            say(&prompt);
+            told = prompt;
+        }
+    }
+    Err(AppError::failed("stopped: nothing was kept"))
+}
+
+/// Lines of standard input, for Enter.
+fn enters() -> Receiver<()> {
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || {
+        for _ in std::io::stdin().lock().lines().map_while(Result::ok) {
+            if sender.send(()).is_err() {
+                break;
+            }
+        }
+    });
+    receiver
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: Args,
+    }
+
+    #[test]
+    fn exact_a_calibration_that_cannot_be_kept_is_not_begun() {
+        let args = Line::parse_from(["rc", "--calibrate"]).args;
+        let told = calibrate(&args, &Profiles::default(), &Stop::default()).unwrap_err().to_string();
+        assert!(told.contains("name a folder with --profiles"), "{told}");
+    }
+
+    #[test]
+    fn exact_a_calibration_whose_input_has_ended_ends() {
+        let record = Record::read("r", "{\"format\":1,\"device\":\"Pad\",\"id\":\"1:2\"}").unwrap();
+        let (_, enters) = channel();
+        let told = ask(&mut Source::Record(record), StickMode::Two, &enters, &Stop::default()).unwrap_err().to_string();
+        assert!(told.starts_with("nothing was kept") && told.contains("standard input has ended"), "{told}");
+    }
+}

@@ -1,0 +1,96 @@
+//! Who may log in to `spandrel serve`.
+
+use super::database::Database;
+use super::trainees::{set_given, trainee};
+use crate::errors::AppError;
+use sha2::{Digest, Sha256};
+use spandrel_training::trainee::{Role, Trainee};
+use spandrel_training::web::visits::Credential;
+use sqlx::Row;
+
+const ACCOUNT: &str = "SELECT trainees.pseudonym, role, age_band, drone_experience, gaming_experience, hash FROM trainees \
+    LEFT JOIN passwords ON passwords.pseudonym = trainees.pseudonym WHERE trainees.pseudonym = $1";
+const SET_PASSWORD: &str = "INSERT INTO passwords (pseudonym, hash) VALUES ($1, $2) \
+    ON CONFLICT (pseudonym) DO UPDATE SET hash = excluded.hash";
+
+/// A person and, where he may log in, the hash of his password.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Account {
+    /// Who.
+    pub person: Trainee,
+    /// Argon2, PHC form.
+    pub hash: Option<String>,
+}
+
+impl Account {
+    /// What a visit rests on: another password or role is another one. `None` for who may not log in.
+    #[must_use]
+    pub fn credential(&self) -> Option<Credential> {
+        let hash = self.hash.as_ref()?;
+        Some(Sha256::digest(format!("{}\0{hash}", self.person.role.word()).as_bytes()).into())
+    }
+}
+
+impl Database {
+    /// A person; `None` when nobody has this name.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn account(&self, name: &str) -> Result<Option<Account>, AppError> {
+        self.run(async {
+            let row = sqlx::query(ACCOUNT).bind(name.to_owned()).fetch_optional(&self.pool).await?;
+            row.map(|row| Ok(Account { person: trainee(&row)?, hash: row.try_get(5)? })).transpose()
+        })
+    }
+
+    /// Adds a person or sets his role, and his password, in one change; his details stay.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn set_login(&self, name: &str, role: Role, hash: &str) -> Result<(), AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            set_given(&mut change, name, Some(role), [None; 3]).await?;
+            let query = sqlx::query(SET_PASSWORD).bind(name.to_owned()).bind(hash.to_owned());
+            query.execute(&mut *change).await?;
+            change.commit().await
+        })
+    }
+
+    /// Changes somebody's password, if it still is the one that was checked; false when it is not.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn change_password(&self, name: &str, before: &str, after: &str) -> Result<bool, AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            let query = sqlx::query("UPDATE passwords SET hash = $1 WHERE pseudonym = $2 AND hash = $3");
+            let done = query.bind(after.to_owned()).bind(name.to_owned()).bind(before.to_owned()).execute(&mut *change).await?;
+            change.commit().await.map(|()| done.rows_affected() > 0)
+        })
+    }
+
+    /// Takes somebody's password away: he logs in no more. False when he had none.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn drop_password(&self, name: &str) -> Result<bool, AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            let query = sqlx::query("DELETE FROM passwords WHERE pseudonym = $1").bind(name.to_owned());
+            let done = query.execute(&mut *change).await?;
+            change.commit().await.map(|()| done.rows_affected() > 0)
+        })
+    }
+
+    /// Those who may log in.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn with_password(&self) -> Result<Vec<String>, AppError> {
+        self.run(async {
+            let rows = sqlx::query("SELECT pseudonym FROM passwords ORDER BY pseudonym").fetch_all(&self.pool).await?;
+            rows.iter().map(|row| row.try_get(0)).collect()
+        })
+    }
+}

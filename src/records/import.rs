@@ -1,0 +1,93 @@
+//! From session folders to records.
+
+use super::erased::Erased;
+use crate::assess;
+use crate::errors::AppError;
+use crate::log_file::LogFile;
+use crate::questionnaire;
+use crate::session_folder::{Stored, is_session, whose};
+use spandrel_monitor::folder::{SCENARIO, TELEMETRY, VEHICLE};
+use spandrel_monitor::watch::build_site;
+use spandrel_training::questionnaire::ANSWERS;
+use spandrel_training::record::{Hashes, Record, Source, record};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Session folders directly inside these, in the order of their names (that is, of their times).
+///
+/// # Errors
+/// When a folder cannot be read.
+pub fn session_folders(sessions: &[PathBuf]) -> Result<Vec<PathBuf>, AppError> {
+    let mut found = Vec::new();
+    for folder in sessions {
+        let entries = std::fs::read_dir(folder)
+            .map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", folder.display())))?;
+        found.extend(entries.flatten().map(|entry| entry.path()).filter(|path| is_session(path) && !is_hidden(path)));
+    }
+    found.sort_by(|a, b| a.file_name().cmp(&b.file_name()));
+    Ok(found)
+}
+
+/// Folders that are being erased or made have such names.
+fn is_hidden(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."))
+}
+
+/// The id of a session: its folder's name.
+///
+/// # Errors
+/// When the folder has none that is text.
+pub fn id(session: &Path) -> Result<String, AppError> {
+    let path = session.canonicalize().map_err(|error| AppError::wrong(format!("{}: {error}", session.display())))?;
+    let name = path.file_name().and_then(|name| name.to_str());
+    name.map(str::to_owned).ok_or_else(|| AppError::wrong(format!("{}: the folder's name is no text", session.display())))
+}
+
+/// Makes the record of a session folder, unless `known` holds it unchanged.
+///
+/// # Errors
+/// When the folder is wrong or holds nothing to score.
+pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<Record>, AppError> {
+    let id = id(session)?;
+    let hashes = hashes(session)?;
+    if known.get(&id).is_some_and(|fingerprint| *fingerprint == hashes.fingerprint()) {
+        return Ok(None);
+    }
+    let stored = Stored::read(session)?;
+    let scenario = &stored.scenario.scenario;
+    let graded = assess::grade(&stored.log, scenario, &stored.vehicle.vehicle)
+        .map_err(|error| AppError::failed(format!("{}: {error}", session.display())))?;
+    // A monitor that was killed early has not written the defects' places yet; the seed gives the same ones.
+    let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
+    let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
+    let answers = questionnaire::stored(session, scenario)?;
+    Ok(Some(record(&Source {
+        id: &id,
+        trainee: &stored.trainee,
+        purpose: stored.purpose.as_deref(),
+        started_unix_us: stored.started_unix_us,
+        spandrel_version: &stored.spandrel_version,
+        scenario,
+        vehicle: &stored.vehicle.vehicle.id,
+        hashes: &hashes,
+        graded: &graded,
+        placed: placed.unwrap_or_default(),
+        answers: answers.as_ref(),
+    })))
+}
+
+/// A folder's session was erased, or its trainee after it had begun: it does not come back. One that cannot be read is told by [`read`].
+pub fn is_erased(session: &Path, erased: &Erased) -> bool {
+    let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), whose(session)) else { return false };
+    erased.holds(&id, &trainee, started_unix_us)
+}
+
+fn hashes(session: &Path) -> Result<Hashes, AppError> {
+    let bytes = |name: &str| {
+        let path = session.join(name);
+        std::fs::read(&path).map_err(|error| AppError::wrong(format!("{}: cannot be read: {error}", path.display())))
+    };
+    let telemetry = LogFile::open(&session.join(TELEMETRY))?.sha256()?;
+    let answers = if session.join(ANSWERS).is_file() { bytes(ANSWERS)? } else { Vec::new() };
+    Ok(Hashes { telemetry, ..Hashes::of(&bytes(SCENARIO)?, &bytes(VEHICLE)?, &[], &answers) })
+}

@@ -1,0 +1,337 @@
+//! `spandrel records`: the database of sessions, trainees and answers. The session folders are the source; the database can be made
+//! again from them at any time (all but what trainees told of themselves).
+
+mod accounts;
+mod address;
+mod database;
+mod erased;
+mod erasing;
+mod import;
+mod migrate;
+mod people;
+mod push;
+mod sessions;
+#[cfg(test)]
+mod tests;
+mod trainees;
+
+pub use accounts::Account;
+pub use database::Database;
+pub use import::{id as session_id, is_erased, read as read_session, session_folders};
+pub use people::{forget, forget_older, kept};
+
+use super::args::TraineeId;
+use super::clock;
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::progress::Progress;
+use erased::Erased;
+use people::PersonArgs;
+use spandrel_training::record::Record;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// µs in a day.
+const DAY_US: u64 = 86_400_000_000;
+/// Longest retention that can be asked for, days: a century.
+const RETENTION_MAX_DAYS: i64 = 36_525;
+/// Records go into the database in parcels of so many, so that a kill costs little work.
+const PARCEL: usize = 64;
+
+/// Keep sessions, trainees and answers in a database
+///
+/// SQLite in a file beside the sessions, or PostgreSQL by URL for a training centre where many stations write at once (a password
+/// comes from PGPASSWORD or ~/.pgpass, so that no process list shows it). The session folders stay the source: `rebuild` makes the
+/// database again.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel records import                                   all new or changed sessions of ./sessions
+  spandrel records import --database postgres://spandrel@db/training
+  spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem'
+  spandrel records list
+  spandrel records trainee anna --age-band 25-34 --drone-experience none --gaming-experience some
+  spandrel records export --trainee anna --out anna.json    everything that is kept of her
+  spandrel records export --out all.jsonl                   all records, one a line, for spandrel cohort --records
+  spandrel records push https://lrs.example/xapi            xAPI statements to a learning record store
+  spandrel records erase --trainee anna                     says what would go; with --yes it goes, folders too
+  spandrel records retention --days 730                     the same for everything older than two years
+  spandrel records rebuild                                  makes the database again from the folders
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    place: Place,
+    #[command(subcommand)]
+    what: What,
+}
+
+/// Where records and sessions are.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Place {
+    /// Folder with session folders; may be repeated
+    #[arg(long, global = true, value_name = "DIR", default_value = "sessions")]
+    pub sessions: Vec<PathBuf>,
+    /// Database: a file, or postgres://USER@HOST/NAME [default: records.sqlite in the first folder of sessions]
+    ///
+    /// A URL of PostgreSQL says after a '?' how the line is kept secret: sslmode=disable, prefer (without it: TLS where the server has it,
+    /// whoever it is), require (TLS, whoever it is) or verify-full (signed by a known authority for this host's name: what a network
+    /// wants). Known are the authorities of this machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE show a certificate of
+    /// our own. All files are PEM.
+    #[arg(long, global = true, value_name = "FILE|URL")]
+    pub database: Option<String>,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum What {
+    /// Take sessions in; what is there unchanged stays untouched (every folder is read to know; name a session to be quick)
+    Import {
+        /// Session folders [default: all of --sessions]
+        #[arg(value_name = "SESSION")]
+        folders: Vec<PathBuf>,
+    },
+    /// Make the sessions whose folders are here again; trainees and their details stay, and what was erased stays erased
+    Rebuild {
+        /// Also delete sessions whose folders are not here (other stations may have them)
+        #[arg(long)]
+        yes: bool,
+    },
+    /// List sessions
+    List {
+        /// Only this trainee's
+        #[arg(long, value_name = "ID")]
+        trainee: Option<TraineeId>,
+        /// So many at most, the newest first
+        #[arg(long, value_name = "N", default_value_t = 50, conflicts_with = "json")]
+        last: u32,
+        /// All of them as JSON, the oldest first, with everything that is kept
+        #[arg(long)]
+        json: bool,
+    },
+    /// Write one trainee's data, or all records
+    Export {
+        /// Everything that is kept of this trainee, as one JSON document; without it all records, one JSON object a line
+        #[arg(long, value_name = "ID")]
+        trainee: Option<TraineeId>,
+        /// Where to; '-' for standard output
+        #[arg(long, value_name = "FILE", default_value = "-")]
+        out: String,
+    },
+    /// Erase a trainee: database and session folders
+    Erase {
+        /// Who
+        #[arg(long, value_name = "ID")]
+        trainee: TraineeId,
+        /// Do it; without, only told what would go
+        #[arg(long)]
+        yes: bool,
+    },
+    /// Erase what is older than so many days: database and session folders
+    Retention {
+        /// Age, days (1 to 36525)
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(i64).range(1..=RETENTION_MAX_DAYS))]
+        days: i64,
+        /// Do it; without, only told what would go
+        #[arg(long)]
+        yes: bool,
+    },
+    /// Send sessions as xAPI statements to a learning record store; what it has already is not sent twice
+    Push(push::PushArgs),
+    /// Show or set what is known of a trainee
+    Trainee(PersonArgs),
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When arguments, folders or the database are wrong.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let place = &args.place;
+    match &args.what {
+        What::Import { folders } => take_in(place, folders),
+        What::Rebuild { yes } => rebuild(place, *yes),
+        What::List { trainee, json: true, .. } => {
+            let records = place.open()?.records(trainee.as_ref().map(TraineeId::as_str))?;
+            files::write("-", spandrel_monitor::export::json_text(&records).as_bytes())
+        }
+        What::List { trainee, last, .. } => list(&place.open()?, trainee.as_ref().map(TraineeId::as_str), *last),
+        What::Export { trainee, out } => match trainee {
+            Some(trainee) => people::export(place, trainee.as_str(), out),
+            None => files::write(out, lines(&place.open()?.records(None)?)?.as_bytes()),
+        },
+        What::Erase { trainee, yes } => people::erase(place, trainee.as_str(), *yes),
+        What::Retention { days, yes } => retention(place, days.unsigned_abs(), *yes),
+        What::Push(args) => push::push(place, &place.open()?, args),
+        What::Trainee(person) => people::set(&place.open()?, person),
+    }
+}
+
+impl Place {
+    /// Opens the database, and finishes erasures that a kill has cut off.
+    ///
+    /// # Errors
+    /// When it cannot be opened.
+    pub fn open(&self) -> Result<Database, AppError> {
+        let database = match &self.database {
+            Some(target) => Database::open(target),
+            None => {
+                let folder = self.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
+                Database::open(&folder.join("records.sqlite").display().to_string())
+            }
+        }?;
+        if let Err(error) = erasing::finish(&database, &self.sessions) {
+            tracing::warn!("an erasure is not finished: {error}");
+        }
+        Ok(database)
+    }
+}
+
+/// Records as JSON lines.
+///
+/// # Errors
+/// Never in practice: every record can be written as JSON.
+pub fn lines(records: &[Record]) -> Result<String, AppError> {
+    let line = |record: &Record| serde_json::to_string(record).map(|text| text + "\n");
+    records.iter().map(line).collect::<Result<String, _>>().map_err(|error| AppError::failed(error.to_string()))
+}
+
+/// Takes in what is new or changed; what cannot be scored is told and left out.
+fn take_in(place: &Place, named: &[PathBuf]) -> Result<(), AppError> {
+    let folders = if named.is_empty() { import::session_folders(&place.sessions)? } else { named.to_vec() };
+    let database = place.open()?;
+    let Taken { changed, left_out, erased } = import_into(&database, &folders)?;
+    let unchanged = folders.len() - changed - left_out - erased;
+    let note = erased_note(erased);
+    println!("{}: {changed} new or changed, {unchanged} unchanged, {left_out} left out{note}", database.name());
+    if left_out + erased > 0 && !named.is_empty() {
+        return Err(AppError::failed(format!("{} of the sessions named were left out", left_out + erased)));
+    }
+    Ok(())
+}
+
+fn erased_note(erased: usize) -> String {
+    if erased == 0 {
+        return String::new();
+    }
+    format!(", {erased} not taken in because they or their trainees were erased (records erase removes the folders, too)")
+}
+
+/// What became of some folders.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Taken {
+    /// New or changed.
+    changed: usize,
+    /// Not to be read.
+    left_out: usize,
+    /// Erased before.
+    erased: usize,
+}
+
+impl Taken {
+    /// The record of a folder, unless it was erased, `known` holds it unchanged, or it cannot be read: `otherwise` says what becomes of it then.
+    fn read(&mut self, folder: &Path, (known, erased): (&BTreeMap<String, String>, &Erased), otherwise: &str) -> Option<Record> {
+        if import::is_erased(folder, erased) {
+            self.erased += 1;
+            return None;
+        }
+        import::read(folder, known).unwrap_or_else(|error| {
+            self.left_out += 1;
+            tracing::warn!("{otherwise}: {error}");
+            None
+        })
+    }
+}
+
+fn import_into(database: &Database, folders: &[PathBuf]) -> Result<Taken, AppError> {
+    let (known, erased) = (database.fingerprints()?, database.erased()?);
+    let mut taken = Taken::default();
+    let mut progress = Progress::start("reading sessions");
+    for (parcel, part) in folders.chunks(PARCEL).enumerate() {
+        let mut records = Vec::new();
+        for (k, folder) in part.iter().enumerate() {
+            progress.tell(|| format!("session {} of {}", parcel * PARCEL + k + 1, folders.len()));
+            records.extend(taken.read(folder, (&known, &erased), "left out"));
+        }
+        taken.changed += database.put(&records)?;
+    }
+    progress.end();
+    Ok(taken)
+}
+
+fn rebuild(place: &Place, yes: bool) -> Result<(), AppError> {
+    let folders = import::session_folders(&place.sessions)?;
+    let here = folders.iter().map(|folder| import::id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
+    let database = place.open()?;
+    // What other stations add from now on is not among them.
+    let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
+    if !gone.is_empty() && !yes {
+        return Err(AppError::wrong(format!(
+            "{}: {} sessions have no folder here and would be lost (such as {}); name all folders with --sessions, or say --yes to delete them",
+            database.name(),
+            gone.len(),
+            gone[0]
+        )));
+    }
+    // As if it knew nothing: all are read.
+    let (none, erased) = (BTreeMap::new(), database.erased()?);
+    let mut progress = Progress::start("reading sessions");
+    let mut records = Vec::new();
+    let mut taken = Taken::default();
+    for (k, folder) in folders.iter().enumerate() {
+        progress.tell(|| format!("session {} of {}", k + 1, folders.len()));
+        records.extend(taken.read(folder, (&none, &erased), "left as it was"));
+    }
+    progress.end();
+    let made = database.rebuild(&records, &gone)?;
+    let deleted = if gone.is_empty() { String::new() } else { format!(", {} without a folder here deleted", gone.len()) };
+    println!("{}: {made} sessions, {} left out{deleted}{}", database.name(), taken.left_out, erased_note(taken.erased));
+    Ok(())
+}
+
+fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), AppError> {
+    let mut table = format!(
+        "{:<22}{:<16}{:<22}{:>8}{:>6}  {:<12}{}\n",
+        "started", "trainee", "scenario", "overall", "of", "end", "session, result"
+    );
+    for one in database.list(trainee, last, 0)? {
+        let started = clock::utc(one.started_unix_us).0;
+        let (who, job, end, id) = (&one.trainee, &one.scenario, &one.end_reason, &one.id);
+        let (overall, most) = match one.is_complete() {
+            true => (format!("{:.1}", one.overall), format!("{:.0}", one.overall_max)),
+            false => ("-".to_owned(), "-".to_owned()),
+        };
+        let result = format!("{}. {}", one.headline(), one.verdict());
+        table.push_str(&format!("{started:<22}{who:<16}{job:<22}{overall:>8}{most:>6}  {end:<12}{id}  {result}\n"));
+    }
+    files::write("-", table.as_bytes())
+}
+
+fn retention(place: &Place, days: u64, yes: bool) -> Result<(), AppError> {
+    let limit_us = clock::unix_us().saturating_sub(days.saturating_mul(DAY_US));
+    let database = place.open()?;
+    let before = clock::utc(limit_us).0;
+    if !yes {
+        let (old, folders) = (database.older_than(limit_us)?, people::folders_older(place, limit_us)?);
+        println!("{} sessions and {} folders are from before {before}; --yes erases them", old.len(), folders.len());
+        return Ok(());
+    }
+    let (deleted, folders) = people::forget_older(&database, place, limit_us)?;
+    println!("{deleted} sessions and {folders} folders from before {before} are erased");
+    Ok(())
+}
+
+/// Records from a file of JSON lines, as `records export` writes them.
+///
+/// # Errors
+/// When it cannot be read or a line is no record.
+pub fn from_lines(path: &Path) -> Result<Vec<Record>, AppError> {
+    let text = files::read(path)?;
+    let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let read = |(k, line): (usize, &str)| {
+        let wrong = |message: String| AppError::wrong(format!("{}:{}: {message}", path.display(), k + 1));
+        let record: Record = serde_json::from_str(line).map_err(|error| wrong(format!("no record: {error}")))?;
+        record.check().map_err(wrong)?;
+        Ok(record)
+    };
+    numbered.map(read).collect()
+}

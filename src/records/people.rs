@@ -1,0 +1,175 @@
+//! Trainees: what is known of them, everything that is kept of one, and erasing it.
+
+use super::{Database, Place, erasing, import};
+use crate::args::TraineeId;
+use crate::errors::AppError;
+use crate::files;
+use crate::session_folder::whose;
+use serde::Serialize;
+use spandrel_monitor::export::json_text;
+use spandrel_training::record::Record;
+use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
+use std::path::{Path, PathBuf};
+
+/// What is set of a person.
+#[derive(Debug, clap::Args)]
+pub struct PersonArgs {
+    /// Pseudonym
+    #[arg(value_name = "ID")]
+    id: TraineeId,
+    /// What the person may do
+    #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word))]
+    role: Option<String>,
+    /// Age, years
+    #[arg(long, value_name = "BAND", value_parser = AGE_BANDS.to_vec())]
+    age_band: Option<String>,
+    /// Experience with drones
+    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
+    drone_experience: Option<String>,
+    /// Experience with games
+    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
+    gaming_experience: Option<String>,
+}
+
+/// Everything that is kept of one trainee.
+#[derive(Debug, Serialize)]
+pub struct Kept {
+    trainee: Trainee,
+    sessions: Vec<Record>,
+    folders: Vec<String>,
+}
+
+impl Kept {
+    /// The same with the folders' names alone: where they are on a server is nobody's business who asks by the web.
+    #[must_use]
+    pub fn without_places(mut self) -> Self {
+        for folder in &mut self.folders {
+            let name = Path::new(folder).file_name().map(|name| name.to_string_lossy().into_owned());
+            *folder = name.unwrap_or_default();
+        }
+        self
+    }
+}
+
+/// Shows a person, after setting what was given.
+///
+/// # Errors
+/// When the database refuses, or there is neither such a person nor anything to set.
+pub fn set(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
+    let name = args.id.as_str();
+    let details = [&args.age_band, &args.drone_experience, &args.gaming_experience].map(|value| value.as_deref());
+    if args.role.is_some() || details.iter().any(Option::is_some) {
+        database.set_given(name, args.role.as_deref().and_then(Role::from_word), details)?;
+    }
+    let person = find(database, name)?;
+    let person = person.ok_or_else(|| AppError::wrong(format!("{}: there is no '{name}'", database.name())))?;
+    files::write("-", json_text(&person).as_bytes())
+}
+
+/// Everything that is kept of a trainee: details, sessions and answers from the database, names of the folders; `None` when it is nothing.
+///
+/// # Errors
+/// When the database or a folder cannot be read.
+pub fn kept(database: &Database, place: &Place, trainee: &str) -> Result<Option<Kept>, AppError> {
+    let sessions = database.records(Some(trainee))?;
+    let folders = folders_of(place, trainee)?;
+    let known = find(database, trainee)?;
+    if known.is_none() && sessions.is_empty() && folders.is_empty() {
+        return Ok(None);
+    }
+    let folders = folders.iter().map(|path| path.display().to_string()).collect();
+    Ok(Some(Kept { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders }))
+}
+
+/// Writes everything that is kept of a trainee.
+///
+/// # Errors
+/// When nothing is kept, or the database or the target refuses.
+pub fn export(place: &Place, trainee: &str, out: &str) -> Result<(), AppError> {
+    let database = place.open()?;
+    let kept = kept(&database, place, trainee)?;
+    let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: nothing is kept of '{trainee}'", database.name())))?;
+    files::write(out, json_text(&kept).as_bytes())
+}
+
+/// Erases a trainee, or says what would go.
+///
+/// # Errors
+/// When a folder or the database refuses.
+pub fn erase(place: &Place, trainee: &str, yes: bool) -> Result<(), AppError> {
+    let database = place.open()?;
+    let folders = folders_of(place, trainee)?;
+    if !yes {
+        let sessions = database.records(Some(trainee))?.len();
+        let known = if find(&database, trainee)?.is_some() { "known" } else { "not known" };
+        println!(
+            "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; --yes erases them",
+            database.name(),
+            folders.len()
+        );
+        return Ok(());
+    }
+    let (known, sessions) = forget(&database, place, trainee)?;
+    if !known {
+        return Err(AppError::wrong(format!("{}: nothing was kept of '{trainee}'", database.name())));
+    }
+    println!("'{trainee}' is erased: {sessions} sessions in {}, {} folders", database.name(), folders.len());
+    Ok(())
+}
+
+/// Erases a trainee. Returns whether anything was kept, and how many sessions the database had.
+///
+/// # Errors
+/// When a folder or the database refuses.
+pub fn forget(database: &Database, place: &Place, trainee: &str) -> Result<(bool, u64), AppError> {
+    let folders = folders_of(place, trainee)?;
+    let (known, sessions) = database.erase(trainee, &folders)?;
+    erasing::remove(database, &folders)?;
+    Ok((known || !folders.is_empty(), sessions))
+}
+
+fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError> {
+    Ok(database.account(trainee)?.map(|account| account.person))
+}
+
+fn folders_of(place: &Place, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
+    folders_where(&place.sessions, |owner, _| owner == trainee)
+}
+
+/// Session folders whose trainee and start (µs since the Unix epoch) are so; what cannot be read is told, for it may be one of them.
+///
+/// # Errors
+/// When the folder of sessions cannot be read.
+fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
+    let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
+    let mut found = Vec::new();
+    for path in import::session_folders(&here)? {
+        match whose(&path) {
+            Ok((trainee, started_unix_us)) if is(&trainee, started_unix_us) => found.push(path),
+            Ok(_) => {}
+            Err(error) => tracing::warn!("cannot tell whose this is: {error}"),
+        }
+    }
+    Ok(found)
+}
+
+/// Erases all sessions and session folders that started before this instant, µs since the Unix epoch. Returns how many sessions and how many
+/// folders there were.
+///
+/// # Errors
+/// When a folder or the database refuses.
+pub fn forget_older(database: &Database, place: &Place, limit_us: u64) -> Result<(u64, usize), AppError> {
+    let folders = folders_older(place, limit_us)?;
+    let ids: Vec<String> = database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
+    let deleted = database.delete_sessions(&ids, &folders)?;
+    erasing::remove(database, &folders)?;
+    Ok((deleted, folders.len()))
+}
+
+/// Session folders that started before this instant, µs since the Unix epoch.
+///
+/// # Errors
+/// When the folder of sessions cannot be read.
+pub fn folders_older(place: &Place, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
+    folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)
+}

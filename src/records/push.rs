@@ -1,0 +1,194 @@
+//! `spandrel records push`: sessions as xAPI statements to a learning record store. What is there already is not sent twice: a statement's
+//! id is made from what it says.
+
+use super::{Database, Place};
+use crate::errors::AppError;
+use crate::progress::Progress;
+use crate::session_folder::replace;
+use serde_json::Value;
+use spandrel_training::record::Record;
+use spandrel_training::xapi::{self, HOME};
+use std::path::Path;
+use std::time::Duration;
+
+/// File of a session's statements, beside its telemetry.
+pub const STATEMENTS: &str = "xapi.jsonl";
+/// Statements in one request.
+const PARCEL: usize = 50;
+/// A store that does not answer, or answers that it cannot now, is asked again after these waits.
+const WAITS: [Duration; 5] = [
+    Duration::from_millis(200),
+    Duration::from_secs(1),
+    Duration::from_secs(3),
+    Duration::from_secs(10),
+    Duration::from_secs(30),
+];
+/// An answer may take this long.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Where name and password come from, so that no process list shows them.
+const USER: &str = "SPANDREL_LRS_USER";
+const PASSWORD: &str = "SPANDREL_LRS_PASSWORD";
+
+/// Where statements go.
+#[derive(Debug, clap::Args)]
+pub struct PushArgs {
+    /// Address of the store's xAPI endpoint, e.g. https://lrs.example/xapi; name and password for it come from SPANDREL_LRS_USER and
+    /// SPANDREL_LRS_PASSWORD
+    #[arg(value_name = "URL", value_parser = endpoint)]
+    url: String,
+    /// Only this trainee's sessions
+    #[arg(long, value_name = "ID")]
+    trainee: Option<crate::args::TraineeId>,
+    /// Address whose accounts the pseudonyms are, as statements name it
+    #[arg(long, value_name = "URL", default_value = HOME)]
+    home: String,
+}
+
+/// What a store did with statements.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Done {
+    sent: usize,
+    there_already: usize,
+}
+
+fn endpoint(text: &str) -> Result<String, String> {
+    let rest = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://")).unwrap_or_default();
+    if rest.is_empty() || rest.starts_with('/') || text.contains(['?', '#', ' ', '@']) {
+        return Err(format!("'{text}' is no endpoint (allowed: http:// or https://, host, path; no user, query or fragment)"));
+    }
+    Ok(text.trim_end_matches('/').to_owned())
+}
+
+/// Pushes all sessions of the database, the oldest first.
+///
+/// # Errors
+/// When the store refuses, or is not to be reached; what it has taken until then it has.
+pub fn push(place: &Place, database: &Database, args: &PushArgs) -> Result<(), AppError> {
+    let records = database.records(args.trainee.as_ref().map(crate::args::TraineeId::as_str))?;
+    let store = Store::new(&args.url)?;
+    let mut progress = Progress::start("sending statements");
+    let mut all = Done::default();
+    for (k, record) in records.iter().enumerate() {
+        progress.tell(|| format!("session {} of {}", k + 1, records.len()));
+        let statements = xapi::statements(record, &args.home);
+        keep(place, record, &statements)?;
+        for parcel in statements.chunks(PARCEL) {
+            let done = store.take(parcel)?;
+            all = Done { sent: all.sent + done.sent, there_already: all.there_already + done.there_already };
+        }
+    }
+    progress.end();
+    println!("{}: {} sessions, {} statements sent, {} there already", args.url, records.len(), all.sent, all.there_already);
+    Ok(())
+}
+
+/// Writes the statements beside a session whose folder is here.
+fn keep(place: &Place, record: &Record, statements: &[Value]) -> Result<(), AppError> {
+    let here = |folder: &Path| crate::session_folder::is_session(&folder.join(&record.id));
+    match place.sessions.iter().find(|folder| here(folder)) {
+        Some(folder) => replace(&folder.join(&record.id).join(STATEMENTS), xapi::lines(statements).as_bytes()),
+        None => Ok(()),
+    }
+}
+
+/// A learning record store.
+struct Store {
+    agent: ureq::Agent,
+    url: String,
+    authorization: Option<String>,
+}
+
+impl Store {
+    fn new(url: &str) -> Result<Self, AppError> {
+        let config =
+            ureq::Agent::config_builder().http_status_as_error(false).timeout_global(Some(PATIENCE)).max_redirects(0).build();
+        let authorization = match (std::env::var(USER), std::env::var(PASSWORD)) {
+            (Ok(user), Ok(password)) => {
+                Some(format!("Basic {}", spandrel_training::report::assets::base64(format!("{user}:{password}").as_bytes())))
+            }
+            (Err(_), Err(_)) => None,
+            (Ok(_), Err(_)) | (Err(_), Ok(_)) => {
+                return Err(AppError::wrong(format!("{USER} and {PASSWORD} must both be set, or neither")));
+            }
+        };
+        Ok(Self { agent: config.into(), url: url.to_owned(), authorization })
+    }
+
+    /// Sends statements. A conflict says that one of them is there, then each is sent by itself.
+    fn take(&self, statements: &[Value]) -> Result<Done, AppError> {
+        match self.send(statements)? {
+            Sent::Taken => Ok(Done { sent: statements.len(), there_already: 0 }),
+            Sent::Conflict if statements.len() == 1 => Ok(Done { sent: 0, there_already: 1 }),
+            Sent::Conflict => statements.iter().try_fold(Done::default(), |sum, one| {
+                let done = self.take(std::slice::from_ref(one))?;
+                Ok(Done { sent: sum.sent + done.sent, there_already: sum.there_already + done.there_already })
+            }),
+        }
+    }
+
+    fn send(&self, statements: &[Value]) -> Result<Sent, AppError> {
+        let address = format!("{}/statements", self.url);
+        let body = Value::from(statements.to_vec()).to_string();
+        let mut waits = WAITS.iter();
+        loop {
+            let why = match self.once(&address, &body) {
+                Ok(Outcome::Done(sent)) => return Ok(sent),
+                Ok(Outcome::Refused(words)) => return Err(AppError::failed(format!("{address}: {words}"))),
+                Ok(Outcome::Later(words)) | Err(words) => words,
+            };
+            let Some(wait) = waits.next() else {
+                return Err(AppError::failed(format!("{address}: {why}, after {} tries", WAITS.len() + 1)));
+            };
+            tracing::info!("{address}: {why}; again in {:.1} s", wait.as_secs_f64());
+            std::thread::sleep(*wait);
+        }
+    }
+
+    /// One request. An error of the line is worth another try.
+    fn once(&self, address: &str, body: &str) -> Result<Outcome, String> {
+        let mut request =
+            self.agent.post(address).header("Content-Type", "application/json").header("X-Experience-API-Version", xapi::VERSION);
+        if let Some(authorization) = &self.authorization {
+            request = request.header("Authorization", authorization);
+        }
+        let mut answer = request.send(body).map_err(|error| error.to_string())?;
+        let status = answer.status().as_u16();
+        let mut words = || {
+            let text = answer.body_mut().with_config().limit(4_096).read_to_string().unwrap_or_default();
+            let short: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(200).collect();
+            format!("status {status} {short}")
+        };
+        Ok(match status {
+            200..=299 => Outcome::Done(Sent::Taken),
+            409 => Outcome::Done(Sent::Conflict),
+            408 | 425 | 429 | 500..=599 => Outcome::Later(words()),
+            _ => Outcome::Refused(words()),
+        })
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sent {
+    Taken,
+    Conflict,
+}
+
+enum Outcome {
+    Done(Sent),
+    Later(String),
+    Refused(String),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_only_plain_addresses_are_endpoints() {
+        assert_eq!(endpoint("https://lrs.example/xapi/"), Ok("https://lrs.example/xapi".into()));
+        for bad in ["lrs.example", "ftp://x", "https://", "https:///x", "https://user:secret@x/", "https://x/?a", "https://x/#a"]
+        {
+            assert!(endpoint(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,306 @@
+//! Sessions in the database: taken in, listed, deleted.
+
+use super::database::Database;
+use super::erased::{self, What};
+use super::erasing::name_of;
+use crate::errors::AppError;
+use spandrel_monitor::score::completion::Completion;
+use spandrel_training::record::{Listed, Record};
+use spandrel_training::trainee::Role;
+use sqlx::any::{AnyArguments, AnyRow};
+use sqlx::query::Query;
+use sqlx::{Any, Row, Transaction};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, \
+    telemetry_sha256, spandrel_version, scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, \
+    overall_max, fingerprint, record, purpose) \
+    VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18, $19, $20, $21) \
+    ON CONFLICT (id) DO UPDATE SET trainee = excluded.trainee, started_unix_us = excluded.started_unix_us, \
+    scenario = excluded.scenario, scenario_sha256 = excluded.scenario_sha256, vehicle = excluded.vehicle, \
+    vehicle_sha256 = excluded.vehicle_sha256, telemetry_sha256 = excluded.telemetry_sha256, \
+    spandrel_version = excluded.spandrel_version, scorer_version = excluded.scorer_version, end_reason = excluded.end_reason, \
+    seconds = excluded.seconds, conformity = excluded.conformity, efficiency = excluded.efficiency, safety = excluded.safety, \
+    accuracy = excluded.accuracy, overall = excluded.overall, overall_max = excluded.overall_max, \
+    fingerprint = excluded.fingerprint, record = excluded.record, purpose = excluded.purpose \
+    WHERE sessions.fingerprint <> excluded.fingerprint";
+const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
+// The inner question is answered from an index alone; only what is shown is read whole.
+const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
+    (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
+const LIST_OF_ONE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
+    (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
+
+impl Database {
+    /// Takes records in, each with its trainee; a session that is there unchanged stays untouched, what was erased stays so. Returns how many
+    /// were new or changed.
+    ///
+    /// # Errors
+    /// When the database refuses; then nothing is taken in.
+    pub fn put(&self, records: &[Record]) -> Result<usize, AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            let changed = put_all(&mut change, records).await?;
+            change.commit().await.map(|()| changed)
+        })
+    }
+
+    /// Makes these sessions anew and deletes those of the ids in `gone`; all others, which another station may have added meanwhile, stay,
+    /// and so do trainees and their details. Returns how many were made.
+    ///
+    /// # Errors
+    /// When the database refuses; then all stays as it was.
+    pub fn rebuild(&self, records: &[Record], gone: &[String]) -> Result<usize, AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            for id in records.iter().map(|record| &record.id).chain(gone) {
+                delete(&mut change, id).await?;
+            }
+            let made = put_all(&mut change, records).await?;
+            change.commit().await.map(|()| made)
+        })
+    }
+
+    /// The session that was made from this telemetry (SHA-256, hexadecimal), and its trainee.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn of_telemetry(&self, sha256: &str) -> Result<Option<(String, String)>, AppError> {
+        self.run(async {
+            let query = sqlx::query("SELECT id, trainee FROM sessions WHERE telemetry_sha256 = $1 ORDER BY id LIMIT 1");
+            let row = query.bind(sha256.to_owned()).fetch_optional(&self.pool).await?;
+            row.map(|row| Ok((row.try_get(0)?, row.try_get(1)?))).transpose()
+        })
+    }
+
+    /// Fingerprints of all sessions by their id.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn fingerprints(&self) -> Result<BTreeMap<String, String>, AppError> {
+        self.run(async {
+            let rows = sqlx::query("SELECT id, fingerprint FROM sessions").fetch_all(&self.pool).await?;
+            rows.iter().map(|row| Ok((row.try_get(0)?, row.try_get(1)?))).collect()
+        })
+    }
+
+    /// Records in the order of their start: all, or one trainee's.
+    ///
+    /// # Errors
+    /// When the database refuses or holds what is no record.
+    pub fn records(&self, trainee: Option<&str>) -> Result<Vec<Record>, AppError> {
+        let rows: Vec<(String, String)> = self.run(async {
+            let rows = match trainee {
+                Some(trainee) => {
+                    let query = "SELECT id, record FROM sessions WHERE trainee = $1 ORDER BY started_unix_us, id";
+                    sqlx::query(query).bind(trainee.to_owned()).fetch_all(&self.pool).await?
+                }
+                None => sqlx::query("SELECT id, record FROM sessions ORDER BY started_unix_us, id").fetch_all(&self.pool).await?,
+            };
+            rows.iter().map(|row| Ok((row.try_get(0)?, row.try_get(1)?))).collect()
+        })?;
+        let read = |(id, text): (String, String)| {
+            serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: session {id}: {error}", self.name())))
+        };
+        rows.into_iter().map(read).collect()
+    }
+
+    /// One session's record.
+    ///
+    /// # Errors
+    /// When the database refuses or holds what is no record.
+    pub fn record(&self, id: &str) -> Result<Option<Record>, AppError> {
+        let text: Option<String> = self.run(async {
+            let query = sqlx::query("SELECT record FROM sessions WHERE id = $1").bind(id.to_owned());
+            query.fetch_optional(&self.pool).await?.map(|row| row.try_get(0)).transpose()
+        })?;
+        let wrong = |error| AppError::failed(format!("{}: session {id}: {error}", self.name()));
+        text.map(|text| serde_json::from_str(&text).map_err(wrong)).transpose()
+    }
+
+    /// How many sessions there are: all, or one trainee's.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn count(&self, trainee: Option<&str>) -> Result<u64, AppError> {
+        let counted: i64 = self.run(async {
+            let query = match trainee {
+                Some(trainee) => sqlx::query("SELECT COUNT(*) FROM sessions WHERE trainee = $1").bind(trainee.to_owned()),
+                None => sqlx::query("SELECT COUNT(*) FROM sessions"),
+            };
+            query.fetch_one(&self.pool).await?.try_get(0)
+        })?;
+        Ok(u64::try_from(counted).unwrap_or_default())
+    }
+
+    /// Sessions in short, the newest first: all, or one trainee's; so many after the first `skip`.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<Listed>, AppError> {
+        let query = if trainee.is_some() { LIST_OF_ONE } else { LIST };
+        self.run(async {
+            let query = sqlx::query(query).bind(i64::from(most)).bind(i64::from(skip));
+            let query = if let Some(trainee) = trainee { query.bind(trainee.to_owned()) } else { query };
+            query.fetch_all(&self.pool).await?.iter().map(listed).collect()
+        })
+    }
+
+    /// Ids and trainees of the sessions that started before this instant, µs since the Unix epoch.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn older_than(&self, unix_us: u64) -> Result<Vec<(String, String)>, AppError> {
+        self.run(async {
+            let query = "SELECT id, trainee FROM sessions WHERE started_unix_us < $1 ORDER BY started_unix_us, id";
+            let rows = sqlx::query(query).bind(signed(unix_us)).fetch_all(&self.pool).await?;
+            rows.iter().map(|row| Ok((row.try_get(0)?, row.try_get(1)?))).collect()
+        })
+    }
+
+    /// Erases sessions: they do not come back from a folder elsewhere. Marks `folders` for [`super::erasing::remove`]. Returns how many
+    /// sessions there were.
+    ///
+    /// # Errors
+    /// When the database refuses; then all stays as it was.
+    pub fn delete_sessions(&self, ids: &[String], folders: &[PathBuf]) -> Result<u64, AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            mark_folders(&mut change, folders).await?;
+            let mut deleted = 0;
+            for id in ids {
+                erased::mark(&mut change, What::Session, id).await?;
+                deleted += delete(&mut change, id).await?;
+            }
+            change.commit().await?;
+            self.forget().await.map(|()| deleted)
+        })
+    }
+
+    /// Erases a trainee with everything: sessions flown so far do not come back from a folder elsewhere. Marks `folders` for
+    /// [`super::erasing::remove`]. Returns whether the trainee was known, and how many sessions there were.
+    ///
+    /// # Errors
+    /// When the database refuses; then all stays as it was.
+    pub fn erase(&self, trainee: &str, folders: &[PathBuf]) -> Result<(bool, u64), AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            mark_folders(&mut change, folders).await?;
+            erased::mark(&mut change, What::Trainee, trainee).await?;
+            let answers = "DELETE FROM answers WHERE session IN (SELECT id FROM sessions WHERE trainee = $1)";
+            sqlx::query(answers).bind(trainee.to_owned()).execute(&mut *change).await?;
+            let by = |query: &'static str| sqlx::query(query).bind(trainee.to_owned());
+            let sessions = by("DELETE FROM sessions WHERE trainee = $1").execute(&mut *change).await?.rows_affected();
+            by("DELETE FROM passwords WHERE pseudonym = $1").execute(&mut *change).await?;
+            let known = by("DELETE FROM trainees WHERE pseudonym = $1").execute(&mut *change).await?.rows_affected() > 0;
+            change.commit().await?;
+            self.forget().await.map(|()| (known, sessions))
+        })
+    }
+}
+
+async fn mark_folders(change: &mut Transaction<'static, Any>, folders: &[PathBuf]) -> Result<(), sqlx::Error> {
+    for folder in folders {
+        erased::mark(change, What::Folder, &name_of(folder)).await?;
+    }
+    Ok(())
+}
+
+async fn put_all(change: &mut Transaction<'static, Any>, records: &[Record]) -> Result<usize, sqlx::Error> {
+    let mut changed = 0;
+    for record in records {
+        changed += usize::from(put(change, record).await?);
+    }
+    Ok(changed)
+}
+
+/// Deletes one session. Returns how many there were.
+async fn delete(change: &mut Transaction<'static, Any>, id: &str) -> Result<u64, sqlx::Error> {
+    sqlx::query("DELETE FROM answers WHERE session = $1").bind(id.to_owned()).execute(&mut **change).await?;
+    let done = sqlx::query("DELETE FROM sessions WHERE id = $1").bind(id.to_owned()).execute(&mut **change).await?;
+    Ok(done.rows_affected())
+}
+
+async fn put(change: &mut Transaction<'static, Any>, record: &Record) -> Result<bool, sqlx::Error> {
+    record.check().map_err(|wrong| sqlx::Error::Encode(format!("session {}: {wrong}", record.id).into()))?;
+    if erased::holds(change, record).await? {
+        return Ok(false);
+    }
+    let trainee = sqlx::query(ADD_TRAINEE).bind(record.trainee.clone()).bind(Role::Trainee.word().to_owned());
+    trainee.execute(&mut **change).await?;
+    let text = serde_json::to_string(record).map_err(|error| sqlx::Error::Encode(error.into()))?;
+    let done = bind(sqlx::query(UPSERT), record, text).execute(&mut **change).await?;
+    if done.rows_affected() == 0 {
+        return Ok(false);
+    }
+    sqlx::query("DELETE FROM answers WHERE session = $1").bind(record.id.clone()).execute(&mut **change).await?;
+    let Some(answers) = &record.answers else { return Ok(true) };
+    let given = answers.given.iter().map(|(item, answer)| (item.to_string(), *answer));
+    let tlx = answers.tlx.iter().map(|(scale, answer)| (format!("tlx.{}", scale.key()), *answer));
+    for (question, answer) in given.chain(tlx) {
+        let query = sqlx::query("INSERT INTO answers (session, question, answer) VALUES ($1, $2, $3)");
+        query.bind(record.id.clone()).bind(question).bind(i64::from(answer)).execute(&mut **change).await?;
+    }
+    Ok(true)
+}
+
+fn bind<'q>(query: Query<'q, Any, AnyArguments<'q>>, record: &Record, text: String) -> Query<'q, Any, AnyArguments<'q>> {
+    let scores = &record.scores;
+    query
+        .bind(record.id.clone())
+        .bind(record.trainee.clone())
+        .bind(signed(record.started_unix_us))
+        .bind(record.scenario.clone())
+        .bind(record.scenario_sha256.clone())
+        .bind(record.vehicle.clone())
+        .bind(record.vehicle_sha256.clone())
+        .bind(record.telemetry_sha256.clone())
+        .bind(record.spandrel_version.clone())
+        .bind(i64::from(record.scorer_version))
+        .bind(record.end_reason.clone())
+        .bind(record.seconds)
+        .bind(scores.conformity)
+        .bind(scores.efficiency)
+        .bind(scores.safety)
+        .bind(scores.accuracy)
+        .bind(scores.overall)
+        .bind(scores.overall_max)
+        .bind(record.fingerprint.clone())
+        .bind(text)
+        .bind(record.purpose.clone())
+}
+
+/// Fields of a record that lists show besides its columns.
+#[derive(serde::Deserialize)]
+struct Shown {
+    #[serde(default)]
+    completion: Option<Completion>,
+    certified: bool,
+    #[serde(default)]
+    unmet: Vec<String>,
+}
+
+fn listed(row: &AnyRow) -> Result<Listed, sqlx::Error> {
+    let started: i64 = row.try_get(2)?;
+    let text: String = row.try_get(8)?;
+    let shown: Shown = serde_json::from_str(&text).map_err(|error| sqlx::Error::Decode(error.into()))?;
+    Ok(Listed {
+        id: row.try_get(0)?,
+        trainee: row.try_get(1)?,
+        started_unix_us: u64::try_from(started).unwrap_or_default(),
+        scenario: row.try_get(3)?,
+        overall: row.try_get(4)?,
+        overall_max: row.try_get(5)?,
+        end_reason: row.try_get(6)?,
+        purpose: row.try_get(7)?,
+        completion: shown.completion,
+        certified: shown.certified,
+        unmet: shown.unmet,
+    })
+}
+
+/// Times and versions fit in 63 bits.
+pub(super) fn signed(number: u64) -> i64 {
+    i64::try_from(number).unwrap_or(i64::MAX)
+}

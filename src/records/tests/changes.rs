@@ -1,0 +1,122 @@
+//! Changes that others make meanwhile: an erasure stays one, a rebuild deletes nothing of another station, and nobody's change of a person
+//! is lost.
+
+use super::record;
+use crate::records::database::Database;
+use spandrel_training::record::Record;
+use spandrel_training::trainee::Role;
+
+/// Long after every erasure of these tests, µs since the Unix epoch (2100).
+const LATER_US: u64 = 4_102_444_800_000_000;
+
+/// All of them, over one database.
+pub fn every_one(target: &str) {
+    what_is_erased_does_not_come_back(target);
+    a_rebuild_deletes_only_what_it_was_told(target);
+    nobodys_change_of_a_person_is_lost(target);
+    a_telemetry_is_found_again(target);
+    lists_go_on_from_page_to_page(target);
+    // The next test begins with nothing.
+    let database = Database::open(target).unwrap();
+    for trainee in database.trainees().unwrap() {
+        database.erase(&trainee.pseudonym, &[]).unwrap();
+    }
+}
+
+fn gone(database: &Database, id: &str) -> bool {
+    database.record(id).unwrap().is_none()
+}
+
+/// Two stations: one erases, the other has the folders still and takes in what it read before.
+fn what_is_erased_does_not_come_back(target: &str) {
+    let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
+    let flown = [record("erna", 1), record("erna", 2)];
+    assert_eq!(here.put(&flown), Ok(2));
+    assert_eq!(here.erase("erna", &[]), Ok((true, 2)));
+    assert_eq!(there.put(&flown), Ok(0), "an import");
+    assert_eq!(there.rebuild(&flown, &[]), Ok(0), "a rebuild");
+    assert!(gone(&there, &flown[0].id) && !there.trainees().unwrap().iter().any(|one| one.pseudonym == "erna"));
+    let erased = there.erased().unwrap();
+    assert!(erased.holds(&flown[0].id, "erna", flown[0].started_unix_us) && !erased.holds("x", "erna", LATER_US));
+    // Who begins anew under the same name is somebody else.
+    let anew = Record { started_unix_us: LATER_US, ..record("erna", 3) };
+    assert_eq!(there.put(std::slice::from_ref(&anew)), Ok(1));
+    assert_eq!(there.erase("erna", &[]), Ok((true, 1)));
+    // One session that retention took away stays away, the person's others do not.
+    assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2)]), Ok(2));
+    assert_eq!(here.delete_sessions(&["session-fritz-001".into()], &[]), Ok(1));
+    assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2), record("fritz", 3)]), Ok(1));
+    assert!(gone(&there, "session-fritz-001") && !gone(&there, "session-fritz-003"));
+}
+
+fn a_rebuild_deletes_only_what_it_was_told(target: &str) {
+    let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
+    here.put(&[record("gina", 1), record("gina", 2)]).unwrap();
+    // While this station reads its folders another one adds a session.
+    there.put(&[record("gina", 3)]).unwrap();
+    let mut changed = record("gina", 1);
+    changed.scores.safety = 12.0;
+    assert_eq!(here.rebuild(&[changed.clone()], &["session-gina-002".into()]), Ok(1), "the same fingerprint is made again, too");
+    assert_eq!(here.record("session-gina-001").unwrap(), Some(changed));
+    assert!(gone(&here, "session-gina-002") && !gone(&here, "session-gina-003"));
+    assert_eq!(here.rebuild(&[record("gina", 2)], &[]), Ok(1), "what was deleted so was not erased");
+}
+
+fn nobodys_change_of_a_person_is_lost(target: &str) {
+    let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
+    here.set_login("hans", Role::Trainee, "first").unwrap();
+    let none = ["", "", ""];
+    // A page is filled in while the role is changed elsewhere; the details stay with a new password, too.
+    there.set_login("hans", Role::Instructor, "first").unwrap();
+    assert_eq!(here.set_details("hans", none, ["25-34", "", "some"]), Ok(true));
+    there.set_login("hans", Role::Administrator, "second").unwrap();
+    let person = here.account("hans").unwrap().unwrap().person;
+    assert_eq!((person.role, person.age_band.as_deref()), (Role::Administrator, Some("25-34")));
+    assert_eq!((person.drone_experience, person.gaming_experience.as_deref()), (None, Some("some")));
+    // Who fills in the same page as another comes too late.
+    assert_eq!(there.set_details("hans", none, ["35-44", "none", ""]), Ok(false));
+    assert_eq!(there.set_details("hans", ["25-34", "", "some"], none), Ok(true), "taking back what was said");
+    assert_eq!(here.account("hans").unwrap().unwrap().person.age_band, None);
+    assert_eq!(here.set_details("nobody-of-this-name", none, none), Ok(false));
+    // The command line sets what it is given.
+    here.set_given("hans", None, [None, Some("some"), None]).unwrap();
+    here.set_given("hans", Some(Role::Trainee), [Some("45-54"), None, None]).unwrap();
+    let person = here.account("hans").unwrap().unwrap().person;
+    assert_eq!(
+        (person.role, person.age_band.as_deref(), person.drone_experience.as_deref()),
+        (Role::Trainee, Some("45-54"), Some("some"))
+    );
+    // A password is changed by whoever knows the one that holds now.
+    assert_eq!(here.change_password("hans", "first", "third"), Ok(false));
+    let before = here.account("hans").unwrap().unwrap().credential();
+    assert_eq!(here.change_password("hans", "second", "third"), Ok(true));
+    let after = there.account("hans").unwrap().unwrap();
+    assert_eq!(after.hash.as_deref(), Some("third"));
+    assert!(before.is_some() && after.credential().is_some() && before != after.credential());
+    there.set_given("hans", Some(Role::Instructor), [None; 3]).unwrap();
+    assert_ne!(here.account("hans").unwrap().unwrap().credential(), after.credential(), "another role is another credential");
+    assert_eq!(here.erase("hans", &[]), Ok((true, 0)));
+}
+
+fn a_telemetry_is_found_again(target: &str) {
+    let database = Database::open(target).unwrap();
+    let flown = Record { telemetry_sha256: "'; --".into(), ..record("ines", 1) };
+    database.put(std::slice::from_ref(&flown)).unwrap();
+    assert_eq!(database.of_telemetry("'; --"), Ok(Some((flown.id, "ines".into()))));
+    assert_eq!(database.of_telemetry("of nobody"), Ok(None));
+}
+
+/// Every session stands on one page, the newest first, also those of one instant.
+fn lists_go_on_from_page_to_page(target: &str) {
+    let database = Database::open(target).unwrap();
+    let flown: Vec<Record> = (0..7).map(|k| Record { started_unix_us: LATER_US + k / 3, ..record("jana", k as usize) }).collect();
+    database.put(&flown).unwrap();
+    let page =
+        |trainee, skip| -> Vec<String> { database.list(trainee, 3, skip).unwrap().into_iter().map(|one| one.id).collect() };
+    let mut expected: Vec<&Record> = flown.iter().collect();
+    expected.sort_by(|a, b| b.started_unix_us.cmp(&a.started_unix_us).then(a.id.cmp(&b.id)));
+    let expected: Vec<&str> = expected.into_iter().map(|one| one.id.as_str()).collect();
+    assert_eq!([page(Some("jana"), 0), page(Some("jana"), 3), page(Some("jana"), 6)].concat(), expected);
+    assert_eq!([page(None, 0), page(None, 3)].concat(), expected[..6], "of all they are the newest");
+    database.erase("jana", &[]).unwrap();
+}

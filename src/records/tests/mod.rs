@@ -1,0 +1,267 @@
+//! The same tests on SQLite and on a real PostgreSQL.
+
+mod changes;
+mod server;
+mod tls;
+
+use super::database::Database;
+use server::Server;
+use spandrel_training::questionnaire::Tlx;
+use spandrel_training::record::Record;
+use spandrel_training::testing::faultless;
+use spandrel_training::trainee::{Role, Trainee};
+use std::path::PathBuf;
+
+/// Stations that write at once.
+const STATIONS: usize = 20;
+/// Sessions of each.
+const EACH: usize = 8;
+
+/// A made-up session.
+fn record(trainee: &str, number: usize) -> Record {
+    let mut record = faultless(trainee, number);
+    record.started_unix_us = 1_700_000_000_000_000 + 1_000_000 * number as u64;
+    record.scores.conformity = Some(81.25 + (number % 7) as f64 / 3.0);
+    record.scores.accuracy = None;
+    record.tasks[0].name = "Slab; DROP TABLE sessions --'".into();
+    if let Some(answers) = &mut record.answers {
+        answers.tlx.insert(Tlx::Effort, 45);
+    }
+    record
+}
+
+fn every_behaviour(target: &str) {
+    takes_in_once_and_gives_back_the_same(target);
+    keeps_people_and_erases_them(target);
+    lets_people_in_and_forgets_them(target);
+    counts_and_finds_sessions(target);
+    replaces_all_or_nothing(target);
+    changes::every_one(target);
+    takes_strangers_in_any_order(target);
+    loses_nothing_when_stations_write_at_once(target);
+}
+
+fn takes_in_once_and_gives_back_the_same(target: &str) {
+    let database = Database::open(target).unwrap();
+    let mut bare = record("anna", 2);
+    bare.scores.conformity = None;
+    bare.answers = None;
+    let records = [record("anna", 1), bare, record("o'brien", 1)];
+    assert_eq!(database.put(&records), Ok(3));
+    assert_eq!(database.put(&records), Ok(0), "taking in again changes nothing");
+    assert_eq!(database.records(Some("anna")).unwrap(), records[..2]);
+    assert_eq!(database.records(None).unwrap().len(), 3);
+    let ids = |trainee, most, skip| -> Vec<String> {
+        database.list(trainee, most, skip).unwrap().into_iter().map(|one| one.id).collect()
+    };
+    assert_eq!(ids(None, 10, 0), ["session-anna-002", "session-anna-001", "session-o'brien-001"], "the newest first");
+    assert_eq!(ids(None, 1, 1), ["session-anna-001"]);
+    assert_eq!(ids(Some("o'brien"), 10, 0), ["session-o'brien-001"]);
+    assert_eq!(database.list(Some("anna"), 1, 0).unwrap()[0].overall, records[1].scores.overall);
+    let mut changed = records[0].clone();
+    changed.fingerprint = "other".into();
+    changed.scores.safety = 94.0;
+    changed.answers = None;
+    assert_eq!(database.put(&[changed.clone(), records[1].clone()]), Ok(1));
+    // What another process sees.
+    let again = Database::open(target).unwrap();
+    assert_eq!(again.records(Some("anna")).unwrap()[0], changed);
+    assert_eq!(again.fingerprints().unwrap()["session-anna-001"], "other");
+    let limit = 1_700_000_000_000_000 + 1_000_001;
+    let old = again.older_than(limit).unwrap();
+    assert_eq!(old.iter().map(|(id, _)| id.as_str()).collect::<Vec<_>>(), ["session-anna-001", "session-o'brien-001"]);
+    assert_eq!(again.delete_sessions(&["session-anna-002".into(), "nobody-has-this".into()], &[]), Ok(1));
+    assert_eq!(database.records(Some("anna")).unwrap().len(), 1);
+}
+
+fn keeps_people_and_erases_them(target: &str) {
+    let database = Database::open(target).unwrap();
+    let someone = Trainee { age_band: Some("25-34".into()), role: Role::Instructor, ..Trainee::new("anna") };
+    database.set_given("anna", Some(Role::Instructor), [Some("25-34"), None, None]).unwrap();
+    database.put(&[record("anna", 9)]).unwrap();
+    assert_eq!(database.trainees().unwrap(), [someone, Trainee::new("o'brien")], "a new session changes no details");
+    assert_eq!(database.erase("anna", &[]), Ok((true, 2)));
+    assert_eq!(database.erase("anna", &[]), Ok((false, 0)));
+    assert_eq!(database.trainees().unwrap(), [Trainee::new("o'brien")]);
+    assert_eq!(database.records(None).unwrap().len(), 1);
+}
+
+fn lets_people_in_and_forgets_them(target: &str) {
+    let database = Database::open(target).unwrap();
+    assert_eq!(database.account("nobody").unwrap(), None);
+    let ada = Trainee { role: Role::Administrator, ..Trainee::new("ada") };
+    database.set_login("ada", Role::Instructor, "first").unwrap();
+    database.set_login("ada", Role::Administrator, "second").unwrap();
+    database.set_login("o'brien", Role::Trainee, "'; DELETE FROM passwords; --").unwrap();
+    // What another process sees.
+    let again = Database::open(target).unwrap();
+    assert_eq!(again.with_password().unwrap(), ["ada", "o'brien"]);
+    let account = again.account("ada").unwrap().unwrap();
+    assert_eq!((account.person, account.hash.as_deref()), (ada, Some("second")));
+    assert_eq!(again.drop_password("ada"), Ok(true));
+    assert_eq!(again.drop_password("ada"), Ok(false));
+    assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "she is known and logs in no more");
+    // Who is erased logs in no more, under the same name neither.
+    assert_eq!(database.erase("o'brien", &[]), Ok((true, 1)));
+    assert_eq!((database.with_password().unwrap(), database.account("o'brien").unwrap()), (vec![], None));
+    database.set_given("o'brien", None, [None; 3]).unwrap();
+    assert_eq!(database.account("o'brien").unwrap().unwrap().hash, None);
+    assert_eq!((database.erase("o'brien", &[]), database.erase("ada", &[])), (Ok((true, 0)), Ok((true, 0))));
+}
+
+fn counts_and_finds_sessions(target: &str) {
+    let database = Database::open(target).unwrap();
+    let assessed = Record { purpose: Some("assessment".into()), ..record("dan", 3) };
+    database.put(&[record("cleo", 1), record("cleo", 2), assessed.clone()]).unwrap();
+    let listed = database.list(None, 10, 0).unwrap();
+    assert_eq!(listed.iter().map(|one| one.purpose.as_deref()).collect::<Vec<_>>(), [Some("assessment"), None, None]);
+    assert_eq!(database.record("session-dan-003").unwrap(), Some(assessed));
+    let counts = [None, Some("cleo"), Some("dan"), Some("nobody"), Some("' OR 1 = 1 --")].map(|who| database.count(who).unwrap());
+    assert_eq!(counts, [3, 2, 1, 0, 0]);
+    assert_eq!(database.record("session-cleo-002").unwrap(), Some(record("cleo", 2)));
+    assert_eq!(database.record("session-cleo-003").unwrap(), None);
+    assert_eq!(database.erase("cleo", &[]), Ok((true, 2)));
+    assert_eq!((database.count(None), database.record("session-cleo-002")), (Ok(1), Ok(None)));
+}
+
+/// Two stations that take in the same new people in opposite orders do not wait for each other for ever.
+fn takes_strangers_in_any_order(target: &str) {
+    let people: Vec<Record> = (0..STATIONS).map(|k| record(&format!("new{k}"), k)).collect();
+    let backwards: Vec<Record> = people.iter().rev().cloned().collect();
+    std::thread::scope(|scope| {
+        for order in [&people, &backwards] {
+            scope.spawn(|| {
+                let database = Database::open(target).unwrap();
+                for _ in 0..EACH {
+                    database.put(order).unwrap();
+                }
+            });
+        }
+    });
+    let database = Database::open(target).unwrap();
+    assert_eq!(
+        people.iter().map(|one| database.erase(&one.trainee, &[]).unwrap()).filter(|gone| *gone == (true, 1)).count(),
+        STATIONS
+    );
+}
+
+fn replaces_all_or_nothing(target: &str) {
+    let database = Database::open(target).unwrap();
+    let there: Vec<String> = database.fingerprints().unwrap().into_keys().collect();
+    let records = [record("ben", 1), record("ben", 2)];
+    assert_eq!(database.rebuild(&records, &there), Ok(2));
+    assert_eq!(database.records(None).unwrap(), records);
+    // One bad record makes the whole change fail; what was there stays.
+    let mut broken = record("ben", 3);
+    broken.seconds = f64::NAN;
+    let gone: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
+    let wrong = database.rebuild(&[record("ben", 4), broken.clone()], &gone).unwrap_err().to_string();
+    assert!(wrong.contains("seconds = NaN"), "{wrong}");
+    assert!(database.put(&[record("ben", 4), broken]).is_err());
+    assert_eq!(database.records(None).unwrap(), records);
+    assert_eq!(database.rebuild(&[], &gone), Ok(0));
+    assert_eq!(database.records(None).unwrap(), []);
+}
+
+fn loses_nothing_when_stations_write_at_once(target: &str) {
+    let stations: Vec<_> = (0..STATIONS)
+        .map(|station| {
+            let target = target.to_owned();
+            std::thread::spawn(move || {
+                let database = Database::open(&target).unwrap();
+                // Two stations each know the same trainee and take in the same shared session.
+                let trainee = format!("t{}", station / 2);
+                for number in 0..EACH {
+                    database.put(&[record(&trainee, station * EACH + number), record("shared", 0)]).unwrap();
+                }
+            })
+        })
+        .collect();
+    for station in stations {
+        station.join().unwrap();
+    }
+    let database = Database::open(target).unwrap();
+    assert_eq!(database.records(None).unwrap().len(), STATIONS * EACH + 1);
+    assert_eq!(database.trainees().unwrap().iter().filter(|person| person.pseudonym.starts_with('t')).count(), STATIONS / 2);
+}
+
+#[test]
+fn exact_records_live_in_sqlite() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a place with 100 % odd #names?").join("records.sqlite");
+    every_behaviour(&file.display().to_string());
+    assert!(file.is_file());
+}
+
+#[test]
+fn exact_twenty_stations_may_make_the_same_new_file_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    loses_nothing_when_stations_write_at_once(&folder.path().join("new.sqlite").display().to_string());
+}
+
+fn readers_do_not_wait_for_a_writer(target: &str) {
+    let writer = Database::open(target).unwrap();
+    let there: Vec<String> = writer.fingerprints().unwrap().into_keys().collect();
+    writer.rebuild(&[record("rita", 1)], &there).unwrap();
+    writer.keep_writing().unwrap();
+    let reader = Database::open(target).unwrap();
+    assert_eq!(reader.records(None).unwrap().len(), 1);
+    assert_eq!(reader.list(None, 10, 0).unwrap().len(), 1);
+}
+
+fn a_newer_version_is_refused(target: &str) {
+    Database::open(target).unwrap().pretend_version(99).unwrap();
+    let error = Database::open(target).unwrap_err().to_string();
+    assert!(error.contains("version 99") && error.contains("newer"), "{error}");
+}
+
+#[test]
+fn exact_readers_do_not_wait_for_a_writer() {
+    let folder = tempfile::tempdir().unwrap();
+    readers_do_not_wait_for_a_writer(&folder.path().join("records.sqlite").display().to_string());
+}
+
+#[test]
+fn exact_what_is_erased_is_gone_from_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("records.sqlite");
+    let database = Database::open(&file.display().to_string()).unwrap();
+    database.put(&[record("somebody-special", 1), record("other", 1)]).unwrap();
+    database.erase("somebody-special", &[]).unwrap();
+    let traces = |path: PathBuf| std::fs::read(path).unwrap().windows(16).any(|bytes| bytes == b"somebody-special");
+    let found: Vec<PathBuf> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert!(!found.into_iter().any(traces));
+}
+
+/// The web server's last task lets go of the database while it may not wait.
+#[test]
+fn exact_a_database_may_be_let_go_of_where_nobody_may_wait() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("records.sqlite").display().to_string();
+    let database = Database::open(&file).unwrap();
+    database.put(&[record("anna", 1)]).unwrap();
+    let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
+    runtime.block_on(async move { drop(database) });
+    assert_eq!(Database::open(&file).unwrap().records(None).unwrap().len(), 1);
+}
+
+#[test]
+fn exact_a_database_of_a_newer_version_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    a_newer_version_is_refused(&folder.path().join("records.sqlite").display().to_string());
+}
+
+#[test]
+fn exact_no_message_shows_a_password() {
+    let error = Database::open("postgres://spandrel:secret@127.0.0.1:1/none?password=secret").unwrap_err().to_string();
+    assert!(error.contains("postgres://spandrel@127.0.0.1:1/none") && !error.contains("secret"), "{error}");
+}
+
+#[test]
+fn val_records_live_in_postgresql() {
+    let server = Server::start();
+    let url = server.url();
+    every_behaviour(&url);
+    readers_do_not_wait_for_a_writer(&url);
+    a_newer_version_is_refused(&url);
+}

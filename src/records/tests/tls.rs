@@ -1,0 +1,81 @@
+//! TLS to a real PostgreSQL, with certificates made by OpenSSL.
+
+use super::server::{Server, hand_over};
+use crate::records::database::Database;
+use sqlx::Row;
+use std::net::TcpListener;
+use std::path::Path;
+use std::process::Command;
+
+const KEY: &str = "-newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes";
+const SUBJECT: &str = "SELECT version, client_dn FROM pg_stat_ssl WHERE pid = pg_backend_pid() AND ssl";
+
+fn openssl(folder: &Path, words: &str) {
+    let done = Command::new("openssl").args(words.split(' ')).current_dir(folder).output().unwrap();
+    assert!(done.status.success(), "openssl {words}: {}", String::from_utf8_lossy(&done.stderr));
+}
+
+/// `NAME.pem` and `NAME.key` of an authority.
+fn authority(folder: &Path, name: &str) {
+    openssl(folder, &format!("req -x509 {KEY} -keyout {name}.key -out {name}.pem -days 2 -subj /CN={name}"));
+}
+
+/// `NAME.pem` and `NAME.key`, signed by the authority `ours`.
+fn signed(folder: &Path, name: &str, host: &str) {
+    std::fs::write(folder.join("more.cnf"), format!("subjectAltName=DNS:{host}\nbasicConstraints=CA:FALSE\n")).unwrap();
+    openssl(folder, &format!("req {KEY} -keyout {name}.key -out {name}.csr -subj /CN={name}"));
+    let sign = "-CA ours.pem -CAkey ours.key -CAcreateserial -days 2 -extfile more.cnf";
+    openssl(folder, &format!("x509 -req -in {name}.csr -out {name}.pem {sign}"));
+}
+
+/// The TLS version and the name on our own certificate, as PostgreSQL sees this connection.
+fn seen(url: &str) -> Option<(String, String)> {
+    let database = Database::open(url).unwrap();
+    let row = database.run(async { sqlx::query(SUBJECT).fetch_optional(&database.pool).await }).unwrap()?;
+    Some((row.get(0), row.try_get(1).unwrap_or_default()))
+}
+
+#[test]
+fn val_tls_to_postgresql_by_its_url() {
+    let made = tempfile::tempdir().unwrap();
+    let folder = made.path();
+    authority(folder, "ours");
+    authority(folder, "other");
+    signed(folder, "server", "localhost");
+    signed(folder, "station", "station");
+    hand_over(&folder.join("server.key"));
+    // PostgreSQL, another user, reads them.
+    std::fs::set_permissions(folder, std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
+    let at = |name: &str| folder.join(name).display().to_string();
+    let port = TcpListener::bind(("127.0.0.1", 0)).unwrap().local_addr().unwrap().port();
+    let files = [("ssl_cert_file", "server.pem"), ("ssl_key_file", "server.key"), ("ssl_ca_file", "ours.pem")];
+    let mut settings = vec!["ssl=on".to_owned()];
+    settings.extend(files.map(|(name, file)| format!("{name}={}", at(file))));
+    let _server = Server::on_port(port, &settings);
+
+    let url = |host: &str, words: &str| format!("postgres://spandrel@{host}:{port}/postgres?{words}");
+    let (ours, other) = (at("ours.pem"), at("other.pem"));
+    assert_eq!(seen(&url("localhost", "sslmode=disable")), None);
+    for words in ["sslmode=prefer", "sslmode=require"] {
+        assert_eq!(seen(&url("127.0.0.1", words)).unwrap().0, "TLSv1.3", "{words}");
+    }
+    assert!(seen(&url("localhost", &format!("sslmode=verify-full&sslrootcert={ours}"))).is_some());
+    let own = format!("sslmode=verify-full&sslrootcert={ours}&sslcert={}&sslkey={}", at("station.pem"), at("station.key"));
+    assert!(seen(&url("localhost", &own)).unwrap().1.contains("station"), "our certificate is shown");
+
+    let refused = |host: &str, words: &str| Database::open(&url(host, words)).unwrap_err().to_string();
+    let name = refused("127.0.0.1", &format!("sslmode=verify-full&sslrootcert={ours}"));
+    assert!(name.contains("for another name"), "{name}");
+    for stranger in ["sslmode=verify-full".to_owned(), format!("sslmode=verify-full&sslrootcert={other}")] {
+        let unknown = refused("localhost", &stranger);
+        assert!(unknown.contains("sslrootcert=FILE"), "{unknown}");
+    }
+}
+
+#[test]
+fn val_a_postgresql_without_tls_is_not_spoken_to_in_the_clear_when_tls_is_asked_for() {
+    let server = Server::start();
+    let error = Database::open(&format!("{}&sslmode=require", server.url())).unwrap_err().to_string();
+    assert!(error.contains("ssl = on") && error.contains("sslmode=disable"), "{error}");
+    assert!(Database::open(&format!("{}&sslmode=prefer", server.url())).is_ok());
+}

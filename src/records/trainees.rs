@@ -1,0 +1,83 @@
+//! Trainees in the database: who there is and what is known of them.
+
+use super::database::Database;
+use crate::errors::AppError;
+use spandrel_training::trainee::{Role, Trainee};
+use sqlx::any::AnyRow;
+use sqlx::{Any, Row, Transaction};
+
+/// What is not given stays as it is: nobody else's change is lost.
+const SET_GIVEN: &str = "INSERT INTO trainees (pseudonym, role, age_band, drone_experience, gaming_experience) \
+    VALUES ($1, CASE WHEN $2 = '' THEN 'trainee' ELSE $2 END, NULLIF($3, ''), NULLIF($4, ''), NULLIF($5, '')) \
+    ON CONFLICT (pseudonym) DO UPDATE SET role = CASE WHEN $2 = '' THEN trainees.role ELSE excluded.role END, \
+    age_band = COALESCE(excluded.age_band, trainees.age_band), \
+    drone_experience = COALESCE(excluded.drone_experience, trainees.drone_experience), \
+    gaming_experience = COALESCE(excluded.gaming_experience, trainees.gaming_experience)";
+/// Only while they are still what they were on the page that was filled in.
+const SET_DETAILS: &str = "UPDATE trainees SET age_band = NULLIF($1, ''), drone_experience = NULLIF($2, ''), \
+    gaming_experience = NULLIF($3, '') WHERE pseudonym = $4 AND COALESCE(age_band, '') = $5 AND COALESCE(drone_experience, '') = $6 \
+    AND COALESCE(gaming_experience, '') = $7";
+const TRAINEES: &str = "SELECT pseudonym, role, age_band, drone_experience, gaming_experience FROM trainees ORDER BY pseudonym";
+
+impl Database {
+    /// All trainees.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn trainees(&self) -> Result<Vec<Trainee>, AppError> {
+        self.run(async {
+            let rows = sqlx::query(TRAINEES).fetch_all(&self.pool).await?;
+            rows.iter().map(trainee).collect()
+        })
+    }
+
+    /// Adds a trainee, or sets what is given of him: his role, and of his details (age, drones, games) those that are there.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn set_given(&self, name: &str, role: Option<Role>, details: [Option<&str>; 3]) -> Result<(), AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            set_given(&mut change, name, role, details).await?;
+            change.commit().await
+        })
+    }
+
+    /// Sets a person's details (age, drones, games; empty: not said), if they still are as in `before`. False when they are not, or nobody
+    /// has this name: then nothing is changed.
+    ///
+    /// # Errors
+    /// When the database refuses.
+    pub fn set_details(&self, name: &str, before: [&str; 3], after: [&str; 3]) -> Result<bool, AppError> {
+        self.run(async {
+            let mut change = self.begin().await?;
+            let query = after.into_iter().fold(sqlx::query(SET_DETAILS), |query, value| query.bind(value.to_owned()));
+            let query = before.into_iter().fold(query.bind(name.to_owned()), |query, value| query.bind(value.to_owned()));
+            let done = query.execute(&mut *change).await?;
+            change.commit().await.map(|()| done.rows_affected() > 0)
+        })
+    }
+}
+
+/// Adds a trainee or sets what is given, within a change.
+pub(super) async fn set_given(
+    change: &mut Transaction<'static, Any>,
+    name: &str,
+    role: Option<Role>,
+    details: [Option<&str>; 3],
+) -> Result<(), sqlx::Error> {
+    let query = sqlx::query(SET_GIVEN).bind(name.to_owned()).bind(role.map_or("", Role::word).to_owned());
+    let query = details.into_iter().fold(query, |query, detail| query.bind(detail.unwrap_or_default().to_owned()));
+    query.execute(&mut **change).await.map(|_| ())
+}
+
+pub(super) fn trainee(row: &AnyRow) -> Result<Trainee, sqlx::Error> {
+    let role: String = row.try_get(1)?;
+    Ok(Trainee {
+        pseudonym: row.try_get(0)?,
+        role: Role::from_word(&role).ok_or_else(|| sqlx::Error::Decode(format!("'{role}' is no role").into()))?,
+        age_band: row.try_get(2)?,
+        drone_experience: row.try_get(3)?,
+        gaming_experience: row.try_get(4)?,
+    })
+}

@@ -1,0 +1,320 @@
+//! `spandrel sim`: vehicles at a site, each in a thread of its own.
+
+use super::args::{self, JobArgs};
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::heard::HeardFile;
+use super::key;
+use super::links::Links;
+use super::pace::{Lateness, Speed};
+use super::params::ParamFile;
+use super::ports::PortArgs;
+use super::progress::Progress;
+use super::shell::{Kept, Shell, Signing};
+use super::standstill::Standstill;
+use super::stop::Stop;
+use super::store::Store;
+use spandrel_model::scenario::AfterCrash;
+use spandrel_model::site::{Site, gltf};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::LinkKind;
+use spandrel_sitl::sim::{Sim, SimConfig};
+use std::net::SocketAddr;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Simulate the vehicle
+///
+/// A quadrotor with its autopilot at the job's site, as a MAVLink vehicle that speaks as PX4 or ArduPilot does (it is neither). It calls ground station and SDK
+/// unasked, serves those who dial in, feeds the monitor, and forgets peers that fall silent. It runs until it is interrupted.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel sim                                      two bridges, real time, fixed ports
+  spandrel sim --instance 1 --speed 4               a second vehicle beside it, four times real time
+  spandrel sim --instances 3                        three vehicles in one process: systems 1 to 3, ports + 0, 1, 2
+  spandrel sim --serial /dev/ttyUSB0:57600          a telemetry radio as well, no faster than it can carry
+  spandrel sim --flavour ardupilot                  for Mission Planner, MAVProxy and scripts that are written for ArduCopter
+  spandrel sim --ports ephemeral --announce         free ports, told as one JSON line
+  spandrel sim --speed max --gcs 127.0.0.1:9000 --lockstep 127.0.0.1:9000
+                                                    flat out, in step with a client that answers TIMESYNC
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    job: JobArgs,
+    /// So many times real time (0.1 to 100), or max for as fast as the machine can
+    #[arg(long, value_name = "X|max", default_value = "1")]
+    speed: Speed,
+    /// Keep in step with this peer, which must be one of those called: every 20 ms of simulation time it gets TIMESYNC and is waited for.
+    /// Lockstep begins with its first answer: until then time stands still for up to 10 s, with heartbeats, and runs as the clock does afterwards. May be repeated
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
+    lockstep: Vec<SocketAddr>,
+    /// Whose interface the vehicle speaks; it flies the same in all of them
+    #[arg(long, value_name = "NAME", default_value = "px4")]
+    flavour: args::Flavour,
+    /// Whether the camera's component (100) says heartbeats: off for simple clients that take every heartbeat for the vehicle's (DroneKit,
+    /// mavpilot). It takes pictures all the same; the parameter SPAN_CAMERA does it in flight
+    #[arg(long, value_name = "on|off", default_value = "on")]
+    camera: Announced,
+    /// What a crash leads to: the vehicle stays where it fell, it goes back to its last safe hover, the flight ends, or what the scenario
+    /// says. Use scenario when a monitor scores the flight; train and demo do
+    #[arg(long, value_name = "RULE", default_value = "continue")]
+    after_crash: AfterCrashArg,
+    #[command(flatten)]
+    ports: PortArgs,
+    /// Vehicles in this process, 1 to 50, side by side at the same site; they pass through each other. System ids and ports count up from
+    /// --instance and from every port that is given
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
+    instances: u8,
+    /// Folder that is served over MAVLink FTP; the flights' logs (ULog, and MCAP for Foxglove) are written to its folder log, which clients can only read
+    /// and delete from; their own files may take 256 MiB. With several vehicles each has a folder in it, named by its system id [default: none is served or written]
+    #[arg(long, value_name = "DIR")]
+    files: Option<PathBuf>,
+    /// Space for flight logs in the folder of --files, MB; before a flight the oldest logs are deleted down to it
+    #[arg(long, value_name = "MB", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    log_space: u64,
+    /// File that keeps the parameters beyond a run: read at the start when it is there, written after every change; the format is
+    /// QGroundControl's .params. With several vehicles each has one of its own, ending in its system id [default: none is kept]
+    #[arg(long, value_name = "FILE")]
+    params: Option<PathBuf>,
+    /// File with the MAVLink signing key, readable by its owner alone: 64 hexadecimal digits, or a passphrase as MAVProxy takes it. What
+    /// is not signed with it does nothing. What was heard with it is kept beside it, in FILE.heard.N for system N, so that nothing acts
+    /// twice, not even across a restart [default: no signatures]
+    #[arg(long, value_name = "FILE")]
+    signing_key: Option<PathBuf>,
+    /// Kind of link whose frames act without a signature all the same; may be repeated. Only links that nobody else can reach should
+    #[arg(long, value_name = "KIND", requires = "signing_key")]
+    unsigned: Vec<Trusted>,
+    /// End after this much simulation time, s
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    end_after: Option<SimTime>,
+    /// Print the digest of every tick's state at the end: the same scenario, seed and inputs give the same digest
+    #[arg(long)]
+    digest: bool,
+    /// Print one JSON line {"latest_ms", "slips", "slipped_ms"} for each vehicle at the end: the most by which its ticks were late, how often
+    /// they were so late (250 ms) that the clock let time go, and how much; all in wall time
+    #[arg(long)]
+    lateness: bool,
+    /// Print one JSON line {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output first
+    #[arg(long)]
+    announce: bool,
+    /// Finish when standard input closes (for a parent process); a line `pause` there stops time, `resume` lets it run again
+    #[arg(long)]
+    leash: bool,
+}
+
+fn seconds(text: &str) -> Result<SimTime, String> {
+    let s: f64 = text.parse().map_err(|_| format!("'{text}' is no number of seconds"))?;
+    if (0.0..=1e6).contains(&s) {
+        Ok(SimTime::from_s(s))
+    } else {
+        Err(format!("'{text}' is out of range (allowed: 0 to 1000000 s)"))
+    }
+}
+
+/// Whether something shows itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Announced {
+    /// It does
+    On,
+    /// It does not
+    Off,
+}
+
+/// What a crash leads to, as named on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum AfterCrashArg {
+    /// The vehicle stays where it fell
+    Continue,
+    /// It goes back to its last safe hover
+    Respawn,
+    /// The flight ends
+    End,
+    /// What the scenario says
+    Scenario,
+}
+
+impl AfterCrashArg {
+    /// `None` for the scenario's own rule.
+    fn rule(self) -> Option<AfterCrash> {
+        match self {
+            Self::Continue => Some(AfterCrash::Continue),
+            Self::Respawn => Some(AfterCrash::Respawn),
+            Self::End => Some(AfterCrash::End),
+            Self::Scenario => None,
+        }
+    }
+}
+
+/// A kind of link, as named on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Trusted {
+    /// Ground stations over UDP
+    Gcs,
+    /// The SDK that is called
+    Sdk,
+    /// The monitor and other sidecars
+    Payload,
+    /// Ground stations over TCP
+    Tcp,
+    /// Serial ports
+    Serial,
+}
+
+impl Trusted {
+    fn kind(self) -> LinkKind {
+        match self {
+            Self::Gcs => LinkKind::GroundStation,
+            Self::Sdk => LinkKind::Sdk,
+            Self::Payload => LinkKind::Payload,
+            Self::Tcp => LinkKind::Tcp,
+            Self::Serial => LinkKind::Serial,
+        }
+    }
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files or ports are wrong, or a lockstep peer vanishes.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let stop = Stop::install(false)?;
+    let still = if args.leash { Standstill::heed(&stop) } else { Standstill::default() };
+    let scenario = Arc::new(files::scenario(&args.job.scenario)?.scenario);
+    let vehicle = Arc::new(files::vehicle(&args.job.vehicle)?.vehicle);
+    let seed = args.job.seed_for(&scenario);
+    let signing = signing(args)?;
+    let mut doors = (0..args.instances).map(|more| Door::open(args, more)).collect::<Result<Vec<_>, _>>()?;
+    let progress = Progress::start("building the site");
+    let site = Arc::new(Site::build(&scenario, seed));
+    let glb = args.files.is_some().then(|| gltf::glb(&site));
+    for door in &mut doors {
+        if let (Some(store), Some(glb)) = (&mut door.kept.store, &glb) {
+            store.show_site(glb);
+        }
+        door.links.bound["seed"] = seed.into();
+        if args.announce {
+            println!("{}", door.links.bound);
+        }
+        tracing::info!("{} with {}, seed {seed}, ports {}", scenario.name, vehicle.name, door.links.bound);
+    }
+    let shells: Vec<Shell> = doors
+        .into_iter()
+        .map(|Door { links, kept, instance }| {
+            let config = SimConfig {
+                scenario: scenario.clone(),
+                vehicle: vehicle.clone(),
+                seed,
+                instance,
+                flavour: args.flavour.spoken(),
+                after_crash: args.after_crash.rule(),
+            };
+            let mut shell = Shell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())?;
+            shell.obey(still.clone());
+            if args.camera == Announced::Off {
+                shell.core.silence_camera();
+            }
+            Ok(shell)
+        })
+        .collect::<Result<_, AppError>>()?;
+    let flown = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
+    for Flown { digest, late } in flown {
+        if args.digest {
+            println!("{}", digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
+        }
+        if args.lateness {
+            println!("{}", told(late));
+        }
+    }
+    Ok(())
+}
+
+fn told(late: Lateness) -> serde_json::Value {
+    let ms = |time: Duration| 1e3 * time.as_secs_f64();
+    serde_json::json!({ "latest_ms": ms(late.latest), "slips": late.slips, "slipped_ms": ms(late.slipped) })
+}
+
+/// What is left of a vehicle at the end.
+struct Flown {
+    digest: [u8; 32],
+    late: Lateness,
+}
+
+fn signing(args: &Args) -> Result<Option<Signing>, AppError> {
+    let listen = args.ports.listen;
+    let key = args.signing_key.as_deref().map(key::read).transpose()?;
+    if key.is_none() && !listen.is_loopback() {
+        tracing::warn!("--listen {listen} without --signing-key: whoever reaches this machine can fly the vehicle");
+    }
+    let unsigned: Vec<LinkKind> = args.unsigned.iter().map(|trusted| trusted.kind()).collect();
+    if !unsigned.is_empty() && !listen.is_loopback() {
+        tracing::warn!("--listen {listen} with --unsigned: whoever reaches these ports can fly the vehicle");
+    }
+    Ok(key.map(|key| Signing { key, unsigned }))
+}
+
+/// What one vehicle has of the outside world.
+struct Door {
+    links: Links,
+    kept: Kept,
+    instance: u8,
+}
+
+impl Door {
+    fn open(args: &Args, more: u8) -> Result<Self, AppError> {
+        let ports = args.ports.of(more);
+        let instance = ports.instance;
+        let folder = |root: &PathBuf| if args.instances == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
+        let store = args.files.as_ref().map(folder).map(|folder| Store::open(&folder, args.log_space * 1_000_000)).transpose()?;
+        let params =
+            args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { numbered(path, instance + 1) });
+        let heard = args.signing_key.as_ref().map(|key| HeardFile::of(key, instance + 1));
+        let kept = Kept { store, params: params.map(ParamFile::new), heard };
+        Ok(Self { links: Links::open(&ports, &args.lockstep)?, kept, instance })
+    }
+}
+
+fn numbered(path: &Path, system_id: u8) -> PathBuf {
+    let mut name = path.as_os_str().to_os_string();
+    name.push(format!(".{system_id}"));
+    PathBuf::from(name)
+}
+
+/// Every vehicle in a thread of its own until the end; what goes wrong with one ends all.
+fn fly(shells: Vec<Shell>, end: SimTime, stop: &Stop, progress: Progress) -> Result<Vec<Flown>, AppError> {
+    let mut progress = Some(progress);
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = shells
+            .into_iter()
+            .map(|shell| {
+                let progress = progress.take();
+                scope.spawn(move || fly_one(shell, end, stop, progress))
+            })
+            .collect();
+        let ended = threads.into_iter().map(|thread| {
+            thread
+                .join()
+                .unwrap_or_else(|_| Err(AppError::failed("a vehicle's thread broke off: this is a fault of the program")))
+        });
+        ended.collect::<Vec<_>>().into_iter().collect()
+    })
+}
+
+fn fly_one(mut shell: Shell, end: SimTime, stop: &Stop, mut progress: Option<Progress>) -> Result<Flown, AppError> {
+    while !stop.asked() && shell.core.now() < end {
+        if let Err(error) = shell.turn(end) {
+            stop.ask();
+            return Err(error);
+        }
+        if let Some(progress) = &mut progress {
+            progress.tell(|| format!("simulation time {}", shell.core.now()));
+        }
+    }
+    if let Some(progress) = progress {
+        progress.end();
+    }
+    shell.farewell();
+    Ok(Flown { digest: shell.core.digest(), late: shell.late() })
+}

@@ -1,0 +1,162 @@
+//! The assessment for people, from its JSON: the numbers are rounded here and nowhere before.
+
+use super::report;
+use serde::Deserialize;
+use serde_json::Value;
+use spandrel_monitor::folder::REPORT;
+use spandrel_monitor::score::completion::{self, Completion, TaskState};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Prints where a session lies, and its report's address.
+pub fn places(session: &Path) {
+    println!("session       {}", session.display());
+    let page = session.join(REPORT);
+    if page.is_file() {
+        println!("report        {}", report::address(&page));
+    }
+}
+
+/// The scores, tasks, crashes, pictures and the end of one session.
+pub fn scores(assessment: &Value) -> String {
+    let mut out = String::new();
+    let scores = &assessment["scores"];
+    let completion = Completion::deserialize(&assessment["completion"]).ok();
+    let complete = completion.is_none_or(|completion| completion.complete);
+    if let Some(completion) = completion {
+        let _ = writeln!(out, "{}", completion.headline());
+    }
+    if !complete {
+        verdict(&mut out, &assessment["certification"]);
+        let _ = writeln!(out, "\nfor the part that was flown:");
+    }
+    let _ = writeln!(out, "{:<14}{:>8}{:>11}", "score", "raw", "of 100");
+    for name in ["conformity", "efficiency", "safety", "accuracy"] {
+        let _ = match (number(&scores[name]["raw"]), number(&scores[name]["pct"])) {
+            (Some(raw), Some(pct)) => writeln!(out, "{name:<14}{raw:>8.2}{pct:>11.2}"),
+            _ => writeln!(out, "{name:<14}{:>19}", "not applicable"),
+        };
+    }
+    if complete && let (Some(overall), Some(most)) = (number(&scores["overall"]), number(&scores["overall_max"])) {
+        let _ = writeln!(out, "{:<14}{:>8}{overall:>11.2}  of {most:.0}", "overall", "");
+        verdict(&mut out, &assessment["certification"]);
+    }
+    tasks(&mut out, assessment);
+    crashes(&mut out, &assessment["crashes"]);
+    pictures(&mut out, &assessment["snapshots"]);
+    end(&mut out, assessment);
+    out
+}
+
+fn verdict(out: &mut String, certification: &Value) {
+    if let Some(passed) = certification["passed"].as_bool() {
+        let unmet = Vec::<String>::deserialize(&certification["unmet"]).unwrap_or_default();
+        let _ = writeln!(out, "{}", completion::verdict(passed, &unmet));
+    }
+}
+
+fn tasks(out: &mut String, assessment: &Value) {
+    let done_share = number(&assessment["completion"]["done_share"]).unwrap_or_default();
+    for task in assessment["tasks"].as_array().into_iter().flatten() {
+        let id = task["id"].as_u64().unwrap_or_default();
+        let state = TaskState::deserialize(&task["state"]).ok().zip(number(&task["covered"]));
+        let state = state.map_or(String::new(), |(state, covered)| format!("{}, ", state.words(covered, done_share)));
+        let _ = match (task["attempted"].as_bool(), number(&task["on_path"]), number(&task["speeding"])) {
+            (Some(true), Some(on_path), Some(speeding)) => {
+                writeln!(out, "task {id}        {state}on path {:.1} % of the time, speeding loss {speeding:.3}", 100.0 * on_path)
+            }
+            _ => writeln!(out, "task {id}        not attempted"),
+        };
+    }
+}
+
+fn crashes(out: &mut String, crashes: &Value) {
+    let count = |key: &str| crashes[key].as_u64().unwrap_or_default();
+    let mut places = Vec::new();
+    for (place, number) in crashes["by_task"].as_object().into_iter().flatten() {
+        if number.as_u64().is_some_and(|number| number > 0) {
+            let place = if place.parse::<u32>().is_ok() { format!("task {place}") } else { place.clone() };
+            places.push(format!("{place}: {number}"));
+        }
+    }
+    let places = if places.is_empty() { String::new() } else { format!(" ({})", places.join(", ")) };
+    let (other, person, vehicle) = (count("other"), count("person"), count("vehicle"));
+    let _ =
+        writeln!(out, "crashes       {other} with structures or ground, {person} with persons, {vehicle} with vehicles{places}");
+}
+
+fn pictures(out: &mut String, snapshots: &Value) {
+    let count = |key: &str| snapshots[key].as_u64().unwrap_or_default();
+    let (taken, hits, found, placed) = (count("taken"), count("hits"), count("defects_found"), count("defects_placed"));
+    let _ = writeln!(out, "snapshots     {taken} taken, {hits} of them hits; {found} of {placed} defects found");
+}
+
+fn end(out: &mut String, assessment: &Value) {
+    let end = &assessment["end"];
+    let seconds = number(&end["seconds"]).unwrap_or_default();
+    let reason = end["reason"].as_str().unwrap_or("unknown");
+    let missing = assessment["telemetry"]["missing_frames"].as_u64().unwrap_or_default();
+    let minutes = (seconds / 60.0).floor();
+    let _ = writeln!(
+        out,
+        "end           {reason} after {minutes:.0} min {:.0} s of flight, {missing} frames missing",
+        seconds - 60.0 * minutes
+    );
+}
+
+fn number(value: &Value) -> Option<f64> {
+    value.as_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn exact_the_table_shows_every_number_rounded() {
+        let assessment = json!({
+            "completion": {"complete": true, "tasks_done": 2, "tasks": 2, "path_share": 0.914, "landed_at_home": true, "done_share": 0.8},
+            "certification": {"passed": false, "unmet": ["12 % battery at landing, 20 % needed"]},
+            "scores": {"conformity": {"raw": 62.126, "pct": 81.0625}, "efficiency": {"raw": 100.0, "pct": 100.0},
+                "safety": {"raw": -9.0, "pct": 91.0}, "accuracy": null, "overall": 272.0625, "overall_max": 300.0},
+            "tasks": [{"id": 1, "attempted": true, "state": "done", "covered": 0.93, "on_path": 0.875, "speeding": 0.25}],
+            "crashes": {"other": 3, "person": 0, "vehicle": 0, "by_task": {"1": 2, "outside": 1, "2": 0}},
+            "snapshots": {"taken": 5, "hits": 3, "defects_found": 4, "defects_placed": 10},
+            "end": {"reason": "landed", "frames": 22500, "seconds": 750.0}, "telemetry": {"missing_frames": 0}
+        });
+        let expected = "\
+Complete: 2 of 2 tasks, 91 % of the path
+score              raw     of 100
+conformity       62.13      81.06
+efficiency      100.00     100.00
+safety           -9.00      91.00
+accuracy           not applicable
+overall                    272.06  of 300
+Not certified: 12 % battery at landing, 20 % needed
+task 1        done, 93 % of its path, on path 87.5 % of the time, speeding loss 0.250
+crashes       3 with structures or ground, 0 with persons, 0 with vehicles (task 1: 2, outside: 1)
+snapshots     5 taken, 3 of them hits; 4 of 10 defects found
+end           landed after 12 min 30 s of flight, 0 frames missing
+";
+        assert_eq!(scores(&assessment), expected);
+    }
+
+    #[test]
+    fn regress_an_incomplete_attempt_leads_with_what_was_not_done_and_has_no_sum() {
+        let score = |pct: f64| json!({"raw": pct, "pct": pct});
+        let assessment = json!({
+            "completion": {"complete": false, "tasks_done": 0, "tasks": 2, "path_share": 0.31, "landed_at_home": true, "done_share": 0.8},
+            "certification": {"passed": false, "unmet": ["task 1 not done: 64 % of its path, 80 % needed", "task 2 not attempted"]},
+            "scores": {"conformity": score(50.0), "efficiency": score(100.0), "safety": score(100.0), "accuracy": null,
+                "overall": 250.0, "overall_max": 300.0},
+            "tasks": [{"id": 1, "attempted": true, "state": "part", "covered": 0.64, "on_path": 0.5, "speeding": 0.0},
+                {"id": 2, "attempted": false, "state": "not_attempted", "covered": 0.0}],
+        });
+        let text = scores(&assessment);
+        let start = "Incomplete: 0 of 2 tasks, 31 % of the path\n\
+            Not certified: task 1 not done: 64 % of its path, 80 % needed (and 1 more)\n\nfor the part that was flown:\n";
+        assert!(text.starts_with(start), "{text}");
+        assert!(!text.contains("overall") && !text.contains("of 300") && text.contains("part, 64 % of its path"), "{text}");
+    }
+}

@@ -1,0 +1,210 @@
+//! `spandrel train`: simulator and monitor for a person's ground station, and a window that leads from one flight to the next.
+
+mod course;
+mod flight;
+mod offers;
+mod photographs;
+mod prompt;
+mod questions;
+mod window;
+
+use super::args::{self, JobArgs, TraineeId};
+use super::errors::{AppError, EXIT_CODES};
+use super::files;
+use super::pace::Speed;
+use super::ports::PortArgs;
+use super::stop::Stop;
+use super::table;
+use course::Course;
+use std::net::SocketAddr;
+use std::path::{Path, PathBuf};
+
+/// The job that is flown unless another one is asked for: the paper's.
+const USUAL: &str = "two-bridges";
+
+/// Fly a session yourself
+///
+/// Starts simulator and monitor, says how to connect a ground station or a script, waits for the flight, and prints the scores and the
+/// session folder. Where there is a display, a window asks who flies what (unless a scenario is given), checks the controller, explains
+/// itself to who is new, shows the inspector's view and the camera's, flies with its keys or with a calibrated controller, and tells the
+/// scores; a practice can be paused and begun anew. Without a display, fly by your ground station's map and instruments, or by a script.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel train                                  the window asks; without a display: the paper's job
+  spandrel train --trainee anna --scenario drill-hover          at once; QGroundControl on this machine connects by itself
+  spandrel train --scenario my-job.toml --choose  the window asks, with this job among the others
+  spandrel train --no-view                        without the window
+  spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     a ground station on another machine
+
+{EXIT_CODES}"))]
+pub struct Args {
+    /// Scenario: a file, or the name of a shipped one [default: the window asks; without one, two-bridges]
+    #[arg(long, value_name = "FILE|NAME")]
+    scenario: Option<String>,
+    /// Aircraft: a file, or the name of a shipped one
+    #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
+    vehicle: String,
+    /// Seed for everything random (defects, traffic, gusts, sensor noise), 0 to 2147483647 [default: the scenario's, else a new one]
+    #[arg(long, value_name = "N", value_parser = args::seed, allow_negative_numbers = true)]
+    seed: Option<u64>,
+    /// Who flies: letters, digits, '-' and '_', at most 32
+    #[arg(long, value_name = "ID", default_value = "anonymous")]
+    trainee: TraineeId,
+    /// A practice may be paused and begun anew, an assessment is flown through and has no map
+    #[arg(long, value_name = "PURPOSE", default_value = "practice")]
+    purpose: args::Purpose,
+    /// The window asks although a scenario is given
+    #[arg(long, conflicts_with = "no_view")]
+    choose: bool,
+    /// Folder that session folders are made in
+    #[arg(long, value_name = "DIR", default_value = "sessions")]
+    sessions: PathBuf,
+    /// So many times real time (0.1 to 100), or max; a person flies at 1
+    #[arg(long, value_name = "X|max", default_value = "1")]
+    speed: Speed,
+    /// Whose interface the vehicle speaks; it flies the same in all of them
+    #[arg(long, value_name = "NAME", default_value = "px4")]
+    flavour: args::Flavour,
+    /// Web pages of this machine's sessions and of the live flight: a port of this machine, 0 for any free one, or none
+    #[arg(long, value_name = "PORT|none", default_value = "0")]
+    web: args::Port,
+    /// Without the window
+    #[arg(long)]
+    no_view: bool,
+    /// Quit when the session is scored; without it the vehicle stays connected until you quit
+    #[arg(long, conflicts_with = "choose")]
+    once: bool,
+    /// Without sound in the window
+    #[arg(long)]
+    no_sound: bool,
+    /// How much a picture in the window may cost: low, medium, high, ultra, or auto
+    #[arg(long, value_name = "PRESET", default_value = "auto")]
+    quality: String,
+    /// Which key does what in the window (as `spandrel view --keys`)
+    #[arg(long, value_name = "FILE")]
+    keys: Option<PathBuf>,
+    /// Which controller flies from the window, by a part of its name or its id [default: the only one]
+    #[arg(long, value_name = "NAME", conflicts_with = "no_view")]
+    device: Option<String>,
+    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration]
+    #[arg(long, value_name = "DIR", conflicts_with = "no_view")]
+    profiles: Option<PathBuf>,
+    /// Send the camera's view as H.264 over RTP there while the window flies (as `spandrel view --stream`; QGroundControl listens at UDP 5600)
+    #[arg(long, value_name = "HOST:PORT", value_parser = args::address, conflicts_with = "no_view")]
+    stream: Option<SocketAddr>,
+    #[command(flatten)]
+    ports: PortArgs,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When files or ports are wrong, a process fails, or the flight cannot be scored.
+pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
+    // What is wrong with the files is told before anything starts.
+    files::scenario(args.scenario.as_deref().unwrap_or(USUAL))?;
+    files::vehicle(&args.vehicle)?;
+    super::controller::keys(args.keys.as_deref())?;
+    check_quality(&args.quality)?;
+    Course::new(args, log, Stop::install(false)?).run()
+}
+
+/// Refuses a preset that there is not; a build without the window has none.
+fn check_quality(name: &str) -> Result<(), AppError> {
+    #[cfg(feature = "view")]
+    super::view::check_quality(name)?;
+    let _ = name;
+    Ok(())
+}
+
+/// Where the window keeps the camera's view for the live page: a place that nobody else can write to, one for each process.
+fn camera(args: &Args) -> PathBuf {
+    args.sessions.join(format!(".camera-{}.jpg", std::process::id()))
+}
+
+/// Arguments that all children share.
+pub fn common(job: &JobArgs, log: tracing::Level) -> Vec<String> {
+    let mut args = vec!["--log".to_owned(), log.to_string().to_lowercase()];
+    args.extend(["--scenario", &job.scenario, "--vehicle", &job.vehicle].map(str::to_owned));
+    if let Some(seed) = job.seed {
+        args.extend(["--seed".to_owned(), seed.to_string()]);
+    }
+    args
+}
+
+/// Prints the scores of a session folder and its place.
+///
+/// # Errors
+/// When it holds no assessment.
+pub fn tell(session: &Path) -> Result<(), AppError> {
+    let path = session.join(spandrel_monitor::folder::ASSESSMENT);
+    let text = std::fs::read_to_string(&path)
+        .map_err(|_| AppError::failed(format!("the session was not scored; what was recorded is in {}", session.display())))?;
+    let assessment = serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: {error}", path.display())))?;
+    print!("{}", table::scores(&assessment));
+    table::places(session);
+    Ok(())
+}
+
+fn how_to_connect(
+    title: &str,
+    args: &PortArgs,
+    ports: &serde_json::Value,
+    session: &Path,
+    (web, window): (Option<&str>, bool),
+) -> String {
+    let port = |key: &str| ports[key].as_u64().map_or("not opened".to_owned(), |port| port.to_string());
+    let targets: Vec<String> = args.ground_stations().iter().map(ToString::to_string).collect();
+    let (auto, targets) = if targets.is_empty() { ("no", "nobody".to_owned()) } else { ("yes", targets.join(", ")) };
+    format!(
+        "\
+{title}
+  QGroundControl   connects by itself: {auto} (the vehicle calls {targets})
+  dial in          UDP {} or TCP {} at {}
+  MAVSDK           {}
+  pymavlink        udpout:127.0.0.1:{}
+  session folder   {}
+  web pages        {}
+{}
+Take off, do the tasks, land on the pad; the scores follow, and the vehicle stays connected. Ctrl-C ends the session early.
+",
+        port("gcs_port"),
+        port("tcp_port"),
+        args.listen,
+        args.sdk().map_or("nobody is called".to_owned(), |sdk| format!("udpin://0.0.0.0:{}", sdk.port())),
+        port("gcs_port"),
+        session.display(),
+        web.unwrap_or("none"),
+        if window {
+            "A window shows both views, says which key does what, and flies with them; a ground station or a script may fly as well."
+        } else {
+            "No window: fly by the ground station's map and instruments, or by a script."
+        },
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: Args,
+    }
+
+    /// Arguments as on a command line.
+    pub fn parsed(words: &[&str]) -> Args {
+        Line::parse_from(["train"].iter().chain(words)).args
+    }
+
+    #[test]
+    fn exact_a_window_is_told_of_only_where_there_is_one() {
+        let ports = parsed(&[]).ports;
+        let told = |window| how_to_connect("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
+        assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));
+        assert!(told(false).contains("No window: fly by") && !told(false).contains("A window shows"), "{}", told(false));
+    }
+}

@@ -1,0 +1,35 @@
+//! The display, or why there is none.
+
+use crate::errors::AppError;
+use winit::error::EventLoopError;
+use winit::event_loop::EventLoop;
+
+/// The display's events.
+pub fn open() -> Result<EventLoop<()>, AppError> {
+    // The library for keyboards is looked for when it is first used, and its absence is a panic there: here it is one more thing that is
+    // missing.
+    let told = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let opened = std::panic::catch_unwind(EventLoop::new);
+    std::panic::set_hook(told);
+    let why = match opened {
+        Ok(Ok(events)) => return Ok(events),
+        Ok(Err(EventLoopError::Os(_))) => unreachable_display(),
+        Ok(Err(error)) => error.to_string(),
+        Err(_) => "a library is missing; Debian and Ubuntu: apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 libxrandr2"
+            .to_owned(),
+    };
+    Err(AppError::failed(format!("there is no display to open a window on ({why}); everything else works without")))
+}
+
+/// Which display was asked for; the library's own words name a place in its source code.
+fn unreachable_display() -> String {
+    let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let asked: Vec<String> =
+        ["WAYLAND_DISPLAY", "DISPLAY"].into_iter().filter_map(|name| Some(format!("{name}={}", set(name)?))).collect();
+    if asked.is_empty() {
+        "neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned()
+    } else {
+        format!("{} cannot be opened", asked.join(" and "))
+    }
+}

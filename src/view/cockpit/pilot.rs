@@ -1,0 +1,266 @@
+//! Flying from the window, in a thread of its own: sticks go out fifty times a second, however long a picture takes.
+
+use super::super::Args;
+use super::desk::Desk;
+use crate::clock::Stopwatch;
+use crate::controller::Profiles;
+use crate::errors::AppError;
+use crate::net::{Arrival, Hub, SocketId};
+use spandrel_clients::rc::keyboard::{Keyboard, Keys};
+use spandrel_clients::rc::link::Link;
+use spandrel_clients::rc::{Action, Sticks};
+use spandrel_model::time::SimTime;
+use spandrel_view::flow::{Controls, Tune};
+use std::net::SocketAddr;
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// Longest wait for a datagram: a quarter of the time between two stick samples.
+const WAIT: Duration = Duration::from_millis(5);
+/// On the ground, how the controller stands is shown this often (a tenth of a person's reaction; estimate).
+const SHOW: SimTime = SimTime::from_ms(30);
+
+/// What the window asks of the pilot.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ask {
+    /// A key went down.
+    Down(String),
+    /// A key came up.
+    Up(String),
+    /// The window lost the focus, or shows a page: all keys are up.
+    LetGo,
+    /// Dial this vehicle's port for ground stations.
+    Fly(SocketAddr),
+    /// Let go of the vehicle.
+    Land,
+    /// Time stands still, or goes on: nobody acts meanwhile.
+    Stand(bool),
+    /// Look for a controller again.
+    Look,
+    /// Calibrate it.
+    Calibrate,
+    /// The wizard's Enter.
+    Confirm,
+    /// Leave the wizard.
+    Cancel,
+    /// Change this of its profile, and keep it.
+    Tune(Tune),
+}
+
+/// The window's end of the pilot.
+#[derive(Debug)]
+pub struct Pilot {
+    asks: Sender<Ask>,
+    told: Receiver<String>,
+    controls: Arc<Mutex<Controls>>,
+}
+
+impl Pilot {
+    /// Sits down. Without a controller the keyboard flies; why there is none is told once.
+    ///
+    /// # Errors
+    /// When no socket can be opened, or a file is wrong.
+    pub fn start(args: &Args, keys: Keys) -> Result<Self, AppError> {
+        let mut hub = Hub::new();
+        let socket = hub.bind(args.listen, 0, "--listen")?;
+        let profiles = Profiles::at(args.profiles.clone());
+        let device = args.device.clone();
+        let (asks, asked) = channel();
+        let (teller, told) = channel();
+        let controls = Arc::new(Mutex::new(Controls::default()));
+        let shown = controls.clone();
+        std::thread::spawn(move || {
+            // A device is opened where it is used: some systems' devices may not change threads.
+            let desk = Desk::new(device, profiles);
+            if let Some(why) = desk.why_keys() {
+                tracing::info!("{why} The window's keys fly.");
+            }
+            let words = keys.explain();
+            let board = Keyboard::new(keys);
+            let mut seat = Seat {
+                hub,
+                socket,
+                vehicle: None,
+                link: Link::default(),
+                board,
+                desk,
+                touched: false,
+                stands: false,
+                lost: false,
+                shown,
+                words,
+                next: SimTime::ZERO,
+            };
+            seat.fly(&asked, &teller);
+        });
+        Ok(Self { asks, told, controls })
+    }
+
+    /// Asks for something.
+    pub fn ask(&self, ask: Ask) {
+        // The thread lives as long as the window.
+        let _ = self.asks.send(ask);
+    }
+
+    /// The next thing to tell the person.
+    pub fn poll_told(&self) -> Option<String> {
+        self.told.try_recv().ok()
+    }
+
+    /// How the controller stands.
+    pub fn controls(&self) -> Controls {
+        self.controls.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+/// Tells the person. Nobody is left to hear it when the window is closed; then no more is asked either, which ends the thread.
+fn tell(teller: &Sender<String>, words: String) {
+    let _ = teller.send(words);
+}
+
+struct Seat {
+    hub: Hub,
+    socket: SocketId,
+    vehicle: Option<SocketAddr>,
+    link: Link,
+    board: Keyboard,
+    desk: Desk,
+    touched: bool,
+    stands: bool,
+    lost: bool,
+    shown: Arc<Mutex<Controls>>,
+    words: String,
+    next: SimTime,
+}
+
+impl Seat {
+    fn fly(&mut self, asked: &Receiver<Ask>, teller: &Sender<String>) {
+        let watch = Stopwatch::start();
+        loop {
+            if let Some(Arrival::Datagram { from, bytes, .. }) = self.hub.next(WAIT)
+                && Some(from) == self.vehicle
+            {
+                self.link.receive(&bytes);
+            }
+            let now = SimTime::from_s(watch.elapsed().as_secs_f64());
+            loop {
+                match asked.try_recv() {
+                    Ok(ask) => self.take(ask, now, teller),
+                    Err(TryRecvError::Empty) => break,
+                    Err(TryRecvError::Disconnected) => return,
+                }
+            }
+            if self.desk.welcome() {
+                self.lost = false;
+                let flies = if self.desk.flies() { "It flies." } else { "Keys fly until it is calibrated." };
+                tell(teller, format!("A controller is there. {} {flies}", self.desk.note()));
+            }
+            let (sticks, news) = self.sticks(now);
+            // On the ground the page of the controller says it.
+            if let Some(news) = news.filter(|_| self.vehicle.is_some()) {
+                tell(teller, news);
+            }
+            match self.vehicle {
+                Some(vehicle) => {
+                    self.link.set_sticks(sticks, now);
+                    self.send(vehicle, now);
+                    std::iter::from_fn(|| self.link.poll_told()).for_each(|text| tell(teller, text));
+                }
+                None => self.show(now),
+            }
+        }
+    }
+
+    fn send(&mut self, vehicle: SocketAddr, now: SimTime) {
+        self.link.handle_timeout(now);
+        while let Some(bytes) = self.link.poll_transmit() {
+            self.hub.send(self.socket, vehicle, &bytes);
+        }
+    }
+
+    /// On the ground: how the controller stands; buttons have nobody to act on.
+    fn show(&mut self, now: SimTime) {
+        while self.link.poll_told().is_some() {}
+        if now >= self.next {
+            self.next = now + SHOW;
+            let controls = self.desk.controls(self.board.sticks(now), &self.words);
+            *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = controls;
+        }
+    }
+
+    fn take(&mut self, ask: Ask, now: SimTime, teller: &Sender<String>) {
+        match ask {
+            Ask::Down(key) => {
+                let action = self.board.press(&key, true, now);
+                if let Some(action) = action.filter(|_| self.vehicle.is_some()) {
+                    self.link.act(action, now);
+                }
+                // Who has asked for no flight holds no sticks: another ground station may fly, and a script keeps its aircraft. Who arms
+                // does, or the vehicle would count as left alone.
+                let flies = matches!(action, Some(Action::Arm | Action::TakeOff | Action::Position));
+                self.touched |= self.vehicle.is_some() && (flies || self.board.sticks(now) != Sticks::default());
+            }
+            Ask::Up(key) => self.board.release(&key),
+            Ask::LetGo => self.board.let_go(),
+            Ask::Fly(vehicle) => {
+                (self.vehicle, self.link, self.touched) = (Some(vehicle), Link::default(), false);
+                self.link.set_arm_key(&self.board.keys().label("arm"));
+                self.stands = false;
+                if let Some(why) = self.desk.why_keys() {
+                    tell(teller, format!("{why} Keys fly."));
+                }
+            }
+            Ask::Stand(stands) => self.stands = stands,
+            Ask::Land => (self.vehicle, self.link) = (None, Link::default()),
+            Ask::Look => self.desk.look(),
+            Ask::Calibrate => self.desk.calibrate(),
+            Ask::Confirm => self.desk.confirm(now),
+            Ask::Cancel => self.desk.cancel(),
+            Ask::Tune(tune) => self.desk.tune(tune),
+        }
+    }
+
+    /// A controller's sticks, unless keys are held; the keys' once they have been touched. With it, what a person must know of the
+    /// controller.
+    fn sticks(&mut self, now: SimTime) -> (Option<Sticks>, Option<String>) {
+        let keys = self.board.sticks(now);
+        // While time stands still a button would act late, or never: it has nobody to act on.
+        let (mut nobody, flown);
+        if self.stands {
+            nobody = Link::default();
+            flown = self.desk.sticks(&mut nobody, now);
+        } else {
+            flown = self.desk.sticks(&mut self.link, now);
+        }
+        let lost = matches!(flown, Ok(None)) && self.desk.flies() || flown.is_err();
+        let news = self.turn(lost);
+        let own = self.touched.then_some(keys);
+        match flown {
+            Ok(Some(sticks)) if keys == Sticks::default() => (Some(sticks), news),
+            Ok(Some(_)) => (Some(keys), news),
+            Ok(None) => (own, news),
+            Err(error) => {
+                tracing::warn!("the controller is given up: {error}");
+                self.desk.give_up(&error);
+                (None, Some(self.desk.note().to_owned()))
+            }
+        }
+    }
+
+    /// The controller is lost now, or is not; says so when it was not, or was.
+    fn turn(&mut self, lost: bool) -> Option<String> {
+        let before = std::mem::replace(&mut self.lost, lost);
+        let name = self.desk.name().unwrap_or("the controller");
+        match (before, lost) {
+            (false, true) => {
+                // Whose controller is gone holds no sticks, whatever keys were pressed before: the vehicle's failsafe acts, until a key flies
+                // anew.
+                self.touched = false;
+                Some(format!("'{name}' is lost: its sticks are centred, then silent. A key takes over."))
+            }
+            (true, false) if self.desk.flies() => Some(format!("'{name}' flies again.")),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! A window with a surface to draw on, and egui's way to it.
+
+use crate::errors::AppError;
+use spandrel_view::gpu::{Gpu, GpuError};
+use std::sync::Arc;
+use winit::dpi::PhysicalSize;
+use winit::event::WindowEvent;
+use winit::event_loop::ActiveEventLoop;
+use winit::window::Window;
+
+/// The window and the device behind it.
+pub struct Screen {
+    /// The window.
+    pub window: Arc<Window>,
+    /// The device.
+    pub gpu: Gpu,
+    /// egui's painter: pictures are registered with it.
+    pub painter: egui_wgpu::Renderer,
+    surface: wgpu::Surface<'static>,
+    config: wgpu::SurfaceConfiguration,
+    input: egui_winit::State,
+    freed: Vec<egui::TextureId>,
+}
+
+impl Screen {
+    /// Opens a window of a size in px, larger where the display is to be read at a larger scale.
+    ///
+    /// # Errors
+    /// When there is no display, or nothing to draw with.
+    pub fn open(events: &ActiveEventLoop, title: &str, (width, height): (u32, u32)) -> Result<Self, AppError> {
+        // A window that is larger than its display hides what stands at its edges.
+        let display = events.primary_monitor().or_else(|| events.available_monitors().next());
+        let scale = display.as_ref().map_or(1.0, |display| display.scale_factor().max(1.0));
+        let wanted = PhysicalSize::new((scale * f64::from(width)).round() as u32, (scale * f64::from(height)).round() as u32);
+        let room = display.map(|display| display.size()).filter(|size| size.width > 0 && size.height > 0).unwrap_or(wanted);
+        let size = PhysicalSize::new(wanted.width.min(room.width), wanted.height.min(room.height));
+        let attributes = Window::default_attributes().with_title(title).with_inner_size(size);
+        let failed = |why: String| AppError::failed(format!("no window can be opened: {why}"));
+        let window = Arc::new(events.create_window(attributes).map_err(|error| failed(error.to_string()))?);
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+        // Without any driver there is nothing that a surface could be made by.
+        let surface = instance.create_surface(window.clone()).map_err(|error| GpuError::NoDevice(error.to_string()))?;
+        let gpu = Gpu::open_for(&instance, Some(&surface))?;
+        let size = window.inner_size();
+        let config = surface
+            .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
+            .ok_or_else(|| failed(format!("{} cannot draw in windows", gpu.name)))?;
+        // egui and the finished pictures are in sRGB already: the surface must not convert once more.
+        let plain = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
+        let formats = surface.get_capabilities(&gpu.adapter).formats;
+        let format = plain.into_iter().find(|format| formats.contains(format)).unwrap_or(config.format);
+        let config = wgpu::SurfaceConfiguration { format, ..config };
+        surface.configure(&gpu.device, &config);
+        let input = egui_winit::State::new(
+            egui::Context::default(),
+            egui::ViewportId::ROOT,
+            &window,
+            Some(window.scale_factor() as f32),
+            None,
+            Some(gpu.device.limits().max_texture_dimension_2d as usize),
+        );
+        let painter = egui_wgpu::Renderer::new(&gpu.device, format, egui_wgpu::RendererOptions::default());
+        Ok(Self { window, gpu, painter, surface, config, input, freed: Vec::new() })
+    }
+
+    /// Hands an event to egui; true when egui wants it for itself.
+    pub fn take(&mut self, event: &WindowEvent) -> bool {
+        if let WindowEvent::Resized(size) = event {
+            (self.config.width, self.config.height) = (size.width.max(1), size.height.max(1));
+            self.surface.configure(&self.gpu.device, &self.config);
+        }
+        self.input.on_window_event(&self.window, event).consumed
+    }
+
+    /// Runs egui and shows the result.
+    pub fn show(&mut self, ui: impl FnMut(&mut egui::Ui)) -> Result<(), AppError> {
+        use wgpu::CurrentSurfaceTexture as Current;
+        let jobs = self.run(ui);
+        let frame = match self.surface.get_current_texture() {
+            Current::Success(frame) => frame,
+            Current::Suboptimal(frame) => frame,
+            Current::Timeout | Current::Occluded => return Ok(()),
+            Current::Outdated | Current::Lost => {
+                self.surface.configure(&self.gpu.device, &self.config);
+                return Ok(());
+            }
+            Current::Validation => return Err(AppError::failed("the graphics device refuses the window's surface")),
+        };
+        let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.paint(&jobs, &view);
+        self.window.pre_present_notify();
+        self.gpu.queue.present(frame);
+        Ok(())
+    }
+
+    /// Runs egui and gives the result as a picture, as the window would show it.
+    pub fn picture(&mut self, ui: impl FnMut(&mut egui::Ui)) -> Result<spandrel_view::picture::Picture, AppError> {
+        let jobs = self.run(ui);
+        let descriptor = wgpu::TextureDescriptor {
+            label: Some("window"),
+            size: wgpu::Extent3d { width: self.config.width, height: self.config.height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: self.config.format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        };
+        let texture = self.gpu.device.create_texture(&descriptor);
+        self.paint(&jobs, &texture.create_view(&wgpu::TextureViewDescriptor::default()));
+        let mut picture = spandrel_view::gpu::read(&self.gpu, &texture)?;
+        if self.config.format == wgpu::TextureFormat::Bgra8Unorm {
+            picture.rgba.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
+        }
+        Ok(picture)
+    }
+
+    fn run(&mut self, mut ui: impl FnMut(&mut egui::Ui)) -> Vec<egui::ClippedPrimitive> {
+        let context = self.input.egui_ctx().clone();
+        let raw = self.input.take_egui_input(&self.window);
+        let mut output = context.run_ui(raw, |root| ui(root));
+        self.input.handle_platform_output(&self.window, std::mem::take(&mut output.platform_output));
+        let mut changes = std::mem::take(&mut output.textures_delta);
+        for (id, deltas) in &changes.set {
+            for delta in deltas {
+                self.painter.update_texture(&self.gpu.device, &self.gpu.queue, *id, delta);
+            }
+        }
+        let jobs = context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
+        // What was painted last may still have used them.
+        for id in std::mem::replace(&mut self.freed, changes.free.iter().copied().collect()) {
+            self.painter.free_texture(&id);
+        }
+        changes.clear();
+        jobs
+    }
+
+    fn paint(&mut self, jobs: &[egui::ClippedPrimitive], target: &wgpu::TextureView) {
+        let screen = egui_wgpu::ScreenDescriptor {
+            size_in_pixels: [self.config.width, self.config.height],
+            pixels_per_point: self.input.egui_ctx().pixels_per_point(),
+        };
+        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let before = self.painter.update_buffers(device, queue, &mut encoder, jobs, &screen);
+        {
+            let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("window"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+                })],
+                depth_stencil_attachment: None,
+                timestamp_writes: None,
+                occlusion_query_set: None,
+                multiview_mask: None,
+            });
+            self.painter.render(&mut pass.forget_lifetime(), jobs, &screen);
+        }
+        queue.submit(before.into_iter().chain([encoder.finish()]));
+    }
+}

@@ -1,0 +1,128 @@
+//! Figures of cohorts, computed once for each state of the database. Reading ten thousand records takes seconds of processor time, and every
+//! reload of a cohort page needs the same figures. They are read over a connection of their own, so that lists do not wait for them; the
+//! request pipeline (`door`) lets one such request through at a time.
+
+use super::state::lock;
+use crate::errors::AppError;
+use crate::records::{Database, Place};
+use spandrel_training::cohort::{Cohort, Selection, cohort};
+use spandrel_training::record::Record;
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex};
+
+/// Selections whose figures are kept at once; beyond it the oldest goes. Estimate: more than an instructor compares.
+const SELECTIONS: usize = 8;
+
+/// The figures of one selection.
+#[derive(Debug)]
+pub struct Figured {
+    /// The cohort, which may hold no session that counts.
+    pub cohort: Cohort,
+    /// The scenarios that were flown at all.
+    pub flown: Vec<String>,
+}
+
+impl Figured {
+    /// The cohort, if any session counts.
+    pub fn counted(&self) -> Option<&Cohort> {
+        (self.cohort.sessions > 0).then_some(&self.cohort)
+    }
+}
+
+/// Computes figures, and keeps them while the database stays as it is.
+#[derive(Debug)]
+pub struct Figures {
+    database: Database,
+    kept: Mutex<Kept<Selection, Figured>>,
+}
+
+impl Figures {
+    /// Opens a connection of its own.
+    ///
+    /// # Errors
+    /// When the database cannot be opened.
+    pub fn open(place: &Place) -> Result<Self, AppError> {
+        Ok(Self { database: place.open()?, kept: Mutex::default() })
+    }
+
+    /// Returns the figures of a selection.
+    ///
+    /// # Errors
+    /// When the database refuses or holds what is no record.
+    pub fn of(&self, selection: &Selection) -> Result<Arc<Figured>, AppError> {
+        let mut kept = lock(&self.kept);
+        let version = self.database.version()?;
+        kept.get(&version, selection, || Ok(figured(&self.database.records(None)?, selection)))
+    }
+}
+
+fn figured(records: &[Record], selection: &Selection) -> Figured {
+    let flown: BTreeSet<&str> = records.iter().map(|record| record.scenario.as_str()).collect();
+    Figured { cohort: cohort(records, selection), flown: flown.into_iter().map(str::to_owned).collect() }
+}
+
+/// Values of one version of their source, by what they were computed for.
+#[derive(Debug)]
+struct Kept<K, V> {
+    version: String,
+    values: Vec<(K, Arc<V>)>,
+}
+
+impl<K, V> Default for Kept<K, V> {
+    fn default() -> Self {
+        Self { version: String::new(), values: Vec::new() }
+    }
+}
+
+impl<K: Clone + PartialEq, V> Kept<K, V> {
+    fn get(&mut self, version: &str, key: &K, compute: impl FnOnce() -> Result<V, AppError>) -> Result<Arc<V>, AppError> {
+        if self.version != version {
+            self.values.clear();
+            version.clone_into(&mut self.version);
+        }
+        if let Some((_, value)) = self.values.iter().find(|(kept, _)| kept == key) {
+            return Ok(value.clone());
+        }
+        let value = Arc::new(compute()?);
+        if self.values.len() >= SELECTIONS {
+            self.values.remove(0);
+        }
+        self.values.push((key.clone(), value.clone()));
+        Ok(value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_figures_are_computed_once_for_each_version_and_selection() {
+        let mut kept = Kept::<u32, u32>::default();
+        let mut computed = 0;
+        let mut ask = |version: &str, key: u32| {
+            let value = kept.get(version, &key, || {
+                computed += 1;
+                Ok(computed)
+            });
+            value.map(|value| *value)
+        };
+        assert_eq!(ask("1", 7), Ok(1));
+        assert_eq!(ask("1", 7), Ok(1), "kept");
+        assert_eq!(ask("1", 8), Ok(2), "another selection");
+        assert_eq!(ask("1", 7), Ok(1), "both are kept");
+        assert_eq!(ask("2", 7), Ok(3), "the database has changed");
+        for key in 100..100 + u32::try_from(SELECTIONS).unwrap() {
+            ask("2", key).unwrap();
+        }
+        assert_eq!(ask("2", 7), Ok(4 + u32::try_from(SELECTIONS).unwrap()), "the oldest made room");
+        assert!(kept.values.len() <= SELECTIONS);
+    }
+
+    #[test]
+    fn regress_a_failure_is_not_kept() {
+        let mut kept = Kept::<u32, u32>::default();
+        assert!(kept.get("1", &1, || Err(AppError::failed("no"))).is_err());
+        assert_eq!(kept.get("1", &1, || Ok(5)).map(|value| *value), Ok(5));
+    }
+}

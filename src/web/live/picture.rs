@@ -1,0 +1,67 @@
+//! The camera's view, as a window keeps it in a file about once a second.
+
+use super::Live;
+use crate::web::answer::{Answer, Answered, Refusal};
+use crate::web::asked::Asked;
+use crate::web::state::State;
+use std::path::Path;
+use std::time::{Duration, UNIX_EPOCH};
+
+/// An older picture shows nothing of now.
+const FRESH: Duration = Duration::from_secs(10);
+/// Largest picture that is shown, bytes: a view in full HD has some hundred thousand.
+const MOST: u64 = 4 * 1024 * 1024;
+/// How every JPEG begins (ITU-T T.81, B.1.1.3: SOI, then a marker).
+const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
+
+/// Names the picture that is there now, so that a browser asks for each once; `None` when it is no more of now.
+pub fn version(path: &Path) -> Option<u64> {
+    let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MOST)?;
+    let kept = about.modified().ok()?;
+    // A clock that was put back makes no picture old.
+    let age = kept.elapsed().unwrap_or_default();
+    let since = kept.duration_since(UNIX_EPOCH).ok()?;
+    (age < FRESH).then(|| u64::try_from(since.as_millis()).ok()).flatten()
+}
+
+/// The picture, for those who may watch the flight.
+pub fn show(state: &State, asked: &Asked) -> Answered {
+    let (_, live) = super::chosen(state, asked.word("vehicle"))?;
+    of(live)
+}
+
+/// The picture of a flight.
+///
+/// # Errors
+/// When there is none of now.
+pub fn of(live: &Live) -> Answered {
+    let path = live.picture.as_deref().filter(|path| version(path).is_some()).ok_or(Refusal::NotFound)?;
+    let bytes = std::fs::read(path).map_err(|_| Refusal::NotFound)?;
+    // Whatever else the file may hold, a browser gets pictures from here alone.
+    if !bytes.starts_with(&JPEG) {
+        return Err(Refusal::NotFound);
+    }
+    Ok(Answer::picture(bytes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_only_a_picture_of_now_has_a_version() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("camera.jpg");
+        assert_eq!(version(&path), None);
+        std::fs::write(&path, JPEG).unwrap();
+        let file = std::fs::File::options().write(true).open(&path).unwrap();
+        let now = file.metadata().unwrap().modified().unwrap();
+        let at = |ago: Duration| file.set_modified(now - ago).unwrap();
+        at(Duration::from_secs(1));
+        let first = version(&path).unwrap();
+        at(Duration::ZERO);
+        assert!(version(&path).unwrap() > first, "every picture has a name of its own");
+        at(2 * FRESH);
+        assert_eq!((version(&path), version(folder.path())), (None, None));
+    }
+}

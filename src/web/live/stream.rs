@@ -1,0 +1,41 @@
+//! Values as they come, as server-sent events.
+
+use super::Live;
+use crate::web::state::State;
+use axum::body::Body;
+use axum::http::{Response, header};
+use axum::response::IntoResponse;
+use axum::response::sse::{Event, KeepAlive, Sse};
+use spandrel_training::web::access::Needs;
+use std::convert::Infallible;
+use std::sync::Arc;
+
+/// A visitor's right to watch is looked at again after so many moments.
+const LOOK_AGAIN: u32 = 50;
+
+/// Values as they come, until the browser goes or the visitor may no more.
+pub fn stream(state: Arc<State>, live: &Live, cookie: Option<String>) -> Response<Body> {
+    let moments = live.moments.clone();
+    let events = futures_util::stream::unfold((moments, state, cookie, 0u32), |(mut moments, state, cookie, count)| async move {
+        // The first moment is there already.
+        if count > 0 {
+            moments.changed().await.ok()?;
+        }
+        if count % LOOK_AGAIN == LOOK_AGAIN - 1 && !still_may(&state, cookie.clone()).await {
+            return None;
+        }
+        let text = moments.borrow_and_update().clone();
+        Some((Ok::<Event, Infallible>(Event::default().data(text)), (moments, state, cookie, count.wrapping_add(1))))
+    });
+    let mut response = Sse::new(events).keep_alive(KeepAlive::default()).into_response();
+    response.headers_mut().insert(header::CACHE_CONTROL, header::HeaderValue::from_static("no-store"));
+    response
+}
+
+async fn still_may(state: &Arc<State>, cookie: Option<String>) -> bool {
+    let state = state.clone();
+    let looked = tokio::task::spawn_blocking(move || state.guard.recognise(&state.database, cookie)).await;
+    looked.is_ok_and(|recognised| {
+        recognised.is_ok_and(|recognised| !recognised.fresh && recognised.visitor.meets(Needs::Instructor))
+    })
+}

@@ -1,0 +1,136 @@
+//! Password hashing: argon2id with the parameters that OWASP recommends (19 MiB, 2 passes, 1 lane), the library's defaults.
+
+use crate::errors::AppError;
+use crate::records::Place;
+use argon2::password_hash::{Output, PasswordHash, SaltString};
+use argon2::{ARGON2ID_IDENT, Algorithm, Argon2, Block, Params, Version};
+use spandrel_training::trainee::Role;
+use spandrel_training::web::login;
+use std::io::{BufRead, IsTerminal};
+
+/// Checked for a name without a password, so that the answer takes as long as for a name with one.
+const NOBODY: &str = "$argon2id$v=19$m=19456,t=2,p=1$c3BhbmRyZWxzcGFuZHJlbA$lpYT1oVDUN5U6kPGGjEw5xOVQbQTkgO2xbCVrTQEzDM";
+/// Largest memory cost of a stored hash, KiB: a database from elsewhere must not choose how much memory a login takes. Estimate: 3 times ours.
+const MOST_MEMORY_KIB: u32 = 65_536;
+/// Largest number of passes of a stored hash, for the same reason. Estimate.
+const MOST_PASSES: u32 = 10;
+
+/// Working memory of one hash at a time, allocated once and used again.
+#[derive(Debug, Default)]
+pub struct Memory(Vec<Block>);
+
+impl Memory {
+    fn output(&mut self, argon2: &Argon2<'_>, password: &str, salt: &[u8], out: &mut [u8]) -> argon2::Result<()> {
+        let needed = argon2.params().block_count();
+        if self.0.len() < needed {
+            self.0.resize(needed, Block::default());
+        }
+        argon2.hash_password_into_with_memory(password.as_bytes(), salt, out, &mut self.0[..needed])
+    }
+}
+
+/// Returns the password's hash in the PHC string format.
+///
+/// # Errors
+/// When the system has no randomness.
+pub fn hash(password: &str, memory: &mut Memory) -> Result<String, AppError> {
+    let failed = |error: &dyn std::fmt::Display| AppError::failed(format!("the password cannot be hashed: {error}"));
+    let mut salt = [0; 16];
+    getrandom::fill(&mut salt).map_err(|error| failed(&error))?;
+    let argon2 = Argon2::default();
+    let mut out = [0; Params::DEFAULT_OUTPUT_LEN];
+    memory.output(&argon2, password, &salt, &mut out).map_err(|error| failed(&error))?;
+    let salt = SaltString::encode_b64(&salt).map_err(|error| failed(&error))?;
+    let params = argon2.params().try_into().map_err(|error: argon2::password_hash::Error| failed(&error))?;
+    let parsed = PasswordHash {
+        algorithm: ARGON2ID_IDENT,
+        version: Some(Version::V0x13.into()),
+        params,
+        salt: Some(salt.as_salt()),
+        hash: Some(Output::new(&out).map_err(|error| failed(&error))?),
+    };
+    Ok(parsed.to_string())
+}
+
+/// Returns whether the password has this hash. Without a hash it takes as long and returns false.
+pub fn fits(password: &str, hash: Option<&str>, memory: &mut Memory) -> bool {
+    let stored = PasswordHash::new(hash.unwrap_or(NOBODY));
+    let fits = stored.ok().and_then(|stored| matches(password, &stored, memory)).unwrap_or(false);
+    fits && hash.is_some()
+}
+
+/// `None` for a hash that cannot be computed here.
+fn matches(password: &str, stored: &PasswordHash<'_>, memory: &mut Memory) -> Option<bool> {
+    let params = Params::try_from(stored).ok().filter(|p| p.m_cost() <= MOST_MEMORY_KIB && p.t_cost() <= MOST_PASSES)?;
+    let algorithm = Algorithm::try_from(stored.algorithm).ok()?;
+    let version = stored.version.map_or(Ok(Version::default()), Version::try_from).ok()?;
+    let expected = stored.hash?;
+    let mut salt = [0; 64];
+    let salt = stored.salt?.decode_b64(&mut salt).ok()?;
+    let mut out = [0; Output::MAX_LENGTH];
+    let out = out.get_mut(..expected.len())?;
+    memory.output(&Argon2::new(algorithm, version, params), password, salt, out).ok()?;
+    // Output compares in constant time.
+    Some(Output::new(out).ok()? == expected)
+}
+
+/// Asks for a password and stores its hash.
+///
+/// # Errors
+/// When the password is refused, or the database refuses.
+pub fn set(place: &Place, name: &str, role: Role) -> Result<(), AppError> {
+    let password = ask(name)?;
+    login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;
+    let database = place.open()?;
+    database.set_login(name, role, &hash(&password, &mut Memory::default())?)?;
+    println!("{}: '{name}' may log in as {}", database.name(), role.word());
+    Ok(())
+}
+
+fn ask(name: &str) -> Result<String, AppError> {
+    let failed = |error: std::io::Error| AppError::failed(format!("no password was read: {error}"));
+    if std::io::stdin().is_terminal() {
+        let first = rpassword::prompt_password(format!("Password for {name}: ")).map_err(failed)?;
+        let again = rpassword::prompt_password("Again: ").map_err(failed)?;
+        return if first == again { Ok(first) } else { Err(AppError::wrong("the two passwords differ")) };
+    }
+    let mut line = String::new();
+    std::io::stdin().lock().read_line(&mut line).map_err(failed)?;
+    Ok(line.trim_end_matches(['\r', '\n']).to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use argon2::password_hash::{PasswordHasher, PasswordVerifier};
+
+    #[test]
+    fn exact_a_hash_fits_its_password_alone_and_never_twice_the_same() {
+        let memory = &mut Memory::default();
+        let first = hash("correct horse battery", memory).unwrap();
+        assert!(first.starts_with("$argon2id$v=19$m=19456,t=2,p=1$"), "{first}");
+        assert_ne!(first, hash("correct horse battery", memory).unwrap());
+        assert!(fits("correct horse battery", Some(&first), memory));
+        assert!(!fits("correct horse batterz", Some(&first), memory));
+        assert!(!fits("correct horse battery", None, memory));
+        assert!(!fits("x", Some("no hash"), memory));
+        // The stand-in is a hash like any other, so that the time taken tells nobody whether a name exists.
+        assert!(PasswordHash::new(NOBODY).is_ok());
+    }
+
+    #[test]
+    fn val_the_library_s_own_hasher_and_verifier_agree() {
+        let memory = &mut Memory::default();
+        let ours = hash("correct horse battery", memory).unwrap();
+        let parsed = PasswordHash::new(&ours).unwrap();
+        assert!(Argon2::default().verify_password(b"correct horse battery", &parsed).is_ok());
+        let salt = SaltString::encode_b64(&[7; 16]).unwrap();
+        // Another cost than ours, as an older database may hold.
+        let other = Argon2::new(Algorithm::Argon2id, Version::V0x13, Params::new(8_192, 3, 2, None).unwrap());
+        let theirs = other.hash_password(b"correct horse battery", &salt).unwrap().to_string();
+        assert!(fits("correct horse battery", Some(&theirs), memory) && !fits("another", Some(&theirs), memory));
+        let greedy = theirs.replace("m=8192", "m=4194304");
+        assert!(!fits("correct horse battery", Some(&greedy), memory));
+        assert!(memory.0.len() <= MOST_MEMORY_KIB as usize);
+    }
+}

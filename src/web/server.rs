@@ -1,0 +1,152 @@
+//! The server: its port, its threads, and the table of routes as axum takes it.
+
+use super::door::{self, Shared};
+use super::guard::Reach;
+use super::routes::{FORM_MOST, How, ROUTES, Route, STREAM};
+use super::state::{Setup, State};
+use super::{ListenArgs, tls};
+use crate::errors::AppError;
+use crate::stop::Stop;
+use axum::Router;
+use axum::extract::{DefaultBodyLimit, Request};
+use axum::routing::{MethodRouter, get, post};
+use axum_server::Handle;
+use std::net::{SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use std::time::Duration;
+use tokio::sync::Semaphore;
+
+/// A browser has this long to send the head of a request.
+const HEAD_WAIT: Duration = Duration::from_secs(30);
+/// Uploads that arrive at once; each takes up to `RECORDING_MOST` of disk. Estimate: a class of thirty.
+const UPLOADS: usize = 32;
+/// What is under way when the server ends has this long.
+const FAREWELL: Duration = Duration::from_secs(2);
+/// Between two looks whether to end.
+const LOOK: Duration = Duration::from_millis(50);
+/// Threads that wait for disk and database.
+const WAITING_THREADS: usize = 16;
+
+/// A running server; it ends when it is dropped.
+#[derive(Debug)]
+pub struct Server {
+    address: String,
+    handle: Handle<SocketAddr>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Server {
+    /// Opens the port and serves.
+    ///
+    /// # Errors
+    /// When arguments, files, the port or the database are wrong.
+    pub fn start(args: &ListenArgs, setup: Setup) -> Result<Self, AppError> {
+        let secure = args.tls_cert.is_some() || args.behind_proxy;
+        let tls = tls::config(args)?;
+        let reach = if args.behind_proxy {
+            Reach::behind(&args.trusted_proxy, &args.host)
+        } else {
+            Reach { hosts: args.host.clone(), ..Reach::default() }
+        };
+        let state = State::open(setup, secure, reach)?;
+        tls::check(args, !state.database.with_password()?.is_empty())?;
+        let taken = |error: std::io::Error| AppError::failed(format!("--listen {}: cannot be opened: {error}", args.listen));
+        let listener = TcpListener::bind(args.listen).map_err(taken)?;
+        listener.set_nonblocking(true).map_err(taken)?;
+        let bound = listener.local_addr().map_err(taken)?;
+        let address = format!("{}://{bound}", if tls.is_some() { "https" } else { "http" });
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(2)
+            .max_blocking_threads(WAITING_THREADS)
+            .enable_all()
+            .build()
+            .map_err(|error| AppError::failed(format!("no runtime for the server: {error}")))?;
+        let handle = Handle::new();
+        let shared =
+            Shared { state: Arc::new(state), uploads: Arc::new(Semaphore::new(UPLOADS)), working: Arc::new(Semaphore::new(1)) };
+        let (router, own) = (router(&shared), handle.clone());
+        let thread = std::thread::spawn(move || {
+            let ended = runtime.block_on(serve(listener, tls, own, router));
+            if let Err(error) = ended {
+                tracing::error!("the server ended: {error}");
+            }
+            // Streams and slow handlers are not waited for.
+            runtime.shutdown_background();
+        });
+        Ok(Self { address, handle, thread: Some(thread) })
+    }
+
+    /// Where a browser finds it.
+    pub fn address(&self) -> &str {
+        &self.address
+    }
+
+    /// Serves until somebody asks to stop.
+    pub fn until(&self, stop: &Stop) {
+        while !stop.asked() && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
+            std::thread::sleep(LOOK);
+        }
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.handle.graceful_shutdown(Some(FAREWELL));
+        if let Some(thread) = self.thread.take()
+            && thread.join().is_err()
+        {
+            tracing::error!("the server's thread broke off: this is a fault of the program");
+        }
+    }
+}
+
+async fn serve(
+    listener: TcpListener,
+    tls: Option<axum_server::tls_rustls::RustlsConfig>,
+    handle: Handle<SocketAddr>,
+    router: Router,
+) -> std::io::Result<()> {
+    let service = router.into_make_service_with_connect_info::<SocketAddr>();
+    match tls {
+        Some(tls) => {
+            let mut server = axum_server::from_tcp_rustls(listener, tls)?.handle(handle);
+            limit(server.http_builder());
+            server.serve(service).await
+        }
+        None => {
+            let mut server = axum_server::from_tcp(listener)?.handle(handle);
+            limit(server.http_builder());
+            server.serve(service).await
+        }
+    }
+}
+
+/// Who opens connections and says nothing is put out.
+fn limit(builder: &mut hyper_util::server::conn::auto::Builder<hyper_util::rt::TokioExecutor>) {
+    builder.http1().timer(hyper_util::rt::TokioTimer::new()).header_read_timeout(HEAD_WAIT);
+}
+
+fn router(shared: &Shared) -> Router {
+    let mut router = Router::new();
+    for route in ROUTES {
+        router = router.route(route.path, method(route, shared));
+    }
+    let stream = shared.clone();
+    router = router.route(STREAM, get(move |request: Request| door::live_stream(stream.clone(), request)));
+    let (lost, wrong) = (shared.clone(), shared.clone());
+    router
+        .fallback(move |request: Request| door::nothing(lost.clone(), request))
+        .method_not_allowed_fallback(move |request: Request| door::nothing(wrong.clone(), request))
+}
+
+fn method(route: &'static Route, shared: &Shared) -> MethodRouter {
+    let shared = shared.clone();
+    let handle = move |request: Request| door::through(shared.clone(), route, request);
+    match route.how {
+        How::File | How::Show | How::Compute => get(handle),
+        How::Change => post(handle),
+        // The fields beside the file need room, too.
+        How::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + FORM_MOST)),
+    }
+}

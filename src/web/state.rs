@@ -1,0 +1,118 @@
+//! What all requests share.
+
+use super::figures::Figures;
+use super::guard::{Guard, Reach};
+use super::live::{Live, Watched};
+use super::taking_in::TakingIn;
+use crate::errors::AppError;
+use crate::questionnaire;
+use crate::records::{Database, Place};
+use spandrel_training::questionnaire::Languages;
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What a server is made from.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// Records and sessions.
+    pub place: Place,
+    /// Folder of uploaded scenarios; `None` for the usual one.
+    pub scenarios: Option<PathBuf>,
+    /// Vehicles that are watched.
+    pub watched: Vec<Watched>,
+    /// Wordings of the questionnaire beside the shipped ones.
+    pub wordings: Vec<PathBuf>,
+}
+
+/// What all requests share.
+#[derive(Debug)]
+pub struct State {
+    /// Records.
+    pub database: Database,
+    /// Figures of cohorts.
+    pub figures: Figures,
+    /// Where they and the sessions are.
+    pub place: Place,
+    /// Folder of uploaded scenarios.
+    pub scenarios: PathBuf,
+    /// Who is who.
+    pub guard: Guard,
+    /// Languages of the questionnaire.
+    pub languages: Languages,
+    /// The flights that are watched.
+    pub live: Vec<Live>,
+    /// Takes new sessions in.
+    pub taking_in: TakingIn,
+    /// Held while a file of answers is read, changed and written.
+    pub answers: Mutex<()>,
+    /// Held while a recording is scored: one at a time costs enough.
+    pub scoring: Mutex<()>,
+}
+
+impl State {
+    /// Opens everything.
+    ///
+    /// # Errors
+    /// When a wording is wrong, or the database or a link to a vehicle cannot be opened.
+    pub fn open(setup: Setup, secure: bool, reach: Reach) -> Result<Self, AppError> {
+        let Setup { place, scenarios, watched, wordings } = setup;
+        let languages = questionnaire::languages(&wordings)?;
+        let first = place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
+        std::fs::create_dir_all(&first)
+            .map_err(|error| AppError::failed(format!("{}: cannot be made: {error}", first.display())))?;
+        super::uploads::clear(&first)?;
+        let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
+        super::leftovers::sweep(&place.sessions, &scenarios);
+        let (database, figures) = (place.open()?, Figures::open(&place)?);
+        let guard = Guard::new(!database.with_password()?.is_empty(), secure, reach);
+        let start = |watched: &Watched| Live::start(watched, &place.sessions, &scenarios);
+        let live = watched.iter().map(start).collect::<Result<Vec<_>, _>>()?;
+        let taking_in = TakingIn::start(&place)?;
+        let (answers, scoring) = (Mutex::new(()), Mutex::new(()));
+        Ok(Self { database, figures, place, scenarios, guard, languages, live, taking_in, answers, scoring })
+    }
+
+    /// Where uploads lie while they arrive and sessions while they are made.
+    pub fn spool(&self) -> PathBuf {
+        self.first().join(super::uploads::ASIDE)
+    }
+
+    /// The folder of sessions that new ones go into.
+    pub fn first(&self) -> PathBuf {
+        self.place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"))
+    }
+
+    /// The folder of a session; `None` when it is not on this machine, or the id is no plain name.
+    pub fn folder(&self, id: &str) -> Option<PathBuf> {
+        if !is_plain(id) {
+            return None;
+        }
+        self.place.sessions.iter().map(|folder| folder.join(id)).find(|path| crate::session_folder::is_session(path))
+    }
+}
+
+/// A name that stays in its folder, whatever the system takes for a separator.
+pub fn is_plain(name: &str) -> bool {
+    let fits = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    !name.is_empty() && name.len() <= 200 && !name.starts_with('.') && name.chars().all(fits)
+}
+
+/// A lock whose holder broke off is as good as new: what it guards is whole between two statements.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_names_that_leave_their_folder_are_none() {
+        for good in ["20260801T101010Z-anna-two-bridges-1a2b3c", "session-anna-001", "x.y"] {
+            assert!(is_plain(good), "{good}");
+        }
+        for bad in ["", ".", "..", "../x", "a/b", "a\\b", "/etc", "a\0b", ".hidden", "é", &"x".repeat(201)] {
+            assert!(!is_plain(bad), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! A recorded flight becomes a session: scored first, kept only when it can be.
+
+use super::answer::{Answer, Answered, Refusal};
+use super::asked::Asked;
+use super::scenarios;
+use super::state::{State, lock};
+use crate::args::TraineeId;
+use crate::errors::AppError;
+use crate::session_folder::SessionFolder;
+use crate::{assess, clock, files, report};
+use axum::http::StatusCode;
+use spandrel_mavlink::telemetry::tlog;
+use spandrel_monitor::export::json_text;
+use spandrel_monitor::folder::sha256_hex;
+use spandrel_monitor::watch::build_site;
+use spandrel_monitor::{Monitor, MonitorConfig, Record};
+use spandrel_training::web::job as pages;
+use std::path::{Path, PathBuf};
+
+/// Where a session lies while it is taken in; its name is no session's.
+pub const ASIDE: &str = ".taking-in";
+
+/// The form.
+pub fn page(state: &State, asked: &Asked) -> Answered {
+    shown(state, asked, None)
+}
+
+fn shown(state: &State, asked: &Asked, told: Option<pages::Told<'_>>) -> Answered {
+    let named: Vec<_> = scenarios::all(&state.scenarios).into_iter().map(|job| job.named).collect();
+    let vehicles: Vec<String> = files::vehicle_names().into_iter().map(str::to_owned).collect();
+    Ok(Answer::page(pages::recorded(&asked.visitor, &named, &vehicles, told)))
+}
+
+/// What became of an upload.
+enum Taken {
+    /// It is a session now.
+    Session(PathBuf),
+    /// It is one already: its id and trainee.
+    There(String, String),
+}
+
+/// Takes a recording in.
+pub fn recording(state: &State, asked: &Asked) -> Answered {
+    // The same recording twice at once is one session, too.
+    let _one_at_a_time = lock(&state.scoring);
+    match take(state, asked) {
+        Ok(Taken::Session(folder)) => {
+            let id = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let record = crate::records::read_session(&folder, &std::collections::BTreeMap::new())?;
+            state.database.put(&Vec::from_iter(record))?;
+            Ok(Answer::to(&format!("/sessions/{id}")))
+        }
+        Ok(Taken::There(id, trainee)) => {
+            let told = pages::Told::There { id: &id, trainee: &trainee };
+            Ok(shown(state, asked, Some(told))?.with_status(StatusCode::CONFLICT))
+        }
+        Err(Refusal::Wrong(words)) => {
+            Ok(shown(state, asked, Some(pages::Told::Wrong(&words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+        }
+        Err(other) => Err(other),
+    }
+}
+
+fn take(state: &State, asked: &Asked) -> Result<Taken, Refusal> {
+    let trainee: TraineeId = asked.needed("trainee")?.parse().map_err(|wrong| Refusal::Wrong(format!("trainee: {wrong}")))?;
+    let scenario = files::scenario(&scenarios::argument(&state.scenarios, asked.needed("scenario")?)?)?;
+    let vehicle = asked.needed("vehicle")?;
+    if !files::vehicle_names().contains(&vehicle) {
+        return Err(Refusal::Wrong("vehicle: there is none of this name".into()));
+    }
+    let vehicle = files::vehicle(vehicle)?;
+    let log = &*asked.upload.as_ref().ok_or_else(|| Refusal::Wrong("file: missing".into()))?.file.bytes()?;
+    // The telemetry is kept as it came, to its last whole record.
+    let kept = &log[..tlog::whole_len(log)];
+    if let Some((id, trainee)) = state.database.of_telemetry(&sha256_hex(kept))? {
+        return Ok(Taken::There(id, trainee));
+    }
+    // What cannot be scored is the file's fault, whatever the scorer calls it.
+    let unfit = |error: AppError| Refusal::Wrong(format!("this recording cannot be taken in: {error}"));
+    let graded = assess::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
+    let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
+    if state.database.erased()?.holds("", trainee.as_str(), started_unix_us) {
+        let words = format!("trainee = {}: was erased after this flight; it is not taken in again", trainee.as_str());
+        return Err(Refusal::Wrong(words));
+    }
+    let first = state.first();
+    let aside = state.spool();
+    let mut folder = SessionFolder::create(&aside, trainee.as_str(), started_unix_us, &scenario, &vehicle)?;
+    let config = MonitorConfig {
+        scenario: scenario.scenario.clone(),
+        vehicle: vehicle.vehicle.clone(),
+        trainee: trainee.as_str().to_owned(),
+        purpose: None,
+        started_unix_us,
+        system_id: 1,
+        seed: None,
+        build: build_site,
+    };
+    // The sidecar hears the recording as it would have heard the flight, so that the folder says the same of it.
+    let mut monitor = Monitor::new(config);
+    for record in tlog::Reader::new(log) {
+        monitor.handle_datagram(record.frame);
+        while let Some(event) = monitor.poll_record() {
+            if matches!(event, Record::Event(_)) {
+                folder.record(event);
+            }
+        }
+        while monitor.poll_transmit().is_some() {}
+    }
+    folder.record(Record::Telemetry(kept.to_vec()));
+    folder.flush()?;
+    if let Some(survey) = monitor.survey() {
+        folder.resolve(graded.seed, survey.defects())?;
+    }
+    folder.describe(|scenario, vehicle, utc, starts| monitor.session_info(scenario, vehicle, utc, starts))?;
+    if let Err(error) = report::write(folder.path()) {
+        tracing::warn!("no report was written: {error}");
+    }
+    folder.assessment(&json_text(&graded.assessment))?;
+    // Whole, it takes its place among the others; a kill before leaves nothing there.
+    let place = free(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
+    let moved = std::fs::rename(folder.path(), &place);
+    moved.map_err(|error| Refusal::Failed(format!("{}: cannot be moved: {error}", place.display())))?;
+    Ok(Taken::Session(place))
+}
+
+/// A place of this name, or of one like it: another recording of the same instant may be there.
+fn free(sessions: &Path, name: &str) -> PathBuf {
+    let stem = name.rsplit_once('-').map_or(name, |(stem, _)| stem);
+    let others = (1..).map(|k: u32| format!("{stem}-{}", &sha256_hex(format!("{name} {k}").as_bytes())[..6]));
+    let mut places = std::iter::once(name.to_owned()).chain(others).map(|name| sessions.join(name));
+    places.find(|place| !place.exists()).unwrap_or_else(|| sessions.join(name))
+}
+
+/// Removes what a killed server was taking in.
+///
+/// # Errors
+/// When the disk refuses.
+pub fn clear(sessions: &Path) -> Result<(), AppError> {
+    let aside = sessions.join(ASIDE);
+    match std::fs::remove_dir_all(&aside) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(AppError::failed(format!("{}: cannot be removed: {error}", aside.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_taken_name_gives_way_to_one_like_it() {
+        let sessions = tempfile::tempdir().unwrap();
+        let name = "20231114T221320Z-anna-two-bridges-1a2b3c";
+        assert_eq!(free(sessions.path(), name), sessions.path().join(name));
+        let mut seen = std::collections::BTreeSet::new();
+        for _ in 0..3 {
+            let place = free(sessions.path(), name);
+            std::fs::create_dir(&place).unwrap();
+            let name = place.file_name().unwrap().to_string_lossy().into_owned();
+            assert!(name.starts_with("20231114T221320Z-anna-two-bridges-") && seen.insert(name));
+        }
+    }
+}
