@@ -22,7 +22,8 @@ AT_ONCE = 6
 SCENARIOS = ["two-bridges", "drill-hover"]
 LEG_M, HEIGHT_M = 20.0, 10.0
 SQUARE = [(LEG_M, 0.0), (LEG_M, LEG_M), (0.0, LEG_M)]
-STRAIGHT = [(k * LEG_M, 0.0) for k in range(5)]
+# Eastward, where nothing stands for 80 m: the arch of the shipped job is 68 m north of its pad.
+STRAIGHT = [(0.0, k * LEG_M) for k in range(5)]
 NEAR_M = 0.3
 
 
@@ -321,7 +322,7 @@ def fly(flow, folder, scenario):
         tester.close()
 
 
-# The target walks 140 m north; 68 m north of the shipped job's pad stands the arch.
+# The target walks 140 m north, through the shipped job's arch.
 ONLY_OVER_LEVEL_GROUND = {"follow by position", "follow by position and velocity"}
 FLIGHTS = [(name, scenario) for name in FLOWS for scenario in SCENARIOS if scenario != "two-bridges" or name not in ONLY_OVER_LEVEL_GROUND]
 

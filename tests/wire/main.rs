@@ -8,6 +8,7 @@ mod camera_settings;
 mod circles;
 mod copter;
 mod copter_modes;
+mod copter_pilots;
 mod copter_plans;
 mod failures;
 mod fence;

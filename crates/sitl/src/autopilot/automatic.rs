@@ -228,6 +228,9 @@ impl Autopilot {
 
     fn wait_over_home(&mut self, home: Vec3<Ned>) {
         let rules = self.tuning.rules.homeward;
+        if rules.turns_back {
+            self.course.target_yaw_rad = self.watch.armed_yaw_rad;
+        }
         if (self.course.target_m.down() - self.estimate.position_m.down()).abs() > HEIGHT_REACHED_M || rules.wait_s < 0.0 {
             return;
         }
@@ -255,7 +258,10 @@ impl Autopilot {
         match setpoint.yaw_rate_rad_s {
             Some(rate) if setpoint.yaw_rad.is_none() => self.turn_at(rate, dt_s),
             // Where a set-point leaves the heading open, a command may say it, as in ArduPilot's GUIDED.
-            _ => self.turn_to(setpoint.yaw_rad.or(self.course.target_yaw_rad), dt_s),
+            _ => {
+                let wanted = setpoint.yaw_rad.or(self.course.target_yaw_rad).or_else(|| self.nose_of(&setpoint));
+                self.turn_to(wanted, dt_s);
+            }
         }
         if let Some(up_m_s) = setpoint.climb_m_s {
             return self.climb_at(&setpoint, up_m_s, dt_s);
@@ -277,6 +283,13 @@ impl Autopilot {
         let mut motion = self.motion(self.shaper.velocity_m_s);
         self.accelerate(&setpoint, &mut motion);
         Wanted::Fly(motion)
+    }
+
+    /// Where the nose points on the way to a place that comes as an errand, without a heading.
+    fn nose_of(&self, setpoint: &OffboardSetpoint) -> Option<f64> {
+        let [Some(n), Some(e), Some(d)] = setpoint.position_m else { return None };
+        let errand = self.tuning.setpoints_end && setpoint.velocity_m_s == [None; 3];
+        errand.then(|| self.nose_by_rule(Vec3::new(n, e, d))).flatten()
     }
 
     /// An attitude or body rates with a climb rate in place of the thrust (ArduCopter).

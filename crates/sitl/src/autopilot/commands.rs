@@ -1,13 +1,16 @@
 //! Requests and their answers.
 
 use super::core::{Autopilot, Severity};
-use super::operator_rules::MissionNeeds;
+use super::operator_rules::{FenceSwitching, MissionNeeds};
 use super::{Landed, MissionStep, Mode, Outcome, Request, Turn};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
 /// Heights and distances beyond this are mistakes, m.
 const FAR_M: f64 = 20_000.0;
+
+/// Above this stick the thrust is more than half of what hovers (ArduPilot: get_non_takeoff_throttle).
+const LEAP: f64 = -0.5;
 
 impl Autopilot {
     /// Asks for something; the answer comes at once.
@@ -45,6 +48,11 @@ impl Autopilot {
         }
         self.status.armed = true;
         self.mission.begin_anew();
+        if self.watch.intended == Mode::Mission {
+            self.restart_finished_mission();
+        }
+        self.watch.armed_yaw_rad = Some(self.estimate.attitude.yaw_rad());
+        self.tuning.fence_enabled |= self.tuning.rules.fence.auto == FenceSwitching::AtArming;
         self.status.mission_paused = false;
         self.status.landed = Landed::OnGround;
         self.watch.standing_since = now;
@@ -111,13 +119,17 @@ impl Autopilot {
         {
             return Some(Outcome::Denied(why));
         }
+        if self.would_leap(mode, now) {
+            return Some(Outcome::Denied("throttle too high".into()));
+        }
         if mode == Mode::Orbit && self.orbit.is_none() {
             return Some(Outcome::Denied("Nothing to circle: DO_ORBIT says what".into()));
         }
         if mode == Mode::Offboard && !self.links.offboard_fresh(self.tuning.offboard_patience_s(), now) {
             return Some(Outcome::TemporarilyRejected("Offboard needs external set-points first".into()));
         }
-        if flying && mode.needs_position() && !self.estimate.position_valid {
+        let counts = flying || self.status.armed && self.tuning.arms_by_mode;
+        if counts && mode.needs_position() && !self.estimate.position_valid {
             return Some(Outcome::TemporarilyRejected("No position estimate".into()));
         }
         if mode == Mode::SmartReturn && flying && self.trail.is_empty() {
@@ -130,6 +142,14 @@ impl Autopilot {
             return Some(Outcome::TemporarilyRejected("No home position".into()));
         }
         None
+    }
+
+    /// On the ground the throttle stick is so high that a mode in which it is the thrust would take off at once.
+    fn would_leap(&self, mode: Mode, now: SimTime) -> bool {
+        let direct = |mode: Mode| matches!(mode, Mode::Stabilized | Mode::Acro);
+        let high = self.links.sticks.up > LEAP && self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
+        let standing = !self.status.armed || self.status.landed == Landed::OnGround;
+        self.tuning.arms_by_mode && standing && high && direct(mode) && !direct(self.watch.intended)
     }
 
     /// What the mission lacks of what the operator asks of one.

@@ -4,7 +4,7 @@ use super::automatic::{HEIGHT_REACHED_M, TURN_BEYOND_M};
 use super::core::{Autopilot, Severity};
 use super::mission::LeftCourse;
 use super::modes::{ReturnPhase, Wanted};
-use super::shaper::heading_of;
+use super::shaper::{heading_of, stopping_point};
 use super::trajectory::{Bounds, Planned, Speeds, Trajectory};
 use super::{Landed, MissionStep, Mode, Turn};
 use spandrel_model::frames::{Ned, Vec3};
@@ -317,6 +317,14 @@ impl Autopilot {
         if !self.status.mission_finished {
             self.status.mission_finished = true;
             self.say(Severity::Info, "Mission finished");
+            if self.tuning.mission_mode_stays {
+                let e = &self.estimate;
+                self.course.target_m = stopping_point(&self.gains, e.position_m, e.velocity_m_s);
+                self.way = None;
+            }
+        }
+        if self.tuning.mission_mode_stays {
+            return;
         }
         self.watch.intended = Mode::Hold;
         self.enter(Mode::Hold, now);

@@ -290,8 +290,9 @@ impl Autopilot {
         let here = self.estimate.position_m;
         // The floor counts from when it was first above it, and not on the way down to land.
         let low = self.below_floor(here);
-        self.watch.above_floor |= !low;
+        self.watch.above_floor |= !low && self.acts();
         let coming_down = matches!(self.status.mode, Mode::Land | Mode::Return) || self.status.landed == Landed::Landing;
+        self.watch.above_floor &= !(low && coming_down);
         let floor = (low && self.watch.above_floor && !coming_down).then_some(Breach::Floor);
         let breach = self.breach_at(here).or(floor);
         let before = std::mem::replace(&mut self.status.fence.breach, breach);

@@ -1,6 +1,7 @@
 //! Ground or air, from estimates and the range finder: sinking is asked for, nothing sinks, something is right below.
 
 use super::core::{Autopilot, Severity};
+use super::operator_rules::FenceSwitching;
 use super::{Landed, Mode};
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::time::SimTime;
@@ -48,6 +49,7 @@ impl Autopilot {
             Landed::TakingOff if !self.off_ground() => self.wait_for_lift(now, dt_s),
             Landed::TakingOff => {
                 self.status.landed = Landed::InAir;
+                self.tuning.fence_enabled |= self.tuning.rules.fence.auto == FenceSwitching::InTheAir;
                 self.say(Severity::Info, "Takeoff detected");
             }
             Landed::InAir | Landed::Landing => self.feel_for_ground(now, dt_s),
@@ -138,8 +140,10 @@ impl Autopilot {
         self.commanded_m_s = None;
         self.course.takeoff_up_m = None;
         self.tuning.fence_enabled |= !self.tuning.fence_switch_stays;
+        self.tuning.fence_enabled &= self.tuning.rules.fence.auto == FenceSwitching::Never;
         self.say(Severity::Info, why);
-        if !self.watch.intended.is_manual() {
+        let stays = self.watch.intended == Mode::Mission && self.tuning.mission_mode_stays;
+        if !self.watch.intended.is_manual() && !stays {
             self.watch.intended = Mode::Hold;
             self.status.mode = Mode::Hold;
         }

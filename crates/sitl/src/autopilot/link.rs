@@ -47,11 +47,16 @@ impl Links {
         pairs.iter().any(|(now, then)| now.abs() > least && (now - then).abs() > least)
     }
 
-    /// The largest deflection; a throttle that is down counts as none where it `may_be_down`.
+    /// The largest deflection.
     #[must_use]
-    pub fn deflection(&self, may_be_down: bool) -> f64 {
+    pub fn deflection(&self) -> f64 {
+        self.lateral_deflection().max(self.sticks.up.abs())
+    }
+
+    /// The largest deflection, the throttle left out.
+    #[must_use]
+    pub fn lateral_deflection(&self) -> f64 {
         let s = &self.sticks;
-        let up = if may_be_down { s.up.max(0.0) } else { s.up.abs() };
-        s.forward.abs().max(s.right.abs()).max(up).max(s.yaw.abs())
+        s.forward.abs().max(s.right.abs()).max(s.yaw.abs())
     }
 }

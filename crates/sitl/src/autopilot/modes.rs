@@ -10,6 +10,9 @@ use super::{Landed, MissionStep, Mode, OffboardSetpoint, Turn};
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::time::SimTime;
 
+/// The throttle stick is off its lower end (ArduPilot: RC3_DZ, 30 us).
+const THROTTLE_UP: f64 = -0.94;
+
 /// What a mode asks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wanted {
@@ -198,7 +201,8 @@ impl Autopilot {
         self.course.refuge_m = Some(home);
         let away = (here - home).horizontal_norm();
         let rules = self.tuning.rules.homeward;
-        let up = -home.down() + self.return_height_over(away);
+        let by_rally = rules.rally_height && self.status.home_m != Some(home);
+        let up = -home.down() + if by_rally { 0.0 } else { self.return_height_over(away) };
         let near = away < rules.near_m;
         let phase = if near { ReturnPhase::Cruise } else { ReturnPhase::Climb };
         let down = if near { here.down() } else { (-up).min(here.down() - rules.climb_min_m) };
@@ -225,7 +229,8 @@ impl Autopilot {
             Mode::Takeoff => true,
             Mode::Mission => {
                 use MissionStep as S;
-                let raised = self.links.sticks.up > 0.1 && self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
+                let least = if self.tuning.mission_mode_stays { THROTTLE_UP } else { 0.1 };
+                let raised = self.links.sticks.up > least && self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
                 let go = self.tuning.rules.mission_starts_armed || self.watch.mission_started || raised;
                 go && matches!(self.mission.step(), Some(S::Takeoff { .. } | S::Waypoint { .. } | S::Circle { .. } | S::Near(_)))
             }

@@ -117,6 +117,30 @@ pub struct Responses {
     pub arm_needs_mission: bool,
 }
 
+/// When the fence is switched by itself, by the number of `FENCE_AUTOENABLE`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FenceSwitching {
+    /// Never.
+    #[default]
+    Never,
+    /// On in the air, off when motors stop.
+    InTheAir,
+    /// On when motors are armed, off when they stop.
+    AtArming,
+}
+
+impl FenceSwitching {
+    /// From the parameter's number.
+    #[must_use]
+    pub fn from_number(number: i32) -> Self {
+        match number {
+            1 | 2 => Self::InTheAir,
+            3 => Self::AtArming,
+            _ => Self::Never,
+        }
+    }
+}
+
 /// Where a return goes, by the number of `RTL_TYPE`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ReturnPlaces {
@@ -161,6 +185,10 @@ pub struct ReturnRules {
     pub wait_height_m: Option<f64>,
     /// `RTL_LAND_DELAY`; `RTL_LOIT_TIME`: it waits this long, s; negative: for good.
     pub wait_s: f64,
+    /// A rally point's height is the return's (ArduPilot).
+    pub rally_height: bool,
+    /// `WP_YAW_BEHAVIOR` 1, 3: over its place it turns to the heading of the take-off.
+    pub turns_back: bool,
     /// `RTL_ALT_FINAL`: it stays at this height instead of landing, m; 0: it lands.
     pub final_height_m: f64,
 }
@@ -262,6 +290,8 @@ pub struct FenceParts {
     pub areas: bool,
     /// Bit 3, `FENCE_ALT_MIN`: least height over home once it has been above, m.
     pub floor_m: Option<f64>,
+    /// `FENCE_AUTOENABLE`: when it is switched by itself.
+    pub auto: FenceSwitching,
 }
 
 /// All of them.
@@ -323,6 +353,8 @@ impl Default for OperatorRules {
                 near_m: 5.0,
                 wait_height_m: Some(10.0),
                 wait_s: 0.0,
+                rally_height: false,
+                turns_back: false,
                 final_height_m: 0.0,
             },
             heading: Heading::Target,
@@ -331,7 +363,7 @@ impl Default for OperatorRules {
             first_waypoint_m: 10_000.0,
             mission_restarts: false,
             mission_starts_armed: true,
-            fence: FenceParts { height: true, distance: true, areas: true, floor_m: None },
+            fence: FenceParts { height: true, distance: true, areas: true, floor_m: None, auto: FenceSwitching::Never },
             orbit_radius_m: 5.0,
             no_aid_s: NO_AID_S,
         }

@@ -59,6 +59,8 @@ pub struct Watch {
     pub mission_started: bool,
     /// It has been above the fence's floor in this flight.
     pub above_floor: bool,
+    /// Heading when motors were armed, rad.
+    pub armed_yaw_rad: Option<f64>,
 }
 
 impl Watch {
@@ -88,6 +90,7 @@ impl Default for Watch {
             sticks_seen: false,
             mission_started: false,
             above_floor: false,
+            armed_yaw_rad: None,
         }
     }
 }
@@ -107,7 +110,7 @@ impl Autopilot {
         self.warn_of_battery();
         self.note_fence();
         if !self.status.armed {
-            self.status.arming_reasons = self.arming_reasons(now);
+            self.status.arming_reasons = self.prearm_reasons(now);
             self.status.failsafe = None;
             self.watch.overridden = false;
             self.watch.manual_lost = None;
@@ -360,6 +363,34 @@ impl Autopilot {
     /// Why arming would be refused now.
     #[must_use]
     pub fn arming_reasons(&self, now: SimTime) -> Vec<String> {
+        let mut out = self.standing_reasons(now);
+        out.extend(self.sticks_in_the_way(now).map(str::to_owned));
+        out
+    }
+
+    /// Why the checks before arming fail.
+    fn prearm_reasons(&self, now: SimTime) -> Vec<String> {
+        if self.tuning.arms_by_mode { self.standing_reasons(now) } else { self.arming_reasons(now) }
+    }
+
+    fn sticks_in_the_way(&self, now: SimTime) -> Option<&'static str> {
+        if !self.links.sticks_fresh(self.tuning.manual_patience_s(), now) {
+            return None;
+        }
+        if !self.tuning.arms_by_mode {
+            return (self.links.deflection() > CENTRED).then_some("Sticks not centred");
+        }
+        let climbs = self.watch.intended.is_manual() && self.links.sticks.up > 0.0;
+        if self.links.lateral_deflection() > CENTRED { Some("Sticks not centred") } else { climbs.then_some("Throttle too high") }
+    }
+
+    /// The mode, the hold in its place while nobody has the sticks, or the fence needs a position.
+    fn needs_position_to_arm(&self, now: SimTime) -> bool {
+        let pilot = self.links.sticks_fresh(self.tuning.manual_patience_s(), now);
+        !self.tuning.arms_by_mode || !pilot || self.watch.intended.needs_position() || self.status.fence.set
+    }
+
+    fn standing_reasons(&self, now: SimTime) -> Vec<String> {
         let mut out: Vec<String> = Vec::new();
         let (e, rules) = (&self.estimate, &self.tuning.rules.responses);
         out.extend(self.missing_sensors());
@@ -367,7 +398,9 @@ impl Autopilot {
             out.push("Attitude not aligned".into());
             return out;
         }
-        if !self.estimator.located() {
+        if !self.needs_position_to_arm(now) {
+            // The mode flies without.
+        } else if !self.estimator.located() {
             out.push("No GNSS fix".into());
         } else if !e.position_valid || e.horizontal_m > ARMING_ACCURACY_M {
             out.push("Position not accurate enough".into());
@@ -385,11 +418,6 @@ impl Autopilot {
         }
         if rules.arm_needs_mission && self.mission.is_empty() {
             out.push("No mission".into());
-        }
-        if self.links.sticks_fresh(self.tuning.manual_patience_s(), now)
-            && self.links.deflection(self.tuning.arm_throttle_down) > CENTRED
-        {
-            out.push("Sticks not centred".into());
         }
         if e.position_valid && self.breach_at(e.position_m).is_some() {
             out.push("Outside the geofence".into());

@@ -103,8 +103,11 @@ pub struct Tuning {
     pub stick_takeover: bool,
     /// The end of external set-points is the end of an errand: it goes to the last place, or stops; otherwise it is a failure. (ArduPilot)
     pub setpoints_end: bool,
-    /// The throttle stick may be down when motors are armed, where transmitters have it that does not spring back. (ArduPilot)
-    pub arm_throttle_down: bool,
+    /// Arming asks for sticks and position as the mode uses them; sticks count only when motors are armed, not in the checks before.
+    /// (ArduPilot)
+    pub arms_by_mode: bool,
+    /// A mission that has ended stays in its mode, and takes off once the throttle is off its lower end. (ArduPilot)
+    pub mission_mode_stays: bool,
     /// The number that people give the mission's first step: 1 where home is 0. (ArduPilot)
     pub first_item: usize,
     /// `CIRCLE_RADIUS` (ArduPilot): radius of a circle entered by its mode alone, m.
@@ -173,7 +176,8 @@ impl Default for Tuning {
             fence_height_m: 0.0,
             stick_takeover: true,
             setpoints_end: false,
-            arm_throttle_down: false,
+            arms_by_mode: false,
+            mission_mode_stays: false,
             first_item: 0,
             // ArduCopter's defaults: 10 m, 20 deg/s.
             circle_radius_m: 10.0,

@@ -3,6 +3,7 @@
 
 use super::Endpoint;
 use super::arrival::Arrival;
+use super::aux_functions;
 use super::buttons::{self, Seen};
 use super::commands;
 use super::gimbal::{Aim, DEVICE, Gimbal};
@@ -65,6 +66,7 @@ pub(super) fn channels(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut 
     }
     e.manual.take_aux(from, c, a.view.now);
     turn_mode_switch(e, c, a);
+    aux_functions::read_switches(e, c, a);
     tell_hands(e);
 }
 
@@ -74,29 +76,21 @@ const MODE_OF_POSITION: [&str; 6] = ["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMOD
 
 /// A new position of the mode switch (FLTMODE_CH) enters its mode.
 fn turn_mode_switch(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut Arrival) {
-    let pulses = [
-        c.chan5_raw,
-        c.chan6_raw,
-        c.chan7_raw,
-        c.chan8_raw,
-        c.chan9_raw,
-        c.chan10_raw,
-        c.chan11_raw,
-        c.chan12_raw,
-        c.chan13_raw,
-        c.chan14_raw,
-        c.chan15_raw,
-        c.chan16_raw,
-    ];
+    let pulses = manual::aux_of(c);
     let channel = e.params.whole("FLTMODE_CH").and_then(|channel| usize::try_from(channel - 5).ok());
     let Some(pulse) = channel.and_then(|k| pulses.get(k)).filter(|us| manual::PULSES_US.contains(us)) else { return };
     let position = POSITIONS_US.iter().filter(|end| *pulse > **end).count();
     if e.mode_switch.replace(position) == Some(position) {
         return;
     }
-    if let Some(mode) = e.params.whole(MODE_OF_POSITION[position]) {
-        enter_mode(e, mode.unsigned_abs(), a);
+    if let Some(mode) = switched_mode(e, position) {
+        enter_mode(e, mode, a);
     }
+}
+
+/// The mode of a position of the mode switch.
+pub(super) fn switched_mode(e: &Endpoint, position: usize) -> Option<u32> {
+    e.params.whole(MODE_OF_POSITION.get(position)?).map(i32::unsigned_abs)
 }
 
 /// A target that reports itself to everybody (PX4, ArduPilot).

@@ -68,6 +68,8 @@ pub struct Link {
     pub stamp: u64,
     /// Numbers of pictures that are to be told again.
     pub pictures: std::ops::Range<usize>,
+    /// Streams whose messages were asked for and follow the acknowledgement.
+    pub after_acknowledgement: Vec<usize>,
     /// Nothing but heartbeats until it asks.
     must_ask: bool,
     /// Somebody behind it has spoken to the camera.
@@ -101,6 +103,7 @@ impl Link {
             signing: None,
             stamp: 0,
             pictures: 0..0,
+            after_acknowledgement: Vec::new(),
             must_ask,
             uses_camera: false,
         }

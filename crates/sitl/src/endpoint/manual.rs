@@ -18,6 +18,8 @@ pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
 const MIDDLE_US: u16 = 1500;
 /// Channels beside the sticks.
 pub const AUX: usize = 12;
+/// Of them those that 0 releases: channels 5 to 8.
+const LOW_AUX: usize = 4;
 /// Channels 5 to 16 that nobody overrides, microseconds (ArduPilot's SITL: SIM RC defaults).
 const AUX_US: [u16; AUX] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
 /// Value that releases channels 9 and up; 0 releases those before (MAVLink common).
@@ -96,11 +98,8 @@ impl Manual {
         if self.policy == Policy::FirstKeeps && self.holder.is_some_and(|holder| holder != from) && self.holds(now) {
             return;
         }
-        let low = [c.chan5_raw, c.chan6_raw, c.chan7_raw, c.chan8_raw];
-        let high =
-            [c.chan9_raw, c.chan10_raw, c.chan11_raw, c.chan12_raw, c.chan13_raw, c.chan14_raw, c.chan15_raw, c.chan16_raw];
-        for (k, us) in low.into_iter().chain(high).enumerate() {
-            let released = if k < low.len() { us == 0 } else { us == RELEASE_HIGH };
+        for (k, us) in aux_of(c).into_iter().enumerate() {
+            let released = if k < LOW_AUX { us == 0 } else { us == RELEASE_HIGH };
             if released {
                 self.aux_us[k] = AUX_US[k];
             } else if PULSES_US.contains(&us) {
@@ -223,6 +222,24 @@ impl Manual {
         };
         self.take(from, sticks, [pulse(0), pulse(1), pulse(2), pulse(3)], now)
     }
+}
+
+/// Channels 5 to 16 of an override, microseconds.
+pub fn aux_of(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX] {
+    [
+        c.chan5_raw,
+        c.chan6_raw,
+        c.chan7_raw,
+        c.chan8_raw,
+        c.chan9_raw,
+        c.chan10_raw,
+        c.chan11_raw,
+        c.chan12_raw,
+        c.chan13_raw,
+        c.chan14_raw,
+        c.chan15_raw,
+        c.chan16_raw,
+    ]
 }
 
 /// Sticks as a transmitter's channels: roll, pitch, throttle, yaw, stick forward below the middle.

@@ -322,6 +322,21 @@ impl Plans {
         &self.kept[0]
     }
 
+    /// Adds an item at the end of the mission.
+    pub fn add(&mut self, item: MISSION_ITEM_INT_DATA) {
+        let seq = self.kept[0].len() as u16;
+        if seq < MOST_ITEMS {
+            self.kept[0].push(MISSION_ITEM_INT_DATA { seq, ..item });
+            self.ids[0] = id_of(&self.kept[0]);
+        }
+    }
+
+    /// No mission is kept any more.
+    pub fn drop_mission(&mut self) {
+        self.kept[0].clear();
+        self.ids[0] = 0;
+    }
+
     /// Somebody wants the list.
     #[must_use]
     pub fn list(&mut self, from: Peer, kind: MavMissionType) -> MavMessage {

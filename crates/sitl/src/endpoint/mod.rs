@@ -2,6 +2,7 @@
 
 mod areas;
 mod arrival;
+mod aux_functions;
 pub mod budget;
 pub mod buttons;
 pub mod calibration;
@@ -132,6 +133,8 @@ pub struct Endpoint {
     acted: Vec<u8>,
     /// The last position of the mode switch, from 0.
     mode_switch: Option<usize>,
+    /// Where the auxiliary switches on channels 5 to 16 stood last.
+    switches: [Option<aux_functions::Level>; manual::AUX],
     /// The calibration that runs.
     calibration: Option<calibration::Calibration>,
     /// Events sent to ground stations.
@@ -187,6 +190,7 @@ impl Endpoint {
             fence_took: 0,
             acted: Vec::new(),
             mode_switch: None,
+            switches: [None; manual::AUX],
             calibration: None,
             events: events::Events::default(),
             shell: shell::Shell::default(),
@@ -298,6 +302,10 @@ impl Endpoint {
 
     /// A fresh autopilot gets parameters and plans; links get their usual rates.
     pub fn boot(&mut self, view: &View, autopilot: &mut Autopilot) {
+        (self.mode_switch, self.switches) = (None, [None; manual::AUX]);
+        if self.params.drops_mission_at_boot() {
+            self.plans.drop_mission();
+        }
         self.apply_parameters(autopilot);
         exchange::hand_over(self, MavMissionType::MAV_MISSION_TYPE_ALL, view, autopilot);
         for link in self.links.values_mut() {

@@ -6,9 +6,9 @@ use super::camera::stream;
 use super::commands::{self, Command};
 use super::guard::Admitted;
 use super::link::Link;
-use super::streams::{AUTOPILOT, CAMERA};
+use super::streams::{AUTOPILOT, CAMERA, STREAMS};
 use super::view::View;
-use super::{Context, Endpoint, LinkId, camera_params, control, events, exchange, ftp, shell};
+use super::{Context, Endpoint, LinkId, aux_functions, camera_params, control, events, exchange, ftp, shell};
 use crate::autopilot::Autopilot;
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, Received};
@@ -237,13 +237,23 @@ impl Endpoint {
     }
 
     fn command(&mut self, command: &Command, a: &mut Arrival) {
-        let Some(result) = self.obey(command, a) else { return };
+        let done = match aux_functions::command(self, command, a) {
+            Some(result) => Some(result),
+            None => self.obey(command, a),
+        };
+        let Some(result) = done else { return };
         let component = if command.component == CAMERA { CAMERA } else { AUTOPILOT };
         let number = command.number.to_le_bytes();
         // Laid out by hand: the number may be one that the dialect does not know.
         let payload = [number[0], number[1], result as u8, 0, 0, 0, 0, 0, command.from.0, command.from.1];
         if let Some(link) = self.links.get_mut(&a.link) {
             link.send_payload(component, COMMAND_ACK, &payload);
+            let view = a.view.with(&self.payload).towards(link.kind);
+            for row in std::mem::take(&mut link.after_acknowledgement) {
+                if let Some(message) = STREAMS[row].build(&view) {
+                    link.send(STREAMS[row].component, &message);
+                }
+            }
         }
     }
 

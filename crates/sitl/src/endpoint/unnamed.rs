@@ -7,6 +7,10 @@ use spandrel_mavlink::units::deg_e7;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 
+/// NAV_DELAY's first parameter where hour, minute and second count: no seconds to ArduPilot.
+const BY_TIME_OF_DAY: f32 = -1.0;
+const TURN_DEG: f32 = 360.0;
+
 /// What an item leaves open.
 pub(super) fn of(item: &MISSION_ITEM_INT_DATA) -> Unnamed {
     let flown = matches!(
@@ -29,6 +33,18 @@ pub(super) fn filled(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSIO
     if of(&item).place {
         let origin = plane.origin();
         (item.x, item.y) = (deg_e7(origin.latitude_deg), deg_e7(origin.longitude_deg));
+    }
+    // Copter's waypoints have no heading; Mission Planner writes 0.
+    if item.command == MavCmd::MAV_CMD_NAV_WAYPOINT {
+        item.param4 = f32::NAN;
+    }
+    let timed = [item.param2, item.param3, item.param4].iter().any(|part| *part != 0.0);
+    if item.command == MavCmd::MAV_CMD_NAV_DELAY && item.param1 == 0.0 && timed {
+        item.param1 = BY_TIME_OF_DAY;
+    }
+    // More than a turn ends where the rest of it does.
+    if item.command == MavCmd::MAV_CMD_CONDITION_YAW && item.param1.is_finite() {
+        item.param1 %= TURN_DEG;
     }
     let nowhere = (item.x, item.y) == (0, 0) && item.z == 0.0;
     if item.command == MavCmd::MAV_CMD_DO_SET_HOME && nowhere {

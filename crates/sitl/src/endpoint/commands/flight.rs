@@ -8,8 +8,11 @@ use crate::endpoint::flavour::ModeRow;
 use crate::endpoint::{Context, Injection};
 use crate::faults::{Faults, Kind, Unit};
 use mavlink::MessageData;
-use spandrel_mavlink::dialect::{MISSION_CURRENT_DATA, MavCmd, MavResult};
+use spandrel_mavlink::dialect::{GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, MISSION_CURRENT_DATA, MavCmd, MavResult};
 use spandrel_model::math;
+
+/// MAV_CMD_DO_JUMP_TAG, where the dialect doesn't know it.
+const DO_JUMP_TAG: u16 = 601;
 
 pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     use MavCmd as M;
@@ -33,6 +36,12 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             Err(refusal) => return Some(refusal),
         },
         n if n == M::MAV_CMD_NAV_LAND as u16 => Request::Land,
+        n if n == M::MAV_CMD_NAV_VTOL_LAND as u16 && x.view.flavour.home_item => Request::Land,
+        // No mission has tags, so none is ever found.
+        DO_JUMP_TAG if x.view.flavour.home_item => {
+            let is_tag = c.given(0).is_some_and(|tag| (0.0..=f64::from(u16::MAX)).contains(&tag));
+            return Some(if is_tag { MavResult::MAV_RESULT_FAILED } else { DENIED });
+        }
         n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => Request::SetMode(Mode::Return),
         n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => {
             let flavour = x.view.flavour;
@@ -53,6 +62,10 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
             }
         }
         n if n == M::MAV_CMD_MISSION_START as u16 => {
+            // ArduPilot starts a mission as a whole.
+            if x.view.flavour.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
+                return Some(x.deny("Mission start: first and last item are not supported"));
+            }
             Request::StartMission { first: c.given(0).filter(|f| *f > 0.0).map(|f| index(f, x)) }
         }
         // Climbing and sinking have parameters of their own.
@@ -101,6 +114,10 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
         _ => return None,
     };
     let outcome = x.autopilot.request(request, x.view.now);
+    if matches!(request, Request::SetHome(_)) && outcome == Outcome::Accepted && x.view.flavour.home_item {
+        x.payload.news.say(GPS_GLOBAL_ORIGIN_DATA::ID);
+        x.payload.news.say(HOME_POSITION_DATA::ID);
+    }
     Some(result(outcome, x))
 }
 
@@ -200,11 +217,11 @@ fn index(seq: f64, x: &Context) -> usize {
     (seq as usize).saturating_sub(usize::from(x.view.plans.lead))
 }
 
-/// Parameter 1 the item, -1 for the present one; with 1 in parameter 2 the mission is as if it had not been flown. Everybody hears of it, as
+/// Parameter 1 the item, -1 for the present one (ArduPilot refuses that); with 1 in parameter 2 the mission is as if it had not been flown. Everybody hears of it, as
 /// after MISSION_SET_CURRENT.
 fn set_current(c: &Command, x: &mut Context) -> bool {
     let item = match c.given(0) {
-        Some(-1.0) => x.autopilot.status().mission_current,
+        Some(-1.0) if !x.view.flavour.home_item => x.autopilot.status().mission_current,
         Some(seq) if seq >= 0.0 => index(seq, x),
         _ => return false,
     };

@@ -79,9 +79,12 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut Context) -
     let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_spoken(x.view.flavour)).collect();
     let mut said = false;
     for row in rows {
-        if let Some(message) = STREAMS[row].build(&x.view) {
+        let Some(message) = STREAMS[row].build(&x.view) else { continue };
+        said = true;
+        if x.view.flavour.answers_after_acknowledgement {
+            x.link.after_acknowledgement.push(row);
+        } else {
             x.answer(STREAMS[row].component, &message);
-            said = true;
         }
     }
     if said { ACCEPTED } else { x.view.flavour.refusals.message }

@@ -114,6 +114,7 @@ pub static FLAVOUR: Flavour = Flavour {
         "Spandrel speaks as ArduPilot does; it is not it",
         "Frame: QUAD/X",
     ],
+    answers_after_acknowledgement: true,
     asks_first: true,
     groups: &[
         (1, &[27, 105, 29]),
@@ -141,7 +142,8 @@ pub static FLAVOUR: Flavour = Flavour {
     tune: |tuning| {
         tuning.setpoints_end = true;
         tuning.takeoff_at_climb_speed = true;
-        tuning.arm_throttle_down = true;
+        tuning.arms_by_mode = true;
+        tuning.mission_mode_stays = true;
         tuning.first_item = 1;
         tuning.fence_switch_stays = true;
     },

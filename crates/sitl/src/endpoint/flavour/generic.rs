@@ -42,6 +42,7 @@ pub static FLAVOUR: Flavour = Flavour {
     sensor_words: |_| None,
     mode_words: plain,
     banner: &[],
+    answers_after_acknowledgement: false,
     asks_first: false,
     groups: px4::GROUPS,
     dialect_of_ardupilot: false,

@@ -120,6 +120,8 @@ pub struct Flavour {
     pub banner: &'static [&'static str],
     /// Ground stations and SDKs get heartbeats alone until they ask for more.
     pub asks_first: bool,
+    /// A message that REQUEST_MESSAGE asks for follows the acknowledgement; otherwise it goes before.
+    pub answers_after_acknowledgement: bool,
     /// REQUEST_DATA_STREAM: groups and the messages in them.
     pub groups: &'static [(u8, &'static [u32])],
     /// Messages of ArduPilot's own dialect are spoken.

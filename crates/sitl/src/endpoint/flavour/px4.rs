@@ -81,6 +81,7 @@ pub static FLAVOUR: Flavour = Flavour {
     sensor_words,
     mode_words: plain,
     banner: &[],
+    answers_after_acknowledgement: false,
     asks_first: false,
     groups: GROUPS,
     dialect_of_ardupilot: false,

@@ -3,7 +3,7 @@
 
 use super::Value::{self, Int, Real};
 use super::table::{self, Behind, ROWS, Row, row};
-use super::{copter_behavior, stored};
+use super::{behavior, copter_behavior, stored};
 use spandrel_mavlink::dialect::MavParamType;
 use std::sync::LazyLock;
 
@@ -12,8 +12,8 @@ pub(super) const INT16: MavParamType = MavParamType::MAV_PARAM_TYPE_INT16;
 pub(super) const INT32: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
 pub(super) const REAL32: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
 
-/// Where ArduPilot's patience differs from ours: overrides lapse after 3 s, guided set-points too, a ground station after 5 s.
-pub const DEFAULTS: &[(&str, Value)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_OF_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
+/// Where ArduPilot's patience differs from ours: overrides lapse after 3 s, a ground station after 5 s.
+pub const DEFAULTS: &[(&str, Value)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
 
 const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
 /// ArduPilot's numbers of what a loss leads to, and ours.
@@ -30,7 +30,8 @@ const ONE: &[(i32, &str)] = &[(1, "As it is")];
 #[must_use]
 pub fn rows() -> &'static [Row] {
     static ALL: LazyLock<Vec<Row>> = LazyLock::new(|| {
-        let shared = ROWS.iter().filter(|row| matches!(row.group, "Simulation" | "Joystick") || OURS.contains(&row.name));
+        let shared = ROWS.iter().chain(behavior::ROWS);
+        let shared = shared.filter(|row| matches!(row.group, "Simulation" | "Joystick") || OURS.contains(&row.name));
         let mut all: Vec<Row> =
             [acting(), copter_behavior::rows(), fixed(), radio(), circling_and_following(), mode_switch()].concat();
         all.extend(shared.copied());
@@ -40,7 +41,7 @@ pub fn rows() -> &'static [Row] {
 }
 
 /// Our own, under our own names.
-const OURS: [&str; 3] = ["SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
+const OURS: [&str; 4] = ["COM_RC_OVERRIDE", "SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
 
 fn ours(name: &str) -> &'static Row {
     // The names below are the table's: a test looks.
@@ -111,7 +112,7 @@ fn acting() -> Vec<Row> {
         mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSSES, LOSS, "FS"),
         scaled("FS_GCS_TIMEOUT", "COM_DL_LOSS_T", 1.0, REAL32, "s", "FS"),
         mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSSES, STICK_LOSS, "FS"),
-        scaled("GUID_TIMEOUT", "COM_OF_LOSS_T", 1.0, REAL32, "s", "GUID"),
+        row("GUID_TIMEOUT", Real(3.0), (0.1, 3_600.0), "s", "GUID", "Silence that ends external set-points without a place"),
         scaled("LAND_SPEED", "MPC_LAND_SPEED", 100.0, INT16, "cm/s", "LAND"),
         scaled("MAV_SYSID", "MAV_SYS_ID", 1.0, INT16, "", "MAV"),
         scaled("PILOT_TKOFF_ALT", "MIS_TAKEOFF_ALT", 100.0, REAL32, "cm", "PILOT"),

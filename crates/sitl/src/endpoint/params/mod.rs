@@ -387,6 +387,18 @@ impl Params {
         self.whole("FS_THR_VALUE").and_then(|us| u16::try_from(us).ok())
     }
 
+    /// The function of the switch on a channel (`RCn_OPTION`), where the flavour has switches.
+    #[must_use]
+    pub fn switch_function(&self, channel: usize) -> Option<u16> {
+        self.whole(&format!("RC{channel}_OPTION")).and_then(|function| u16::try_from(function).ok())
+    }
+
+    /// Whether a restart drops the mission (bit 0 of `MIS_OPTIONS`).
+    #[must_use]
+    pub fn drops_mission_at_boot(&self) -> bool {
+        self.whole("MIS_OPTIONS").is_some_and(|bits| bits & 1 != 0)
+    }
+
     /// Whether AUTO may be armed.
     #[must_use]
     pub fn arms_in_auto(&self) -> bool {
@@ -432,7 +444,7 @@ impl Params {
         tuning.accept_radius_m = self.number("NAV_ACC_RAD");
         tuning.manual_loss_s = self.number("COM_RC_LOSS_T");
         tuning.data_link_loss_s = self.number("COM_DL_LOSS_T");
-        tuning.offboard_loss_s = self.number("COM_OF_LOSS_T");
+        tuning.offboard_loss_s = self.real("GUID_TIMEOUT").unwrap_or_else(|| self.number("COM_OF_LOSS_T"));
         tuning.battery_low_pct = 100.0 * self.number("BAT_LOW_THR");
         tuning.battery_critical_pct = 100.0 * self.number("BAT_CRIT_THR");
         tuning.disarm_after_landing_s = self.number("COM_DISARM_LAND");

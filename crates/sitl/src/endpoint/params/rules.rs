@@ -2,8 +2,8 @@
 
 use super::Params;
 use crate::autopilot::operator_rules::{
-    BatteryResponses, Envelope, Exceptions, FenceParts, Heading, JOB_BATTERY, MissionNeeds, OffboardLoss, OperatorRules,
-    Response, ReturnPlaces, ReturnRules,
+    BatteryResponses, Envelope, Exceptions, FenceParts, FenceSwitching, Heading, JOB_BATTERY, MissionNeeds, OffboardLoss,
+    OperatorRules, Response, ReturnPlaces, ReturnRules,
 };
 
 /// Bits of ArduPilot's `FS_OPTIONS`.
@@ -117,6 +117,8 @@ impl Params {
             near_m: self.number("RTL_MIN_DIST"),
             wait_height_m: Some(self.number("RTL_DESCEND_ALT")),
             wait_s: self.number("RTL_LAND_DELAY"),
+            rally_height: false,
+            turns_back: false,
             final_height_m: 0.0,
         }
     }
@@ -130,6 +132,8 @@ impl Params {
             near_m: OperatorRules::default().homeward.near_m,
             wait_height_m: None,
             wait_s: self.number("RTL_LOIT_TIME") / 1000.0,
+            rally_height: true,
+            turns_back: matches!(self.integer("WP_YAW_BEHAVIOR"), 1 | 3),
             final_height_m: self.number("RTL_ALT_FINAL") / 100.0,
         }
     }
@@ -174,6 +178,12 @@ impl Params {
     fn fence_parts(&self) -> FenceParts {
         let parts = self.integer("FENCE_TYPE");
         let has = |bit: i32| parts & 1 << bit != 0;
-        FenceParts { height: has(0), distance: has(1), areas: has(2), floor_m: has(3).then(|| self.number("FENCE_ALT_MIN")) }
+        FenceParts {
+            height: has(0),
+            distance: has(1),
+            areas: has(2),
+            floor_m: has(3).then(|| self.number("FENCE_ALT_MIN")),
+            auto: FenceSwitching::from_number(self.integer("FENCE_AUTOENABLE")),
+        }
     }
 }

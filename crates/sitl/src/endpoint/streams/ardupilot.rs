@@ -2,7 +2,7 @@
 
 use super::super::view::View;
 use spandrel_mavlink::ardupilotmega::{AHRS, EKF_STATUS_REPORT, MEMINFO, Message, SIMSTATE, WIND};
-use spandrel_mavlink::dialect::{MavMessage, MavPowerStatus, POWER_STATUS_DATA};
+use spandrel_mavlink::dialect::{MavMessage, MavPowerStatus, POWER_STATUS_DATA, SIM_STATE_DATA};
 use spandrel_mavlink::units::deg_e7;
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
@@ -57,6 +57,40 @@ pub(super) fn simulation(v: &View) -> Option<Message> {
     let geo = v.true_geo();
     let [lat, lng] = [geo.latitude_deg, geo.longitude_deg].map(|degrees| f64::from(deg_e7(degrees)));
     Some(SIMSTATE.message(&[roll, pitch, yaw, xa, ya, za, xr, yr, zr, lat, lng]))
+}
+
+pub(super) fn simulated(v: &View) -> Option<MavMessage> {
+    let real = |value: f64| value as f32;
+    let (roll, pitch, yaw) = v.truth.attitude.euler();
+    let [q1, q2, q3, q4] = v.truth.attitude.wxyz().map(real);
+    let ([xacc, yacc, zacc], [xgyro, ygyro, zgyro]) =
+        (v.specific_force_m_s2.array().map(real), v.truth.rates_rad_s.array().map(real));
+    let ([vn, ve, vd], geo) = (v.truth.velocity_m_s.array().map(real), v.true_geo());
+    Some(MavMessage::SIM_STATE(SIM_STATE_DATA {
+        q1,
+        q2,
+        q3,
+        q4,
+        roll: real(roll),
+        pitch: real(pitch),
+        yaw: real(yaw),
+        xacc,
+        yacc,
+        zacc,
+        xgyro,
+        ygyro,
+        zgyro,
+        lat: real(geo.latitude_deg),
+        lon: real(geo.longitude_deg),
+        alt: real(geo.altitude_m),
+        std_dev_horz: 0.0,
+        std_dev_vert: 0.0,
+        vn,
+        ve,
+        vd,
+        lat_int: deg_e7(geo.latitude_deg),
+        lon_int: deg_e7(geo.longitude_deg),
+    }))
 }
 
 pub(super) fn wind(v: &View) -> Option<Message> {

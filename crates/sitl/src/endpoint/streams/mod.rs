@@ -170,6 +170,7 @@ pub const STREAMS: &[Stream] = &[
     camera(271, [0.0, 0.0, 5.0], |v| Some(field_of_view(v))),
     row(27, [0.0, 0.0, 0.0], sensors::raw_imu),
     row(62, [0.0, 0.0, 0.0], position::way),
+    of_ardupilot(108, Make::Common(ardupilot::simulated)),
     of_ardupilot(125, Make::Common(ardupilot::power)),
     of_ardupilot(152, Make::ArduPilot(ardupilot::memory)),
     of_ardupilot(163, Make::ArduPilot(ardupilot::ahrs)),

@@ -50,6 +50,10 @@ pub(super) fn sys_status(v: &View) -> Option<MavMessage> {
     if v.status.fence.set {
         present |= S::MAV_SYS_STATUS_GEOFENCE;
     }
+    let enabled = present;
+    if v.flavour.home_item {
+        present |= S::MAV_SYS_STATUS_GEOFENCE;
+    }
     // Healthy without a fence, too: MAVProxy takes its absence for a breach.
     let mut health = present | S::MAV_SYS_STATUS_GEOFENCE;
     health.set(S::MAV_SYS_STATUS_GEOFENCE, v.status.fence.breach.is_none());
@@ -63,7 +67,7 @@ pub(super) fn sys_status(v: &View) -> Option<MavMessage> {
     health.set(S::MAV_SYS_STATUS_PREARM_CHECK, v.status.armed || v.status.arming_reasons.is_empty());
     Some(MavMessage::SYS_STATUS(SYS_STATUS_DATA {
         onboard_control_sensors_present: present,
-        onboard_control_sensors_enabled: present,
+        onboard_control_sensors_enabled: enabled,
         onboard_control_sensors_health: health,
         load: 50,
         voltage_battery: (v.battery.voltage_v * 1000.0).round() as u16,
@@ -216,6 +220,10 @@ pub(super) fn mission_current(v: &View) -> Option<MavMessage> {
 }
 
 pub(super) fn fence(v: &View) -> Option<MavMessage> {
+    // ArduPilot is silent about a fence that is off.
+    if v.flavour.home_item && !v.fence_enabled {
+        return None;
+    }
     let fence = &v.status.fence;
     let breach_type = match fence.breach {
         None => FenceBreach::FENCE_BREACH_NONE,

@@ -1,0 +1,279 @@
+"""One ArduCopter-speaking vehicle flown by pymavlink, as ArduPilot's autotest flies its own: time is the vehicle's, which waits for this client."""
+
+import math
+import os
+
+os.environ["MAVLINK20"] = "1"
+
+from pymavlink import mavutil
+
+import spandrel
+
+M = mavutil.mavlink
+MODES = {
+    "STABILIZE": 0, "ACRO": 1, "ALT_HOLD": 2, "AUTO": 3, "GUIDED": 4, "LOITER": 5, "RTL": 6, "CIRCLE": 7, "LAND": 9, "POSHOLD": 16, "BRAKE": 17,
+    "SMART_RTL": 21, "FOLLOW": 23,
+}
+# Channels 1 to 9 of a transmitter: sticks in the middle but the throttle, switches.
+CHANNELS = {1: 1500, 2: 1500, 3: 1000, 4: 1500, 5: 1500, 6: 1500, 7: 1500, 8: 1500, 9: 1500}
+# Metres in a degree of latitude (WGS 84, to 0.5 %).
+DEGREE_M = 111_320.0
+# Wall seconds of silence after which a test gives up: the vehicle answers every question at once.
+STUCK_S = 60.0
+# Rates of streams and sticks, Hz of vehicle time.
+RATE_HZ = 10
+STICK_RATE_HZ = 25
+# The vehicle in these flights is large enough for the speeds that the autotest asks for.
+VEHICLE = "m30"
+IGNORE_ALL_BUT_PLACE, IGNORE_ALL_BUT_VELOCITY = 0x0DF8, 0x0DC7
+
+
+class Copter:
+    """A simulator of its own, kept in step with this client: 20 ms of its time pass with each answer."""
+
+    def __init__(self, folder, scenario="drill-hover"):
+        folder.mkdir(parents=True, exist_ok=True)
+        port = spandrel.free_udp_port()
+        here = f"127.0.0.1:{port}"
+        self.link = mavutil.mavlink_connection(f"udpin:{here}", source_system=255, source_component=190, dialect="ardupilotmega")
+        more = ["--flavour", "ardupilot", "--vehicle", VEHICLE, "--lockstep", here, "--camera", "off"]
+        self.process = spandrel.start_sim(folder, port, *more, speed="max", scenario=scenario)
+        self.now = 0.0
+        self.last = {}
+        self.texts = []
+        self.channels = dict(CHANNELS)
+        self.transmits = True
+        self.watches = []
+        self.stick_due = self.beat_due = 0.0
+        self.step()
+        self.link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, RATE_HZ, 1)
+        self.until("armable", lambda: self.shows("SYS_STATUS") and self.last["SYS_STATUS"].onboard_control_sensors_health & M.MAV_SYS_STATUS_PREARM_CHECK, 60)
+
+    def close(self):
+        """Ends what was started."""
+        self.link.close()
+        spandrel.end(self.process)
+
+    # Time
+
+    def step(self):
+        """Lets 20 ms pass."""
+        while True:
+            message = self.link.recv_match(blocking=True, timeout=STUCK_S)
+            assert message is not None, f"nothing heard at {self.now:.2f} s; {self.texts[-5:]}"
+            kind = message.get_type()
+            if message.get_srcSystem() != 1 or kind == "BAD_DATA":
+                continue
+            if kind == "TIMESYNC" and message.tc1 == 0:
+                self.now = message.ts1 / 1e9
+                self.speak()
+                self.link.mav.timesync_send(1, message.ts1)
+                return
+            self.last[kind] = message
+            if kind == "STATUSTEXT":
+                self.texts.append(message.text)
+
+    def speak(self):
+        """Sticks and heartbeats that are due."""
+        if self.now >= self.beat_due:
+            self.beat_due = self.now + 1.0
+            self.link.mav.heartbeat_send(M.MAV_TYPE_GCS, M.MAV_AUTOPILOT_INVALID, 0, 0, 0)
+        if self.transmits and self.now >= self.stick_due:
+            self.stick_due = self.now + 1 / STICK_RATE_HZ
+            self.link.mav.rc_channels_override_send(1, 1, *[self.channels[channel] for channel in range(1, 9)], self.channels[9])
+
+    def until(self, what, predicate, limit_s):
+        """Waits until the predicate holds, at most so many seconds of vehicle time; the time that it took."""
+        start = self.now
+        while not predicate():
+            assert self.now - start <= limit_s, f"not within {limit_s} s: {what}; {self.texts[-5:]}"
+            self.step()
+            for watched, wrong in self.watches:
+                assert not wrong(), f"{watched} while waiting for {what}"
+        return self.now - start
+
+    def pass_time(self, seconds):
+        """Lets time pass."""
+        end = self.now + seconds
+        self.until(f"{seconds} s", lambda: self.now >= end, seconds + 1)
+
+    def holds(self, what, predicate, seconds):
+        """The predicate holds all the time."""
+        end = self.now + seconds
+        while self.now < end:
+            assert predicate(), f"{what} at {self.now:.1f} s"
+            self.step()
+
+    def settles(self, what, predicate, seconds, limit_s):
+        """The predicate comes to hold for so long."""
+        since = None
+
+        def held():
+            nonlocal since
+            since = (since if since is not None else self.now) if predicate() else None
+            return since is not None and self.now - since >= seconds
+
+        self.until(what, held, limit_s)
+
+    # What it shows
+
+    def shows(self, kind):
+        """Whether such a message has come."""
+        return kind in self.last
+
+    @property
+    def height(self):
+        """Over home, m."""
+        return self.last["GLOBAL_POSITION_INT"].relative_alt / 1000
+
+    @property
+    def speed(self):
+        """Over the ground, m/s."""
+        return self.last["VFR_HUD"].groundspeed
+
+    @property
+    def climb(self):
+        """Climb rate, m/s."""
+        return -self.last["GLOBAL_POSITION_INT"].vz / 100
+
+    @property
+    def heading(self):
+        """Degrees."""
+        return self.last["GLOBAL_POSITION_INT"].hdg / 100
+
+    @property
+    def place(self):
+        """North and east about the first home, m."""
+        here = self.last["GLOBAL_POSITION_INT"]
+        return self.metres(here.lat / 1e7, here.lon / 1e7)
+
+    @property
+    def item(self):
+        """The mission's current item."""
+        return self.last["MISSION_CURRENT"].seq
+
+    @property
+    def armed(self):
+        """Whether motors are armed."""
+        return bool(self.last["HEARTBEAT"].base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
+
+    def flies(self, mode):
+        """Whether this mode is shown."""
+        return self.last["HEARTBEAT"].custom_mode == MODES[mode]
+
+    def home(self):
+        """Home's latitude and longitude, degrees."""
+        if "HOME_POSITION" not in self.last:
+            self.ask(242)
+            self.until("home", lambda: self.shows("HOME_POSITION"), 5)
+        home = self.last["HOME_POSITION"]
+        return home.latitude / 1e7, home.longitude / 1e7
+
+    def metres(self, latitude, longitude):
+        """North and east of home, m."""
+        north, east = (latitude - self.home()[0]) * DEGREE_M, (longitude - self.home()[1]) * DEGREE_M
+        return north, east * math.cos(math.radians(latitude))
+
+    def degrees(self, north_m, east_m):
+        """Latitude and longitude in 1e-7 degrees of a place by metres from home."""
+        latitude, longitude = self.home()
+        east = east_m / DEGREE_M / math.cos(math.radians(latitude))
+        return round((latitude + north_m / DEGREE_M) * 1e7), round((longitude + east) * 1e7)
+
+    def away(self, place=(0.0, 0.0)):
+        """Distance from a place, m."""
+        return math.dist(self.place, place)
+
+    def off(self, heading):
+        """How far the nose is from a heading, degrees."""
+        return abs((self.heading - heading + 180) % 360 - 180)
+
+    # What it is asked for
+
+    def command(self, command, *values):
+        """Sends a command; the name of its result."""
+        self.last.pop("COMMAND_ACK", None)
+        self.link.mav.command_long_send(1, 1, command, 0, *values, *[0] * (7 - len(values)))
+        self.until(f"the answer to {command}", lambda: self.shows("COMMAND_ACK") and self.last["COMMAND_ACK"].command == command, 5)
+        return M.enums["MAV_RESULT"][self.last["COMMAND_ACK"].result].name.removeprefix("MAV_RESULT_")
+
+    def must(self, command, *values):
+        """A command that is accepted."""
+        assert self.command(command, *values) == "ACCEPTED", (command, values, self.texts[-3:])
+
+    def ask(self, message):
+        """Asks for a message."""
+        self.must(M.MAV_CMD_REQUEST_MESSAGE, message)
+
+    def set(self, **parameters):
+        """Sets parameters."""
+        for name, value in parameters.items():
+            self.last.pop("PARAM_VALUE", None)
+            self.link.mav.param_set_send(1, 1, name.encode(), value, M.MAV_PARAM_TYPE_REAL32)
+            self.until(name, lambda name=name: self.shows("PARAM_VALUE") and self.last["PARAM_VALUE"].param_id == name, 5)
+            assert math.isclose(self.last["PARAM_VALUE"].param_value, value, rel_tol=1e-5), name
+
+    def stick(self, **channels):
+        """Moves sticks and switches: roll, pitch, throttle, yaw, and channels by c5 to c9."""
+        names = {"roll": 1, "pitch": 2, "throttle": 3, "yaw": 4}
+        for name, pulse in channels.items():
+            self.channels[names.get(name) or int(name[1:])] = pulse
+
+    def change(self, mode):
+        """Enters a mode, by command."""
+        self.must(M.MAV_CMD_DO_SET_MODE, M.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED, MODES[mode])
+        self.until(mode, lambda: self.flies(mode), 5)
+
+    def arm(self):
+        """Arms."""
+        self.must(M.MAV_CMD_COMPONENT_ARM_DISARM, 1)
+        self.until("armed", lambda: self.armed, 5)
+
+    def take_off(self, height_m, mode="GUIDED"):
+        """To a height: by command in GUIDED, by the throttle in the modes by hand."""
+        self.change(mode)
+        self.arm()
+        if mode == "GUIDED":
+            self.must(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, height_m)
+        else:
+            self.stick(throttle=1700)
+        self.until(f"{height_m} m", lambda: self.height > height_m - 1, 60)
+        self.stick(throttle=1500)
+
+    def until_disarmed(self, limit_s=180):
+        """Landed, and motors off."""
+        self.until("disarmed", lambda: not self.armed, limit_s)
+
+    def go_home(self):
+        """Returns, lands, disarms."""
+        self.stick(**{"roll": 1500, "pitch": 1500, "throttle": 1500, "yaw": 1500})
+        self.change("RTL")
+        self.until_disarmed()
+
+    def upload(self, items, kind=0):
+        """Uploads a plan: (command, north m, east m, height m, *parameters); a mission gets home as its item 0."""
+        whole = [(M.MAV_CMD_NAV_WAYPOINT, 0, 0, 0), *items] if kind == 0 else items
+        self.last.pop("MISSION_ACK", None)
+        self.last.pop("MISSION_REQUEST", None)
+        self.link.mav.mission_count_send(1, 1, len(whole), kind)
+        for seq, (command, north, east, height, *values) in enumerate(whole):
+            wants = lambda seq=seq: self.shows("MISSION_REQUEST") and self.last["MISSION_REQUEST"].seq == seq
+            self.until(f"the request for item {seq}", wants, 5)
+            x, y = self.degrees(north, east) if command < M.MAV_CMD_NAV_DELAY and command != M.MAV_CMD_NAV_RETURN_TO_LAUNCH or kind else (0, 0)
+            values = [*values, *[0] * (4 - len(values))]
+            frame = M.MAV_FRAME_GLOBAL_RELATIVE_ALT
+            self.link.mav.mission_item_int_send(1, 1, seq, frame, command, 0, 1, *values, x, y, height, kind)
+        self.until("the upload's end", lambda: self.shows("MISSION_ACK"), 5)
+        assert self.last["MISSION_ACK"].type == M.MAV_MISSION_ACCEPTED, self.last["MISSION_ACK"]
+
+    def start_auto(self):
+        """Arms in AUTO, which takes off at once."""
+        self.set(AUTO_OPTIONS=3)
+        self.change("AUTO")
+        self.arm()
+
+    def target(self, north=0.0, east=0.0, up=0.0, velocity=None):
+        """A set-point in the local frame: a place, or a velocity."""
+        mask = IGNORE_ALL_BUT_VELOCITY if velocity else IGNORE_ALL_BUT_PLACE
+        vx, vy, vz = velocity or (0, 0, 0)
+        self.link.mav.set_position_target_local_ned_send(0, 1, 1, M.MAV_FRAME_LOCAL_NED, mask, north, east, -up, vx, vy, vz, 0, 0, 0, 0, 0)

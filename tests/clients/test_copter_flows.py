@@ -1,0 +1,302 @@
+"""Cases of ArduPilot's own copter autotest that say most about how an ArduCopter behaves, with their limits, in our own words; docs/autotest.md
+names all of its cases, and which of them pass."""
+
+import concurrent.futures
+import datetime
+import math
+
+import pytest
+
+from copter_tester import M, Copter
+
+# Flights at once: the simulator waits for its client, so more of them only share the processor.
+AT_ONCE = 3
+
+
+def loiter_keeps_its_place(c):
+    c.take_off(10, "LOITER")
+    c.stick(pitch=1100)
+    c.until("50 m", lambda: c.away() > 50, 60)
+    c.stick(pitch=1500)
+    c.until("slow", lambda: c.speed < 2, 30)
+    here, height = c.place, c.height
+    c.holds("within 5 m", lambda: math.dist(c.place, here) < 5 and abs(c.height - height) < 5, 10)
+    c.go_home()
+
+
+def altitude_hold_keeps_its_height_under_full_sticks(c):
+    c.take_off(10, "ALT_HOLD")
+    c.settles("10 m", lambda: 9 <= c.height <= 11, 5, 30)
+    c.stick(roll=1000, pitch=1000)
+    c.holds("9 to 11 m", lambda: 9 <= c.height <= 11, 5)
+    c.go_home()
+
+
+def brake_ignores_the_sticks(c):
+    c.take_off(10, "LOITER")
+    c.stick(pitch=1000)
+    c.until("fast", lambda: c.speed > 5, 30)
+    c.change("BRAKE")
+    c.until("stands", lambda: c.speed < 1, 20)
+    here = c.place
+    c.holds("within 3 m", lambda: math.dist(c.place, here) < 3, 8)
+    c.go_home()
+
+
+def circle_keeps_its_radius(c):
+    c.set(CIRCLE_RADIUS=3000, CIRCLE_RATE=20)
+    c.take_off(10)
+    c.change("LOITER")
+    centre = (c.place[0] + 30 * math.cos(math.radians(c.heading)), c.place[1] + 30 * math.sin(math.radians(c.heading)))
+    c.change("CIRCLE")
+    c.pass_time(10)
+    c.holds("30 m from the middle", lambda: abs(math.dist(c.place, centre) - 30) < 5 and abs(c.height - 10) < 3, 20)
+    c.go_home()
+
+
+def guided_turns_as_slowly_as_it_is_told(c):
+    c.take_off(20)
+    c.settles("at rest", lambda: abs(c.climb) < 0.1, 3, 20)
+    c.watches.append(("turns faster than 10 deg/s", lambda: abs(math.degrees(c.last["ATTITUDE"].yawspeed)) > 10))
+    for turn, direction in ((60, 1), (-60, -1)):
+        goal = (c.heading + turn) % 360
+        c.must(M.MAV_CMD_CONDITION_YAW, goal, 2, direction, 0)
+        took_s = c.until(f"{turn} degrees", lambda goal=goal: c.off(goal) < 5, 60)
+        assert took_s > 20, "60 degrees at 2 deg/s take half a minute"
+        c.pass_time(5)
+    c.watches.clear()
+    c.go_home()
+
+
+def guided_changes_its_speed_on_command(c):
+    c.take_off(20)
+    latitude, longitude = c.degrees(2000, 0)
+    c.link.mav.command_int_send(1, 1, M.MAV_FRAME_GLOBAL_RELATIVE_ALT, M.MAV_CMD_DO_REPOSITION, 0, 0, -1, 0, 0, math.nan, latitude, longitude, 20)
+    for speed in (2, 10, 4):
+        c.must(M.MAV_CMD_DO_CHANGE_SPEED, 1, speed, -1)
+        c.settles(f"{speed} m/s", lambda speed=speed: abs(c.speed - speed) < 0.2, 10, 40)
+    c.must(M.MAV_CMD_COMPONENT_ARM_DISARM, 0, 21196)
+
+
+def guided_looks_where_it_goes(c):
+    c.set(WP_YAW_BEHAVIOR=1)
+    c.take_off(5)
+    c.target(100, 100, 20)
+    for _ in range(12):
+        c.pass_time(2)
+        c.target(100, 100, 20)
+    c.until("there", lambda: c.away((100, 100)) < 3, 40)
+    assert c.off(45) < 5, c.heading
+    c.change("RTL")
+    c.settles("nose to home", lambda: c.off(225) < 5, 4, 30)
+    c.until_disarmed()
+
+
+def a_mission_starts_by_command_alone(c):
+    c.upload([(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 40), (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0)])
+    c.change("LOITER")
+    c.arm()
+    c.change("AUTO")
+    assert c.command(M.MAV_CMD_MISSION_START, 1) == "DENIED"
+    c.must(M.MAV_CMD_MISSION_START)
+    c.until("20 m", lambda: c.height > 20, 60)
+    c.go_home()
+
+
+def a_mission_is_flown_twice_without_leaving_auto(c):
+    c.upload([(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 20), (M.MAV_CMD_NAV_WAYPOINT, 20, 0, 20), (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0)])
+    c.set(AUTO_OPTIONS=3)
+    c.change("AUTO")
+    for _ in range(2):
+        c.arm()
+        c.until("20 m", lambda: c.height > 18, 60)
+        c.until("the last item", lambda: c.item == 3, 120)
+        c.until_disarmed()
+        c.pass_time(20)
+        assert c.flies("AUTO")
+
+
+def a_mission_waits_for_a_minute(c):
+    c.upload([
+        (M.MAV_CMD_NAV_TAKEOFF, 0, 0, 20), (M.MAV_CMD_NAV_WAYPOINT, 10, 10, 20), (M.MAV_CMD_NAV_DELAY, 0, 0, 0, 60),
+        (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0),
+    ])
+    c.start_auto()
+    c.until("the delay", lambda: c.item == 3, 120)
+    assert 59 <= c.until("its end", lambda: c.item == 4, 80) <= 62
+    c.until_disarmed()
+
+
+def a_mission_takes_off_at_a_time_of_day(c):
+    c.until("the clock", lambda: c.shows("SYSTEM_TIME"), 5)
+    due = datetime.datetime.fromtimestamp(c.last["SYSTEM_TIME"].time_unix_usec / 1e6, datetime.timezone.utc) + datetime.timedelta(seconds=77)
+    begun = c.now
+    c.upload([(M.MAV_CMD_NAV_DELAY, 0, 0, 0, 0, due.hour, due.minute, due.second), (M.MAV_CMD_NAV_TAKEOFF, 0, 0, 20), (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0)])
+    c.start_auto()
+    c.until("the take-off", lambda: c.item > 1, 90)
+    assert abs(c.now - begun - 77) <= 2
+    c.until_disarmed()
+
+
+def a_mission_pauses_and_goes_on(c):
+    c.upload([(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 20), *[(M.MAV_CMD_NAV_WAYPOINT, 0, 100 * k, 20) for k in range(1, 4)], (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0)])
+    c.start_auto()
+    c.until("on its way", lambda: c.item == 3 and c.speed > 3, 120)
+    c.must(M.MAV_CMD_DO_PAUSE_CONTINUE, 0)
+    c.settles("stands", lambda: c.speed < 1, 5, 30)
+    c.must(M.MAV_CMD_DO_PAUSE_CONTINUE, 1)
+    c.until("the next item", lambda: c.item == 4, 120)
+    c.until_disarmed(300)
+
+
+def a_smart_return_lands_at_home(c):
+    c.take_off(10)
+    for north, east in ((0, 20), (20, 20)):
+        latitude, longitude = c.degrees(north, east)
+        c.link.mav.command_int_send(1, 1, M.MAV_FRAME_GLOBAL_RELATIVE_ALT, M.MAV_CMD_DO_REPOSITION, 0, 0, -1, 0, 0, math.nan, latitude, longitude, 10)
+        c.until("there", lambda north=north, east=east: c.away((north, east)) < 2, 40)
+    c.change("SMART_RTL")
+    c.until("the corner", lambda: c.away((0, 20)) < 5, 60)
+    c.until_disarmed()
+    assert c.away() < 2
+
+
+def a_return_uses_its_own_speed_and_final_height(c):
+    c.set(RTL_SPEED=300, RTL_ALT_FINAL=500, RTL_LOIT_TIME=1000)
+    c.take_off(20)
+    latitude, longitude = c.degrees(90, 0)
+    c.link.mav.command_int_send(1, 1, M.MAV_FRAME_GLOBAL_RELATIVE_ALT, M.MAV_CMD_DO_REPOSITION, 0, 0, -1, 0, 0, math.nan, latitude, longitude, 20)
+    c.until("90 m", lambda: c.away() > 88, 60)
+    c.change("RTL")
+    c.settles("3 m/s", lambda: abs(c.speed - 3) < 1, 10, 60)
+    c.settles("5 m over home", lambda: abs(c.height - 5) < 1 and c.away() < 2, 10, 120)
+    c.change("LAND")
+    c.until_disarmed()
+
+
+def a_return_goes_to_a_rally_point_at_its_height(c):
+    c.upload([(M.MAV_CMD_NAV_RALLY_POINT, 50, -25, 37)], kind=M.MAV_MISSION_TYPE_RALLY)
+    c.set(RALLY_INCL_HOME=0, RTL_LOIT_TIME=5000)
+    c.take_off(10)
+    c.change("RTL")
+    c.until("the rally point", lambda: c.away((50, -25)) < 1, 120)
+    assert abs(c.height - 37) < 1, c.height
+    c.until("on its way down", lambda: c.height < 25, 60)
+    c.until_disarmed()
+    assert c.away((50, -25)) < 2
+
+
+def the_fences_ceiling_sends_it_home(c):
+    c.set(FENCE_TYPE=1, FENCE_ALT_MAX=20, FENCE_ACTION=1, FENCE_ENABLE=1)
+    c.take_off(10, "LOITER")
+    c.stick(throttle=1900)
+    c.until("RTL", lambda: c.flies("RTL"), 60)
+    assert 19 < c.height < 25
+    c.stick(throttle=1500)
+    c.until_disarmed()
+
+
+def the_fences_floor_lets_it_land(c):
+    c.set(FENCE_TYPE=15, FENCE_ALT_MIN=20, FENCE_ALT_MAX=40, FENCE_RADIUS=150, FENCE_ACTION=1, FENCE_ENABLE=1)
+    c.take_off(30)
+    c.change("LOITER")
+    c.stick(throttle=1200)
+    c.until("RTL", lambda: c.flies("RTL"), 60)
+    c.stick(throttle=1500)
+    c.until("below the floor", lambda: c.height < 15, 120)
+    c.change("LOITER")
+    c.stick(throttle=1300)
+    c.until("the ground", lambda: c.height < 2, 60)
+    c.stick(throttle=1000)
+    c.until_disarmed()
+    assert c.flies("LOITER")
+
+
+def switches_choose_the_mode(c):
+    c.set(FLTMODE1=7, FLTMODE6=5, RC8_OPTION=55, RC9_OPTION=18)
+    c.stick(c5=1000, c8=1000, c9=1000)
+    c.until("CIRCLE", lambda: c.flies("CIRCLE"), 5)
+    c.stick(c9=1900)
+    c.until("LAND", lambda: c.flies("LAND"), 5)
+    c.stick(c8=1900)
+    c.until("GUIDED", lambda: c.flies("GUIDED"), 5)
+    c.stick(c8=1000)
+    c.until("the mode switch's", lambda: c.flies("CIRCLE"), 5)
+    c.stick(c5=1900)
+    c.until("LOITER", lambda: c.flies("LOITER"), 5)
+
+
+def an_arming_switch_acts_when_it_is_moved(c):
+    c.set(RC8_OPTION=153)
+    c.change("LOITER")
+    c.stick(c8=1000)
+    c.pass_time(1)
+    c.stick(c8=2000)
+    c.until("armed", lambda: c.armed, 5)
+    c.must(M.MAV_CMD_COMPONENT_ARM_DISARM, 0)
+    c.until_disarmed(5)
+    c.must(M.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, 1)
+    c.link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, 10, 1)
+    c.holds("disarmed after a restart", lambda: not c.armed, 60)
+
+
+def overrides_lapse(c):
+    c.take_off(10, "LOITER")
+    c.stick(pitch=1000)
+    c.until("fast", lambda: c.speed > 5, 30)
+    c.transmits = False
+    c.until("stands", lambda: c.speed < 1, 20)
+    c.until("another mode", lambda: not c.flies("LOITER"), 20)
+    c.transmits = True
+    c.go_home()
+
+
+FLOWS = [
+    loiter_keeps_its_place,
+    altitude_hold_keeps_its_height_under_full_sticks,
+    brake_ignores_the_sticks,
+    circle_keeps_its_radius,
+    guided_turns_as_slowly_as_it_is_told,
+    guided_changes_its_speed_on_command,
+    guided_looks_where_it_goes,
+    a_mission_starts_by_command_alone,
+    a_mission_is_flown_twice_without_leaving_auto,
+    a_mission_waits_for_a_minute,
+    a_mission_takes_off_at_a_time_of_day,
+    a_mission_pauses_and_goes_on,
+    a_smart_return_lands_at_home,
+    a_return_uses_its_own_speed_and_final_height,
+    a_return_goes_to_a_rally_point_at_its_height,
+    the_fences_ceiling_sends_it_home,
+    the_fences_floor_lets_it_land,
+    switches_choose_the_mode,
+    an_arming_switch_acts_when_it_is_moved,
+    overrides_lapse,
+]
+
+
+def fly(flow, folder):
+    copter = Copter(folder)
+    try:
+        copter.set(COM_RC_OVERRIDE=0, WPNAV_SPEED=1000, RTL_ALT=1500)
+        flow(copter)
+    finally:
+        copter.close()
+
+
+@pytest.fixture(scope="module", name="flights")
+def fixture_flights(tmp_path_factory):
+    """All flights, some at once: what each comes to is asked for below."""
+    folder = tmp_path_factory.mktemp("copter")
+    with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
+        begun = {flow: pool.submit(fly, flow, folder / flow.__name__) for flow in FLOWS}
+        yield begun
+        for flight in begun.values():
+            flight.cancel()
+
+
+@pytest.mark.timeout(900)
+@pytest.mark.parametrize("flow", FLOWS, ids=lambda flow: flow.__name__)
+def test_wire_copter_flow(flights, flow):
+    """Passes as it must on ArduCopter."""
+    flights[flow].result()
