@@ -42,7 +42,7 @@ const LOOK: SimTime = SimTime::from_ms(20);
 const KEPT_FRAMES: usize = 20_000;
 
 /// Something that the vehicle did not do.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     /// A command's answer was not "accepted".
     #[error("{command:?} was answered {result:?}; the vehicle said: {said}")]

@@ -1,0 +1,27 @@
+//! Takes off, hovers for ten seconds in gusts, and says how far it strayed. Run it by `cargo run --example hover`.
+
+use spandrel_model::shipped;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::testing::Vehicle;
+
+const HEIGHT_M: f64 = 5.0;
+const LIMIT: SimTime = SimTime::from_ms(30_000);
+
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut vehicle = Vehicle::builder().scenario(shipped::DRILL_HOVER).vehicle(shipped::M30).seed(7).build()?;
+    vehicle.arm(LIMIT)?;
+    vehicle.take_off(HEIGHT_M)?;
+    vehicle.run_until(|v| (v.height_m() - HEIGHT_M).abs() < 0.3, LIMIT)?;
+    vehicle.run(SimTime::from_ms(3_000));
+    let start_m = vehicle.position_m();
+    let mut strayed_m: f64 = 0.0;
+    for _ in 0..100 {
+        vehicle.run(SimTime::from_ms(100));
+        strayed_m = strayed_m.max((vehicle.position_m() - start_m).norm());
+    }
+    println!("strayed {strayed_m:.2} m in ten seconds");
+    vehicle.land()?;
+    vehicle.run_until(|v| !v.armed(), LIMIT)?;
+    println!("landed after {:.1} s", vehicle.now().s());
+    Ok(())
+}

@@ -1,0 +1,35 @@
+//! Scores a telemetry log by the scenario and the vehicle that it was flown with:
+//! `cargo run --example score_tlog -- flight.tlog scenario.toml vehicle.toml`.
+
+use spandrel_model::{scenario, vehicle};
+use spandrel_monitor::assess_log;
+use spandrel_monitor::watch::build_site;
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+
+pub fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    score(&arguments)
+}
+
+/// Prints the scores of a log; without three files, what it wants.
+pub fn score(arguments: &[String]) -> Result<(), Box<dyn Error>> {
+    let [log, job, aircraft] = arguments else {
+        println!("score_tlog TLOG SCENARIO VEHICLE");
+        return Ok(());
+    };
+    // A height field that a scenario names lies beside it.
+    let beside = Path::new(job).parent().unwrap_or(Path::new(".")).to_owned();
+    let sibling = |name: &str| fs::read_to_string(beside.join(name)).map_err(|error| error.to_string());
+    let scenario = scenario::read(job, &fs::read_to_string(job)?, &sibling)?;
+    let vehicle = vehicle::read(aircraft, &fs::read_to_string(aircraft)?)?;
+    let graded = assess_log(&fs::read(log)?, &scenario, &vehicle, build_site)?;
+    let scores = &graded.assessment.scores;
+    println!("conformity {:?}", scores.conformity);
+    println!("efficiency {:?}", scores.efficiency);
+    println!("safety     {:?}", scores.safety);
+    println!("accuracy   {:?}", scores.accuracy);
+    println!("frames     {}", graded.frames.len());
+    Ok(())
+}

@@ -1,0 +1,37 @@
+//! The examples run to their end, and under sixty lines each.
+
+#[path = "../../examples/custom_job.rs"]
+mod custom_job;
+#[path = "../../examples/hover.rs"]
+mod hover;
+#[path = "../../examples/score_tlog.rs"]
+mod score_tlog;
+
+/// Lines that an example may have: it is read in one go.
+const LINES_MAX: usize = 60;
+
+#[test]
+fn flight_the_hover_example_takes_off_and_lands() {
+    hover::main().unwrap();
+}
+
+#[test]
+fn val_the_custom_job_is_built() {
+    custom_job::main().unwrap();
+}
+
+#[test]
+fn val_a_log_that_is_not_there_is_an_error_and_no_arguments_are_help() {
+    score_tlog::score(&[]).unwrap();
+    let missing = ["none.tlog", "none.toml", "none.toml"].map(str::to_owned);
+    assert!(score_tlog::score(&missing).is_err());
+}
+
+#[test]
+fn exact_examples_are_short() {
+    for name in ["custom_job", "hover", "score_tlog"] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("examples/{name}.rs"));
+        let lines = std::fs::read_to_string(&path).unwrap().lines().count();
+        assert!(lines <= LINES_MAX, "{name}: {lines} lines");
+    }
+}
