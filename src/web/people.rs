@@ -8,7 +8,7 @@ use crate::report::page::progress::on_job;
 use crate::report::words;
 use crate::training::cohort::by_job;
 use crate::training::plan::{Change, Plan};
-use crate::training::record::{Incomplete, Listed, Record, left_out_words};
+use crate::training::record::{Incomplete, Listed, Outcome, Record, left_out_words};
 use crate::training::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
 use maud::{Markup, html};
 

@@ -7,7 +7,7 @@ use crate::report::plots::bars::{Row, shares};
 use crate::report::plots::radar::{Spoke, radar};
 use crate::report::words;
 use crate::training::questionnaire::Item;
-use crate::training::record::{Listed, Record, TaskRecord};
+use crate::training::record::{Listed, Outcome, Record, TaskRecord};
 use maud::{Markup, html};
 
 /// A part of the list of sessions.

@@ -8,7 +8,7 @@ use crate::monitor::feedback::cue;
 use crate::monitor::measures::on_path::Paths;
 use crate::scenario::Scenario;
 use crate::site::gates::Gates;
-use crate::telemetry::sample::{Said, Sample};
+use crate::telemetry::sample::{Said, Sample, SampleValue};
 use crate::telemetry::{Contact, Truth, sample};
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -151,14 +151,20 @@ impl Watch {
     fn note(&mut self, sample: Sample) {
         match sample.said {
             Said::Truth(truth) => self.truth(truth),
-            Said::Battery(pct) => self.battery_pct = Some(pct),
-            Said::Contact(contact) => self.contact = contact,
-            Said::Clearance(metres) => self.clearance_m = Some(metres),
-            Said::Beat { armed, .. } => self.armed = armed,
-            Said::Traffic(code) => self.gates.hear(code),
-            Said::Seed(seed) => self.seed = Some(seed),
-            Said::ScenarioCrc(crc) => self.crc = Some(crc),
-            Said::Snapshot(index) => self.say("info", format!("picture {index}")),
+            Said::Value(value) => self.note_value(value),
+        }
+    }
+
+    fn note_value(&mut self, value: SampleValue) {
+        match value {
+            SampleValue::Battery(pct) => self.battery_pct = Some(pct),
+            SampleValue::Contact(contact) => self.contact = contact,
+            SampleValue::Clearance(metres) => self.clearance_m = Some(metres),
+            SampleValue::Beat { armed, .. } => self.armed = armed,
+            SampleValue::Traffic(code) => self.gates.hear(code),
+            SampleValue::Seed(seed) => self.seed = Some(seed),
+            SampleValue::ScenarioCrc(crc) => self.crc = Some(crc),
+            SampleValue::Snapshot(index) => self.say("info", format!("picture {index}")),
             _ => {}
         }
     }

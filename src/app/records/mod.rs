@@ -25,7 +25,7 @@ use super::clock;
 use super::errors::{AppError, EXIT_CODES};
 use super::files;
 use super::progress::Progress;
-use crate::training::record::Record;
+use crate::training::record::{Outcome, Record};
 use erased::Erased;
 use people::PersonArgs;
 use std::collections::{BTreeMap, BTreeSet};

@@ -13,7 +13,7 @@ use crate::monitor::measures::attention;
 use crate::monitor::measures::crash::may_touch_pad;
 use crate::monitor::session::{EndReason, Moment as EndMoment, lift_off_height_m};
 use crate::telemetry::frame::GAP_AFTER;
-use crate::telemetry::sample::{Said, Sample};
+use crate::telemetry::sample::{Said, Sample, SampleValue};
 use crate::telemetry::timeline::Pushed;
 use crate::telemetry::{Contact, Truth};
 use serde_json::json;
@@ -65,26 +65,37 @@ impl Monitor {
     fn note(&mut self, sample: Sample, before: Option<SimTime>) {
         match sample.said {
             Said::Truth(truth) if before.is_none_or(|before| truth.time > before) => self.truth(truth, before),
-            Said::Truth(_) | Said::Sticks(_) | Said::Hits(_) | Said::GimbalPitch(_) | Said::FieldOfView(_) | Said::Light(_) => {}
-            Said::Battery(pct) => self.live.battery_pct = Some(pct),
-            Said::Contact(contact) => self.contact(contact),
-            Said::Respawns(count) => self.respawns(count),
-            Said::Traffic(code) => self.traffic(code),
-            Said::Seed(seed) => self.seed_heard(seed),
-            Said::ScenarioCrc(crc) => {
+            Said::Truth(_) => {}
+            Said::Value(value) => self.note_value(value),
+        }
+    }
+
+    fn note_value(&mut self, value: SampleValue) {
+        match value {
+            SampleValue::Sticks(_)
+            | SampleValue::Hits(_)
+            | SampleValue::GimbalPitch(_)
+            | SampleValue::FieldOfView(_)
+            | SampleValue::Light(_) => {}
+            SampleValue::Battery(pct) => self.live.battery_pct = Some(pct),
+            SampleValue::Contact(contact) => self.contact(contact),
+            SampleValue::Respawns(count) => self.respawns(count),
+            SampleValue::Traffic(code) => self.traffic(code),
+            SampleValue::Seed(seed) => self.seed_heard(seed),
+            SampleValue::ScenarioCrc(crc) => {
                 if let Err(error) = assessment::check_scenario(&self.config.scenario, crc) {
                     self.refuse(error);
                 }
             }
-            Said::Clearance(metres) => self.live.clearance_m = Some(metres),
-            Said::Beat { armed, by } => {
+            SampleValue::Clearance(metres) => self.live.clearance_m = Some(metres),
+            SampleValue::Beat { armed, by } => {
                 self.live.armed = Some(armed);
                 if self.live.flown_by.replace(by) != Some(by) {
                     self.event("flown_by", json!({ "by": by }));
                 }
             }
-            Said::OnGround(on_ground) => self.live.on_ground = on_ground,
-            Said::Snapshot(index) => self.event("snapshot", json!({ "image": index })),
+            SampleValue::OnGround(on_ground) => self.live.on_ground = on_ground,
+            SampleValue::Snapshot(index) => self.event("snapshot", json!({ "image": index })),
         }
     }
 
