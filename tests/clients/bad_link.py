@@ -120,7 +120,10 @@ class Bench:
     def connect_mavproxy(self):
         """MAVProxy has found the vehicle and read its parameters."""
         self.console = test_mavproxy.Console(self.port, self.folder)
-        self.console.wait("parameters to")
+        try:
+            self.console.wait("parameters to")
+        except AssertionError:
+            raise Failed("parameters never came") from None
 
     def close(self):
         """Ends what was started here."""
