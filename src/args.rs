@@ -41,14 +41,14 @@ pub fn fresh_seed() -> u64 {
     spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & SEED_MAX
 }
 
-/// Whose interface the vehicle speaks.
+/// Autopilot protocol.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Flavour {
-    /// PX4's: what ground stations and SDKs know best
+    /// PX4; best supported by ground stations and SDKs
     Px4,
-    /// ArduPilot's, as ArduCopter speaks it: its modes, names of parameters, missions that begin with home, streams on request
+    /// ArduCopter: its modes, parameter names, missions that begin with home, streams on request
     Ardupilot,
-    /// No autopilot's, the standard alone: QGroundControl then shows the vehicle, but offers no modes and no guided flight
+    /// The MAVLink standard only: QGroundControl shows the vehicle, but offers no modes and no guided flight
     Generic,
 }
 
@@ -71,9 +71,9 @@ impl Flavour {
 /// What a flight is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Purpose {
-    /// It may stand still and begin anew
+    /// You can pause or restart
     Practice,
-    /// It is flown through
+    /// One attempt: no pause, restart or map
     Assessment,
 }
 

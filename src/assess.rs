@@ -15,13 +15,13 @@ use std::path::PathBuf;
 
 /// Score a stored flight again
 ///
-/// Reads a session folder, or a telemetry log together with its scenario and vehicle, and scores it from the telemetry alone: the same
-/// log gives the same bytes as the live session did.
+/// Scores a session folder, or a telemetry log with its scenario and vehicle, from the telemetry alone. The result is byte for byte that of
+/// the live session.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel assess sessions/20260801T...                       the table
-  spandrel assess sessions/20260801T... --json -              the JSON of assessment.json
+  spandrel assess sessions/20260801T...                       the scores as a table
+  spandrel assess sessions/20260801T... --json -              the scores as JSON, as in assessment.json
   spandrel assess flight.tlog --scenario two-bridges --vehicle phantom2 --json scores.json
 
 {EXIT_CODES}"))]
@@ -29,13 +29,13 @@ pub struct Args {
     /// Session folder, or a telemetry log (.tlog)
     #[arg(value_name = "SESSION|TLOG")]
     flight: PathBuf,
-    /// Scenario of a bare log: a file, or the name of a shipped one
+    /// Scenario of a telemetry log: a file, or the name of a shipped one
     #[arg(long, value_name = "FILE|NAME")]
     scenario: Option<String>,
-    /// Aircraft of a bare log: a file, or the name of a shipped one
+    /// Aircraft of a telemetry log: a file, or the name of a shipped one
     #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<String>,
-    /// Write the assessment as JSON here, '-' for standard output; without it a table is printed
+    /// Write the assessment as JSON to this file, '-' for standard output [default: print a table]
     #[arg(long, value_name = "FILE")]
     json: Option<String>,
 }
@@ -81,7 +81,7 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
     }
     let (Some(scenario), Some(vehicle)) = (&args.scenario, &args.vehicle) else {
         return Err(AppError::wrong(format!(
-            "{}: is no session folder; a bare telemetry log needs --scenario and --vehicle",
+            "{}: is no session folder; a telemetry log needs --scenario and --vehicle",
             args.flight.display()
         )));
     };

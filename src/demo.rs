@@ -17,16 +17,16 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Once the pilot is done, the monitor has this much wall time to see the end by itself (three seconds of simulation time at rest).
 const GRACE: Duration = Duration::from_secs(15);
 
-/// Watch a whole session fly by itself
+/// Fly a whole session automatically
 ///
-/// Runs simulator, monitor and a synthetic trainee as three processes over real UDP on free ports, in lockstep: nothing is lost at any
-/// speed, and the same seed gives the same frames. Ends with the four scores, the overall, crashes, snapshots, and the place of the
-/// session folder. Several demos run side by side.
+/// Runs simulator, monitor and a synthetic trainee as three processes over UDP on free ports, in lockstep: no data is lost at any speed, and
+/// the same seed gives the same frames. Prints the four scores, their sum, crashes, snapshots and the session folder at the end. Several
+/// demos can run at the same time.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel demo                                         five times real time
-  spandrel demo --skill novice --seed 7 --speed max     as fast as the machine can
+  spandrel demo --skill novice --seed 7 --speed max     as fast as possible
   spandrel demo --speed 1 --gcs 127.0.0.1:14550         watch it in QGroundControl
 
 {EXIT_CODES}"))]
@@ -35,19 +35,19 @@ pub struct Args {
     job: JobArgs,
     #[command(flatten)]
     skill: SkillArgs,
-    /// Whom the session is recorded for: letters, digits, '-' and '_', at most 32 [default: synthetic-SKILL]
+    /// Trainee to record the session for: letters, digits, '-' and '_', at most 32 characters [default: synthetic-SKILL]
     #[arg(long, value_name = "ID")]
     trainee: Option<args::TraineeId>,
-    /// So many times real time (0.1 to 100), or max
+    /// Simulation speed: a multiple of real time (0.1 to 100), or max
     #[arg(long, value_name = "X|max", default_value = "5")]
     speed: Speed,
-    /// Whose interface the vehicle speaks; it flies the same in all of them
+    /// Autopilot protocol; the flight dynamics are the same in all of them
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
-    /// Folder that session folders are made in
+    /// Folder for session folders
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
-    /// A ground station that looks on, or none; may be repeated
+    /// Ground station to send telemetry to, or none; may be repeated
     #[arg(long, value_name = "HOST:PORT|none", default_value = "none")]
     gcs: Vec<args::Target>,
 }

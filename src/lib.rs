@@ -55,15 +55,15 @@ pub use errors::AppError;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Open trainer for bridge inspectors who work with a drone: a simulated vehicle that speaks MAVLink, a sidecar that watches a flight
-/// and scores it, and a synthetic trainee.
+/// Open trainer for bridge inspectors who fly a drone: a simulated MAVLink vehicle, a monitor that scores the flight from its telemetry, and
+/// a synthetic trainee.
 ///
-/// First steps: `spandrel demo` flies a whole session by itself; `spandrel train` waits for your ground station (QGroundControl
-/// connects by itself) and scores your flight.
+/// First steps: `spandrel demo` flies a whole session automatically; `spandrel train` waits for your ground station (QGroundControl
+/// connects automatically) and scores your flight.
 #[derive(Debug, Parser)]
 #[command(name = "spandrel", version, max_term_width = 110, after_help = errors::EXIT_CODES)]
 pub struct Cli {
-    /// What standard error tells: error, warn, info, debug or trace
+    /// Level of messages on standard error: error, warn, info, debug or trace
     #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
     log: tracing::Level,
     #[command(subcommand)]

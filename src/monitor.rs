@@ -34,36 +34,36 @@ const WARN_EVERY: Duration = Duration::from_secs(30);
 /// Datagrams taken before the answers go out.
 const BATCH: usize = 256;
 
-/// Watch a flight and score it
+/// Monitor a flight and score it
 ///
-/// Listens to the vehicle's MAVLink telemetry, shows what it sees to the pilot as status texts (off path, too close, speeding, crash,
-/// battery), writes the session folder and, when the session ends (landing near the ground team, empty battery, time limit, or a person
-/// or vehicle hit), the assessment. It never looks inside the simulator. A killed monitor goes on with --session DIR. While the disk is full
-/// it keeps telemetry in memory, warns the pilot, and tries again.
+/// Receives the vehicle's MAVLink telemetry, warns the pilot by status texts (off path, too close, speeding, crash, battery), and writes the
+/// session folder. When the session ends (landing near the ground team, empty battery, time limit, or a person or vehicle hit), it writes
+/// the assessment. Telemetry is its only source. To continue after a monitor was killed, use --session DIR. While the disk is full, it keeps
+/// telemetry in memory, warns the pilot, and tries again.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel monitor --trainee anna                      watch instance 0 of the simulator (UDP 14030)
-  spandrel monitor --connect 127.0.0.1:14280 --port 0  be one more sidecar: dial the vehicle's payload port
-  spandrel monitor --session sessions/20260801T...     go on in mid-flight after a kill
+  spandrel monitor --trainee anna                      score instance 0 of the simulator (UDP 14030)
+  spandrel monitor --connect 127.0.0.1:14280 --port 0  connect as an additional monitor, to the vehicle's payload port
+  spandrel monitor --session sessions/20260801T...     continue in mid-flight after a kill
 
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
     job: JobArgs,
-    /// Folder that session folders are made in
+    /// Folder for session folders
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
-    /// Who flies: letters, digits, '-' and '_', at most 32
+    /// Trainee: letters, digits, '-' and '_', at most 32 characters
     #[arg(long, value_name = "ID", default_value = "anonymous")]
     trainee: TraineeId,
-    /// What the flight is for, as the session's file says it: practice or assessment [default: nothing is said]
+    /// Purpose of the flight, for session.json [default: not recorded]
     #[arg(long, value_name = "PURPOSE")]
     purpose: Option<args::Purpose>,
-    /// Taken as by train and demo, and without effect: the monitor's clock is the telemetry's, at whatever speed it comes
+    /// Accepted for compatibility with train and demo; has no effect, because the monitor takes its clock from the telemetry
     #[arg(long, value_name = "X|max")]
     speed: Option<Speed>,
-    /// Go on in this session folder, whose monitor was killed (scenario, vehicle and trainee come from there)
+    /// Continue this session after its monitor was killed (scenario, vehicle and trainee come from the folder)
     #[arg(long, value_name = "DIR")]
     session: Option<PathBuf>,
     /// Vehicle instance: sets the default port
@@ -72,16 +72,16 @@ pub struct Args {
     /// UDP port to listen on, 0 for any free one [default: 14030 + instance]
     #[arg(long, value_name = "PORT")]
     port: Option<u16>,
-    /// Dial the vehicle here instead of waiting for its first datagram
+    /// Send to the vehicle at this address instead of waiting for its first datagram
     #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
     connect: Option<SocketAddr>,
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
     listen: IpAddr,
-    /// Print one JSON line {"port", "session"} on standard output first, and no table at the end
+    /// Print one line of JSON {"port", "session"} on standard output at startup, and no table at the end
     #[arg(long)]
     announce: bool,
-    /// Finish when standard input closes (for a parent process)
+    /// Stop when standard input closes (for a parent process)
     #[arg(long)]
     leash: bool,
 }

@@ -8,23 +8,23 @@ use std::time::Duration;
 pub const STEP: SimTime = SimTime::from_ms(20);
 /// A lockstep peer that does not answer for this much wall time ends the run.
 pub const PATIENCE: Duration = Duration::from_secs(10);
-/// A host that falls behind by more wall time than this does not catch up: the clock slips, and the slip is told.
+/// A host that falls behind by more wall time than this does not catch up: the clock slips, and the slip is reported.
 const SLACK: Duration = Duration::from_millis(250);
 
 /// How fast simulation time runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Speed {
-    /// So many times real time.
+    /// Multiple of real time.
     Times(f64),
-    /// As fast as the machine can.
+    /// As fast as possible.
     Max,
 }
 
-/// The fastest that can be asked for by number.
+/// Largest multiple of real time.
 const FASTEST: f64 = 100.0;
 
 impl Speed {
-    /// Seconds of simulation time in a second of a client that is not kept in step. Flat out nobody knows: it counts as the fastest.
+    /// Simulation seconds per second of a client outside lockstep. Unknown at `max`, which counts as the largest multiple.
     pub fn client_pace(self) -> f64 {
         match self {
             Self::Times(times) => times.max(1.0),
@@ -39,7 +39,7 @@ impl FromStr for Speed {
         if text == "max" {
             return Ok(Self::Max);
         }
-        let allowed = || format!("'{text}' is no speed (allowed: 0.1 to 100, or max)");
+        let allowed = || format!("'{text}' is not a speed (allowed: 0.1 to 100, or max)");
         let times: f64 = text.parse().map_err(|_| allowed())?;
         if (0.1..=FASTEST).contains(&times) { Ok(Self::Times(times)) } else { Err(allowed()) }
     }
@@ -54,14 +54,14 @@ impl std::fmt::Display for Speed {
     }
 }
 
-/// How late a machine was with its ticks, in wall time.
+/// Delay of the simulation behind its clock, in wall time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Lateness {
-    /// The most by which simulation time lay behind when it was let run; a sleep's length at least, for ticks are not waited for singly.
+    /// Longest delay. It includes the length of a sleep, because one wake-up runs several ticks.
     pub latest: Duration,
-    /// How often so much was missing that the clock slipped.
+    /// Number of delays beyond the limit, at which the clock slipped.
     pub slips: u32,
-    /// What was lost by that.
+    /// Total time slipped.
     pub slipped: Duration,
 }
 
@@ -169,14 +169,14 @@ impl FirstAnswer {
     }
 }
 
-/// How long time may stand still for peers in lockstep. Only standing still counts: flat out, the vehicle waits at every look.
+/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts: at `max` speed it waits at every step.
 #[derive(Debug, Clone, Default)]
 pub struct Patience {
     stands: Option<(SimTime, Duration)>,
 }
 
 impl Patience {
-    /// Whether simulation time, now at `reached`, has stood still for more than [`PATIENCE`] at wall time `wall`.
+    /// Returns true if simulation time, now `reached`, has not advanced for more than [`PATIENCE`] at wall time `wall`.
     pub fn is_over(&mut self, reached: SimTime, wall: Duration) -> bool {
         match self.stands {
             Some((at, since)) if at == reached => wall.saturating_sub(since) > PATIENCE,

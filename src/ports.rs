@@ -13,19 +13,19 @@ const TCP_PORT: u16 = 5760;
 #[derive(Debug, Clone, clap::Args)]
 #[command(next_help_heading = "Ports")]
 pub struct PortArgs {
-    /// Vehicle instance, 0 to 200: system id 1 + N, and every default port moves
+    /// Vehicle instance, 0 to 200: sets the system ID to 1 + N and shifts every default port
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=200))]
     pub instance: u8,
-    /// Ground station that is called unasked, or none; may be repeated [default: 127.0.0.1:14550]
+    /// Ground station to send to without being asked, or none; may be repeated [default: 127.0.0.1:14550]
     #[arg(long, value_name = "HOST:PORT|none")]
     pub gcs: Vec<Target>,
-    /// SDK that is called unasked, or none [default: 127.0.0.1:14540 + instance]
+    /// SDK to send to without being asked, or none [default: 127.0.0.1:14540 + instance]
     #[arg(long, value_name = "HOST:PORT|none")]
     pub sdk: Option<Target>,
-    /// UDP port for ground stations that dial in, or none [default: 18570 + instance]
+    /// UDP port for incoming ground stations, or none [default: 18570 + instance]
     #[arg(long, value_name = "PORT|none")]
     pub gcs_port: Option<Port>,
-    /// UDP port for sidecars that dial in, or none [default: 14280 + instance]
+    /// UDP port for incoming payload clients (monitors, recorders), or none [default: 14280 + instance]
     #[arg(long, value_name = "PORT|none")]
     pub payload_port: Option<Port>,
     /// UDP port on this machine where the monitor listens, or none [default: 14030 + instance]
@@ -34,17 +34,17 @@ pub struct PortArgs {
     /// TCP port for ground stations, or none [default: 5760 + 10 x instance]
     #[arg(long, value_name = "PORT|none")]
     pub tcp_port: Option<Port>,
-    /// Radio or cable on a serial port, such as /dev/ttyUSB0:57600; may be repeated. What it carries is its baud rate / 10 bytes a second
+    /// Serial port with a radio or cable, such as /dev/ttyUSB0:57600; may be repeated. Its capacity is its baud rate / 10 bytes/s
     #[arg(long, value_name = "DEVICE:BAUD")]
     pub serial: Vec<Device>,
-    /// No ground station's link over UDP or TCP is sent more than this, bytes a second: streams slow down, lists take longer [default: no
+    /// Data rate limit of each UDP or TCP link to a ground station, bytes/s: streams slow down, parameter lists take longer [default: no
     /// limit]
     #[arg(long, value_name = "BYTES_S", value_parser = clap::value_parser!(u32).range(500..=100_000_000))]
     pub gcs_limit: Option<u32>,
-    /// Local address to bind: 127.0.0.1 for this machine only, 0.0.0.0 for all networks
+    /// Local address to bind: 127.0.0.1 for this machine only, 0.0.0.0 for all network interfaces
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = args::listen)]
     pub listen: IpAddr,
-    /// Where ports come from unless given: the fixed numbers above, or free ones and nobody called
+    /// Default ports: the fixed numbers above, or any free ports and no --gcs or --sdk
     #[arg(long, value_name = "fixed|ephemeral", default_value = "fixed", value_parser = ["fixed", "ephemeral"])]
     pub ports: String,
 }

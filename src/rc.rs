@@ -156,7 +156,7 @@ fn say(text: &str) {
 impl Pilot {
     fn look(&mut self, link: &mut Link, flown: SimTime, now: SimTime) -> Result<Look, AppError> {
         match self {
-            Self::Device(hand) => hand.look(link, flown, now),
+            Self::Device(hand) => Ok(hand.look(link, flown, now)),
             Self::Keyboard { terminal, board } => {
                 let mut over = false;
                 while let Some(key) = terminal.next() {

@@ -26,81 +26,83 @@ use std::time::Duration;
 
 /// Simulate the vehicle
 ///
-/// A quadrotor with its autopilot at the job's site, as a MAVLink vehicle that speaks as PX4 or ArduPilot does (it is neither). It calls ground station and SDK
-/// unasked, serves those who dial in, feeds the monitor, and forgets peers that fall silent. It runs until it is interrupted.
+/// Runs a quadrotor with its autopilot at the job's site, as a MAVLink vehicle with the interface of PX4 or ArduPilot (it is neither). It
+/// sends to a ground station and an SDK without being asked, accepts other connections, feeds the monitor, and drops peers that go silent.
+/// It runs until interrupted.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel sim                                      two bridges, real time, fixed ports
   spandrel sim --instance 1 --speed 4               a second vehicle beside it, four times real time
-  spandrel sim --instances 3                        three vehicles in one process: systems 1 to 3, ports + 0, 1, 2
-  spandrel sim --serial /dev/ttyUSB0:57600          a telemetry radio as well, no faster than it can carry
-  spandrel sim --flavour ardupilot                  for Mission Planner, MAVProxy and scripts that are written for ArduCopter
-  spandrel sim --ports ephemeral --announce         free ports, told as one JSON line
+  spandrel sim --instances 3                        three vehicles in one process: system IDs 1 to 3, consecutive ports
+  spandrel sim --serial /dev/ttyUSB0:57600          also on a telemetry radio, within its data rate
+  spandrel sim --flavour ardupilot                  for Mission Planner, MAVProxy and scripts written for ArduCopter
+  spandrel sim --ports ephemeral --announce         free ports, printed as one line of JSON
   spandrel sim --speed max --gcs 127.0.0.1:9000 --lockstep 127.0.0.1:9000
-                                                    flat out, in step with a client that answers TIMESYNC
+                                                    as fast as possible, in lockstep with a client that answers TIMESYNC
 
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
     job: JobArgs,
-    /// So many times real time (0.1 to 100), or max for as fast as the machine can
+    /// Simulation speed: a multiple of real time (0.1 to 100), or max for as fast as possible
     #[arg(long, value_name = "X|max", default_value = "1")]
     speed: Speed,
-    /// Keep in step with this peer, which must be one of those called: every 20 ms of simulation time it gets TIMESYNC and is waited for.
-    /// Lockstep begins with its first answer: until then time stands still for up to 10 s, with heartbeats, and runs as the clock does afterwards. May be repeated
+    /// Run in lockstep with this peer (one that the vehicle sends to, such as --gcs): every 20 ms of simulation time the simulator sends
+    /// TIMESYNC and waits for the answer. At startup the simulation waits up to 10 s for the first answer, sending heartbeats only; after
+    /// that it runs unsynchronized until the peer answers. May be repeated
     #[arg(long, value_name = "HOST:PORT", value_parser = args::address)]
     lockstep: Vec<SocketAddr>,
-    /// Whose interface the vehicle speaks; it flies the same in all of them
+    /// Autopilot protocol; the flight dynamics are the same in all of them
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
-    /// Whether the camera's component (100) says heartbeats: off for simple clients that take every heartbeat for the vehicle's (DroneKit,
-    /// mavpilot). It takes pictures all the same; the parameter SPAN_CAMERA does it in flight
+    /// Heartbeats of the camera component (100). Turn them off for simple clients that take every heartbeat for the vehicle's (DroneKit,
+    /// mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in flight
     #[arg(long, value_name = "on|off", default_value = "on")]
     camera: Announced,
-    /// What a crash leads to: the vehicle stays where it fell, it goes back to its last safe hover, the flight ends, or what the scenario
-    /// says. Use scenario when a monitor scores the flight; train and demo do
+    /// Action after a crash. Use `scenario` when a monitor scores the flight, as train and demo do
     #[arg(long, value_name = "RULE", default_value = "continue")]
     after_crash: AfterCrashArg,
     #[command(flatten)]
     ports: PortArgs,
-    /// Vehicles in this process, 1 to 50, side by side at the same site; they pass through each other. System ids and ports count up from
-    /// --instance and from every port that is given
+    /// Number of vehicles in this process, 1 to 50, side by side at the same site; they do not collide with each other. System IDs and
+    /// ports count up from --instance and from every port given
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
     instances: u8,
-    /// Folder that is served over MAVLink FTP; the flights' logs (ULog, and MCAP for Foxglove) are written to its folder log, which clients can only read
-    /// and delete from; their own files may take 256 MiB. With several vehicles each has a folder in it, named by its system id [default: none is served or written]
+    /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its subfolder `log`, where clients can only read and
+    /// delete; files that clients upload may take up to 256 MiB. With several vehicles, each has a subfolder named by its system ID
+    /// [default: no files served, no logs written]
     #[arg(long, value_name = "DIR")]
     files: Option<PathBuf>,
-    /// Space for flight logs in the folder of --files, MB; before a flight the oldest logs are deleted down to it
+    /// Space for flight logs in the folder of --files, MB; the oldest logs are deleted before a flight to stay within it
     #[arg(long, value_name = "MB", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     log_space: u64,
-    /// File that keeps the parameters beyond a run: read at the start when it is there, written after every change; the format is
-    /// QGroundControl's .params. With several vehicles each has one of its own, ending in its system id [default: none is kept]
+    /// File that keeps parameters between runs: read at startup if it exists, written after every change, in QGroundControl's .params
+    /// format. With several vehicles, each has its own file, with the system ID appended [default: parameters are not kept]
     #[arg(long, value_name = "FILE")]
     params: Option<PathBuf>,
-    /// File with the MAVLink signing key, readable by its owner alone: 64 hexadecimal digits, or a passphrase as MAVProxy takes it. What
-    /// is not signed with it does nothing. What was heard with it is kept beside it, in FILE.heard.N for system N, so that nothing acts
-    /// twice, not even across a restart [default: no signatures]
+    /// File with the MAVLink signing key, readable only by its owner: 64 hexadecimal digits, or a passphrase as in MAVProxy. Messages not
+    /// signed with it are ignored. Signature timestamps are kept in FILE.heard.N for system N, so that old messages cannot be replayed even
+    /// after a restart [default: no signing]
     #[arg(long, value_name = "FILE")]
     signing_key: Option<PathBuf>,
-    /// Kind of link whose frames act without a signature all the same; may be repeated. Only links that nobody else can reach should
+    /// Kind of link that needs no signature; may be repeated. Use it only for links that nobody else can reach
     #[arg(long, value_name = "KIND", requires = "signing_key")]
     unsigned: Vec<Trusted>,
-    /// End after this much simulation time, s
+    /// Stop after this much simulation time, s
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     end_after: Option<SimTime>,
     /// Print the digest of every tick's state at the end: the same scenario, seed and inputs give the same digest
     #[arg(long)]
     digest: bool,
-    /// Print one JSON line {"latest_ms", "slips", "slipped_ms"} for each vehicle at the end: the most by which its ticks were late, how often
-    /// they were so late (250 ms) that the clock let time go, and how much; all in wall time
+    /// Print one line of JSON {"latest_ms", "slips", "slipped_ms"} for each vehicle at the end: the longest delay of a tick, how often a delay
+    /// exceeded 250 ms so that the simulation clock skipped it, and the total skipped; all in wall time
     #[arg(long)]
     lateness: bool,
-    /// Print one JSON line {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output first
+    /// Print one line of JSON {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output at startup
     #[arg(long)]
     announce: bool,
-    /// Finish when standard input closes (for a parent process); a line `pause` there stops time, `resume` lets it run again
+    /// Stop when standard input closes (for a parent process). There the lines `pause` and `resume` stop and restart the simulation
     #[arg(long)]
     leash: bool,
 }
@@ -114,25 +116,25 @@ fn seconds(text: &str) -> Result<SimTime, String> {
     }
 }
 
-/// Whether something shows itself.
+/// Whether heartbeats are sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Announced {
-    /// It does
+    /// Send heartbeats
     On,
-    /// It does not
+    /// Send no heartbeats
     Off,
 }
 
-/// What a crash leads to, as named on the command line.
+/// Action after a crash, as named on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum AfterCrashArg {
-    /// The vehicle stays where it fell
+    /// The flight continues; the vehicle stays where it fell
     Continue,
-    /// It goes back to its last safe hover
+    /// The vehicle is put back to its last safe hover
     Respawn,
     /// The flight ends
     End,
-    /// What the scenario says
+    /// As the scenario file says
     Scenario,
 }
 
@@ -153,9 +155,9 @@ impl AfterCrashArg {
 enum Trusted {
     /// Ground stations over UDP
     Gcs,
-    /// The SDK that is called
+    /// The SDK of --sdk
     Sdk,
-    /// The monitor and other sidecars
+    /// Monitor and other payload clients
     Payload,
     /// Ground stations over TCP
     Tcp,

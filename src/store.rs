@@ -12,7 +12,7 @@ use spandrel_sitl::endpoint::files::job::{Action, CHECKSUM_SLICE, Done, Entry, F
 use spandrel_sitl::endpoint::files::path::FilePath;
 use spandrel_sitl::log::Piece;
 use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Quota for all clients' files, bytes.
 const QUOTA_BYTES: u64 = 256 * 1024 * 1024;
@@ -26,14 +26,36 @@ const LOGS: &str = "log";
 #[derive(Debug)]
 pub struct Store {
     root: Dir,
+    path: PathBuf,
     /// Bytes that flight logs may take before the oldest make room.
     log_room: u64,
     /// The site as binary glTF in base64: every recording begins with it.
     site: Option<String>,
     /// Space used by clients' files.
     used: Used,
-    log: Option<File>,
+    log: Option<FlightLog>,
     recording: Option<Recording<std::fs::File>>,
+}
+
+/// The log of the running flight.
+#[derive(Debug)]
+struct FlightLog {
+    file: File,
+    name: String,
+    /// Length of the pieces that the disk has taken, bytes.
+    whole: u64,
+}
+
+impl FlightLog {
+    /// Adds a piece whole or not at all: a reader finds no message of the log after half of one.
+    fn write(&mut self, piece: &[u8]) -> std::io::Result<()> {
+        self.file.write_all(piece).inspect_err(|_| {
+            // A disk that refuses this too leaves half a message at the end, where readers expect it.
+            let _ = self.file.set_len(self.whole);
+        })?;
+        self.whole += piece.len() as u64;
+        Ok(())
+    }
 }
 
 impl Store {
@@ -47,7 +69,7 @@ impl Store {
         let root = Dir::open_ambient_dir(path, ambient_authority()).map_err(failed)?;
         root.create_dir_all(LOGS).map_err(failed)?;
         let used = Used::in_folder(&root);
-        Ok(Self { root, log_room, site: None, used, log: None, recording: None })
+        Ok(Self { root, path: path.to_owned(), log_room, site: None, used, log: None, recording: None })
     }
 
     /// Recordings show this site from now on, binary glTF.
@@ -168,8 +190,25 @@ impl Store {
     /// Writes a piece of the vehicle's log to `log/<date>/<time>.ulg`, and of the recording beside it to the same name with `.mcap`.
     ///
     /// # Errors
-    /// When the disk does not take it.
-    pub fn log(&mut self, piece: &Piece) -> std::io::Result<()> {
+    /// When the disk does not take it. The file then ends with what came before; the next flight begins another one.
+    pub fn log(&mut self, piece: &Piece) -> Result<(), AppError> {
+        match piece {
+            Piece::Bytes(bytes) => {
+                let Some(log) = &mut self.log else { return Ok(()) };
+                let written = log.write(bytes).map_err(|error| cannot(&self.path, &log.name, &error));
+                written.inspect_err(|_| self.log = None)
+            }
+            Piece::Message(message) => {
+                let Some(recording) = &mut self.recording else { return Ok(()) };
+                let written = recording.write(message).map_err(|error| cannot(&self.path, LOGS, &error));
+                written.inspect_err(|_| self.recording = None)
+            }
+            Piece::Begin(_) | Piece::End => self.turn_log(piece).map_err(|error| cannot(&self.path, LOGS, &error)),
+        }
+    }
+
+    /// Begins or ends a flight's log.
+    fn turn_log(&mut self, piece: &Piece) -> std::io::Result<()> {
         match piece {
             Piece::Begin(unix_us) => {
                 let (readable, _) = super::clock::utc(*unix_us);
@@ -183,16 +222,7 @@ impl Store {
                 let stem = time.trim_matches(|c: char| !c.is_ascii_digit()).replace(':', "_");
                 self.begin_log(&format!("{folder}/{stem}"), *unix_us)?;
             }
-            Piece::Bytes(bytes) => {
-                if let Some(file) = &mut self.log {
-                    file.write_all(bytes)?;
-                }
-            }
-            Piece::Message(message) => {
-                if let Some(recording) = &mut self.recording {
-                    recording.write(message).map_err(std::io::Error::other)?;
-                }
-            }
+            Piece::Bytes(_) | Piece::Message(_) => {}
             Piece::End => {
                 self.log = None;
                 if let Some(recording) = self.recording.take() {
@@ -204,9 +234,9 @@ impl Store {
     }
 
     fn begin_log(&mut self, stem: &str, unix_us: u64) -> std::io::Result<()> {
-        let (log, name) = self.new_log(stem)?;
-        self.log = Some(log);
-        let file = self.root.open_with(name, OpenOptions::new().write(true).create(true).truncate(true))?;
+        let (file, stem) = self.new_log(stem)?;
+        self.log = Some(FlightLog { file, name: format!("{stem}.ulg"), whole: 0 });
+        let file = self.root.open_with(format!("{stem}.mcap"), OpenOptions::new().write(true).create(true).truncate(true))?;
         let mut recording = Recording::begin(file.into_std()).map_err(std::io::Error::other)?;
         if let Some(site) = &self.site {
             recording.write(&foxglove::site(unix_us * 1_000, site)).map_err(std::io::Error::other)?;
@@ -221,11 +251,15 @@ impl Store {
         for number in 1.. {
             match self.root.open_with(format!("{name}.ulg"), OpenOptions::new().write(true).create_new(true)) {
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => name = format!("{stem}-{number}"),
-                other => return other.map(|file| (file, format!("{name}.mcap"))),
+                other => return other.map(|file| (file, name)),
             }
         }
         Err(ErrorKind::AlreadyExists.into())
     }
+}
+
+fn cannot(root: &Path, name: &str, error: &dyn std::fmt::Display) -> AppError {
+    AppError::failed(format!("{}: cannot be written: {error}; it ends here", root.join(name).display()))
 }
 
 /// A path in the vehicle's own part of the folder.
@@ -285,7 +319,6 @@ impl Used {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::PathBuf;
 
     fn path(text: &str) -> FilePath {
         FilePath::of(text.as_bytes()).unwrap()
@@ -382,6 +415,25 @@ mod tests {
         std::fs::write(base.join("root/log/x.ulg"), "log").unwrap();
         assert_eq!(store.work(&Action::Truncate(path("log/x.ulg"), 0)), Err(FileError::Protected));
         store.work(&Action::Remove(path("log/x.ulg"))).unwrap();
+        std::fs::remove_dir_all(base).unwrap();
+    }
+
+    #[test]
+    fn regress_a_log_that_the_disk_refuses_ends_whole_and_is_reported_once() {
+        let (base, mut store) = place("refused");
+        store.log(&Piece::Begin(1_790_000_000_000_000)).unwrap();
+        store.log(&Piece::Bytes("one".into())).unwrap();
+        // A descriptor that cannot be written to refuses as a full disk does.
+        let name = "log/2026-09-21/14_13_20.ulg";
+        store.log.as_mut().unwrap().file = store.root.open(name).unwrap();
+        let refused = store.log(&Piece::Bytes("two".into())).unwrap_err().to_string();
+        assert!(refused.contains(name) && refused.contains("it ends here"), "{refused}");
+        store.log(&Piece::Bytes("three".into())).unwrap();
+        assert_eq!(std::fs::read(base.join("root").join(name)).unwrap(), b"one");
+        store.log(&Piece::End).unwrap();
+        store.log(&Piece::Begin(1_790_000_001_000_000)).unwrap();
+        store.log(&Piece::Bytes("four".into())).unwrap();
+        assert_eq!(std::fs::read(base.join("root/log/2026-09-21/14_13_21.ulg")).unwrap(), b"four");
         std::fs::remove_dir_all(base).unwrap();
     }
 

@@ -24,22 +24,22 @@ const USUAL: &str = "two-bridges";
 
 /// Fly a session yourself
 ///
-/// Starts simulator and monitor, says how to connect a ground station or a script, waits for the flight, and prints the scores and the
-/// session folder. Where there is a display, a window asks who flies what (unless a scenario is given), checks the controller, explains
-/// itself to who is new, shows the inspector's view and the camera's, flies with its keys or with a calibrated controller, and tells the
-/// scores; a practice can be paused and begun anew. Without a display, fly by your ground station's map and instruments, or by a script.
+/// Starts simulator and monitor, prints how to connect a ground station or a script, waits for the flight, and prints the scores and the
+/// session folder. With a display it opens a window: choose trainee and job (unless a scenario is given), check the controller, take a
+/// tutorial on the first flight, fly with the keyboard or a calibrated controller in the inspector's and the camera's view, and see the
+/// scores. You can pause or restart a practice. Without a display, fly with your ground station or a script.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel train                                  the window asks; without a display: the paper's job
-  spandrel train --trainee anna --scenario drill-hover          at once; QGroundControl on this machine connects by itself
-  spandrel train --scenario my-job.toml --choose  the window asks, with this job among the others
+  spandrel train                                  choose in the window; without a display: the paper's job
+  spandrel train --trainee anna --scenario drill-hover          fly right away; QGroundControl on this machine connects automatically
+  spandrel train --scenario my-job.toml --choose  choose in the window, with this job in the list
   spandrel train --no-view                        without the window
   spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     a ground station on another machine
 
 {EXIT_CODES}"))]
 pub struct Args {
-    /// Scenario: a file, or the name of a shipped one [default: the window asks; without one, two-bridges]
+    /// Scenario: a file, or the name of a shipped one [default: chosen in the window; without a window, two-bridges]
     #[arg(long, value_name = "FILE|NAME")]
     scenario: Option<String>,
     /// Aircraft: a file, or the name of a shipped one
@@ -48,49 +48,50 @@ pub struct Args {
     /// Seed for everything random (defects, traffic, gusts, sensor noise), 0 to 2147483647 [default: the scenario's, else a new one]
     #[arg(long, value_name = "N", value_parser = args::seed, allow_negative_numbers = true)]
     seed: Option<u64>,
-    /// Who flies: letters, digits, '-' and '_', at most 32
+    /// Trainee: letters, digits, '-' and '_', at most 32 characters
     #[arg(long, value_name = "ID", default_value = "anonymous")]
     trainee: TraineeId,
-    /// A practice may be paused and begun anew, an assessment is flown through and has no map
+    /// Purpose of the flight
     #[arg(long, value_name = "PURPOSE", default_value = "practice")]
     purpose: args::Purpose,
-    /// The window asks although a scenario is given
+    /// Choose in the window even though a scenario is given
     #[arg(long, conflicts_with = "no_view")]
     choose: bool,
-    /// Folder that session folders are made in
+    /// Folder for session folders
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
-    /// So many times real time (0.1 to 100), or max; a person flies at 1
+    /// Simulation speed: a multiple of real time (0.1 to 100), or max; use 1 to fly by hand
     #[arg(long, value_name = "X|max", default_value = "1")]
     speed: Speed,
-    /// Whose interface the vehicle speaks; it flies the same in all of them
+    /// Autopilot protocol; the flight dynamics are the same in all of them
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
-    /// Web pages of this machine's sessions and of the live flight: a port of this machine, 0 for any free one, or none
+    /// Local port for web pages of the sessions and the live flight, 0 for any free one, or none
     #[arg(long, value_name = "PORT|none", default_value = "0")]
     web: args::Port,
-    /// Without the window
+    /// Don't open the window
     #[arg(long)]
     no_view: bool,
-    /// Quit when the session is scored; without it the vehicle stays connected until you quit
+    /// Quit when the session is scored instead of keeping the vehicle connected
     #[arg(long, conflicts_with = "choose")]
     once: bool,
-    /// Without sound in the window
+    /// No sound in the window
     #[arg(long)]
     no_sound: bool,
-    /// How much a picture in the window may cost: low, medium, high, ultra, or auto
+    /// Graphics quality of the window: low, medium, high, ultra, or auto
     #[arg(long, value_name = "PRESET", default_value = "auto")]
     quality: String,
-    /// Which key does what in the window (as `spandrel view --keys`)
+    /// Key bindings of the window (as `spandrel view --keys`)
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
-    /// Which controller flies from the window, by a part of its name or its id [default: the only one]
+    /// Controller to fly with from the window, by part of its name or ID [default: the only one connected]
     #[arg(long, value_name = "NAME", conflicts_with = "no_view")]
     device: Option<String>,
-    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration]
+    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR", conflicts_with = "no_view")]
     profiles: Option<PathBuf>,
-    /// Send the camera's view as H.264 over RTP there while the window flies (as `spandrel view --stream`; QGroundControl listens at UDP 5600)
+    /// Stream the camera view to this address during the flight, as H.264 over RTP (as `spandrel view --stream`; QGroundControl listens on
+    /// UDP 5600)
     #[arg(long, value_name = "HOST:PORT", value_parser = args::address, conflicts_with = "no_view")]
     stream: Option<SocketAddr>,
     #[command(flatten)]

@@ -23,19 +23,31 @@ pub struct Hand {
 struct Log {
     path: PathBuf,
     file: File,
+    /// Length of the lines that the disk has taken, bytes.
+    whole: u64,
 }
 
 impl Log {
     fn begin(path: &Path, device: &Device) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::wrong(format!("{}: {error}", path.display()));
-        let mut file = File::create(path).map_err(failed)?;
-        writeln!(file, "{}", record::head(device)).map_err(failed)?;
-        Ok(Self { path: path.to_owned(), file })
+        let mut log = Self { path: path.to_owned(), file: File::create(path).map_err(failed)?, whole: 0 };
+        log.line(record::head(device)).map_err(failed)?;
+        Ok(log)
     }
 
-    fn write(&mut self, now: SimTime, event: Event) -> Result<(), AppError> {
-        writeln!(self.file, "{}", record::line(now, event))
-            .map_err(|error| AppError::failed(format!("{}: {error}", self.path.display())))
+    fn write(&mut self, now: SimTime, event: Event) -> std::io::Result<()> {
+        self.line(record::line(now, event))
+    }
+
+    /// Adds a line whole or not at all.
+    fn line(&mut self, mut line: String) -> std::io::Result<()> {
+        line.push('\n');
+        self.file.write_all(line.as_bytes()).inspect_err(|_| {
+            // Half a line would make the whole record unreadable.
+            let _ = self.file.set_len(self.whole);
+        })?;
+        self.whole += line.len() as u64;
+        Ok(())
     }
 }
 
@@ -78,14 +90,9 @@ impl Hand {
 
     /// Takes what the device has reported, and does what its buttons say. A record is played by `flown`, the time since the vehicle was
     /// heard.
-    ///
-    /// # Errors
-    /// When what is reported cannot be written down.
-    pub fn look(&mut self, link: &mut Link, flown: SimTime, now: SimTime) -> Result<Look, AppError> {
+    pub fn look(&mut self, link: &mut Link, flown: SimTime, now: SimTime) -> Look {
         while let Some(event) = self.source.next(flown) {
-            if let Some(log) = &mut self.log {
-                log.write(flown, event)?;
-            }
+            self.keep(flown, event);
             let fresh = matches!(event, Event::Button { button, pressed: true } if !self.raw.down.contains(&button));
             self.raw.take(event);
             match event {
@@ -97,7 +104,16 @@ impl Hand {
                 _ => {}
             }
         }
-        Ok(Look { sticks: (!self.raw.lost).then(|| self.profile.sticks(&self.raw)), over: self.source.is_over() })
+        Look { sticks: (!self.raw.lost).then(|| self.profile.sticks(&self.raw)), over: self.source.is_over() }
+    }
+
+    /// Records an event. A disk that refuses ends the record, never the flight.
+    fn keep(&mut self, flown: SimTime, event: Event) {
+        let Some(log) = &mut self.log else { return };
+        if let Err(error) = log.write(flown, event) {
+            tracing::warn!("{}: cannot be written: {error}; the record ends here, the flight goes on", log.path.display());
+            self.log = None;
+        }
     }
 }
 
@@ -122,5 +138,35 @@ impl Hand {
     /// The device, without its meaning.
     pub fn let_go(self) -> Source {
         self.source
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_clients::rc::profile::StickMode;
+    use spandrel_clients::rc::record::Record;
+    use std::collections::BTreeMap;
+
+    const RECORD: &str = r#"{"format":1,"device":"Stick","id":"1"}
+{"t_s":0.0,"axis":0,"value":0.5}
+{"t_s":0.1,"axis":0,"value":0.25}
+"#;
+
+    #[test]
+    fn regress_a_disk_that_refuses_ends_the_record_and_not_the_flight() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("flown.jsonl");
+        let device = Record::read("in", RECORD).unwrap().device;
+        let profile = Profile { device: device.clone(), mode: StickMode::Two, ways: BTreeMap::new(), buttons: BTreeMap::new() };
+        let mut log = Log::begin(&path, &device).unwrap();
+        // A descriptor that cannot be written to refuses as a full disk does.
+        log.file = File::open(&path).unwrap();
+        let mut hand = Hand { log: Some(log), ..Hand::with(Source::Record(Record::read("in", RECORD).unwrap()), profile) };
+        let mut link = Link::default();
+        let late = SimTime::from_ms(200);
+        assert!(hand.look(&mut link, late, late).sticks.is_some());
+        assert!(hand.log.is_none(), "the record has ended");
+        Record::read("flown", &std::fs::read_to_string(&path).unwrap()).expect("what is there can be played");
     }
 }

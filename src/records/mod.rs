@@ -27,7 +27,7 @@ use super::files;
 use super::progress::Progress;
 use erased::Erased;
 use people::PersonArgs;
-use spandrel_training::record::Record;
+use spandrel_training::record::{Outcome, Record};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 

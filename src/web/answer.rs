@@ -19,8 +19,8 @@ pub struct Answer {
     download: Option<String>,
     keep: bool,
     retry_after_s: Option<u64>,
-    /// A cookie to set, whole.
-    pub cookie: Option<String>,
+    /// Cookies to set, whole.
+    pub cookies: Vec<String>,
     body: Vec<u8>,
 }
 
@@ -58,7 +58,7 @@ impl Answer {
             download: None,
             keep: false,
             retry_after_s: None,
-            cookie: None,
+            cookies: Vec::new(),
             body,
         }
     }
@@ -131,11 +131,11 @@ impl Answer {
         if let Some(name) = &self.download {
             set(header::CONTENT_DISPOSITION, &format!("attachment; filename=\"{name}\""));
         }
-        if let Some(cookie) = &self.cookie {
-            set(header::SET_COOKIE, cookie);
-        }
         if let Some(seconds) = self.retry_after_s {
             set(header::RETRY_AFTER, &seconds.to_string());
+        }
+        for cookie in self.cookies.iter().filter_map(|cookie| HeaderValue::from_str(cookie).ok()) {
+            response.headers_mut().append(header::SET_COOKIE, cookie);
         }
         response
     }

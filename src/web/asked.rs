@@ -1,6 +1,7 @@
 //! A request, read.
 
 use super::answer::Refusal;
+use super::guard::Client;
 use super::spool::Spooled;
 use spandrel_training::web::access::Visitor;
 use std::collections::BTreeMap;
@@ -24,6 +25,8 @@ pub struct Asked {
     pub cookie: Option<String>,
     /// From where.
     pub from: IpAddr,
+    /// Cookie of a browser that somebody has logged in with before.
+    pub device: Option<String>,
     /// Parts of the path by their names in the table of routes.
     pub path: BTreeMap<String, String>,
     /// Words after the question mark.
@@ -39,6 +42,11 @@ pub struct Asked {
 }
 
 impl Asked {
+    /// Where a login comes from.
+    pub fn client(&self) -> Client<'_> {
+        Client { from: self.from, device: self.device.as_deref() }
+    }
+
     /// A part of the path.
     pub fn part(&self, name: &str) -> &str {
         self.path.get(name).map_or("", String::as_str)

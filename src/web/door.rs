@@ -106,9 +106,10 @@ async fn head(shared: &Shared, route: &'static Route, request: &mut Request) -> 
         let recognised = if file { None } else { Some(state.guard.recognise(&state.database, state.guard.cookie_of(&headers))?) };
         let visitor = recognised.as_ref().map_or_else(nobody, |recognised| recognised.visitor.clone());
         let cookie = recognised.as_ref().map(|recognised| recognised.cookie.clone());
+        let device = state.guard.device_of(&headers);
         let by_script = accepts_json(&headers);
         let languages = headers.get(header::ACCEPT_LANGUAGE).and_then(|value| value.to_str().ok()).unwrap_or_default().to_owned();
-        let asked = Asked { visitor, cookie, from, path, query, form: Vec::new(), upload: None, languages, by_script };
+        let asked = Asked { visitor, cookie, from, device, path, query, form: Vec::new(), upload: None, languages, by_script };
         Ok(Head { asked, recognised })
     })
     .await

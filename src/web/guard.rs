@@ -13,22 +13,36 @@ use crate::records::{Account, Database};
 use axum::http::{HeaderMap, header};
 use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::access::Visitor;
-use spandrel_training::web::throttle::Throttle;
+use spandrel_training::web::devices::Devices;
+use spandrel_training::web::throttle::{Origin, Throttle};
 use spandrel_training::web::visits::{Secret, Visit, Visits, same};
 use std::net::IpAddr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A browser keeps the cookie by which it is known this long; the server forgets it after the same time.
+const DEVICE_KEPT: cookie::time::Duration = cookie::time::Duration::days(90);
 
 /// The guard.
 #[derive(Debug)]
 pub struct Guard {
     visits: Mutex<Visits>,
     throttle: Mutex<Throttle>,
+    devices: Mutex<Devices>,
     /// The queue for password hashing.
     pub hashing: Hashing,
     somebody_has_a_password: AtomicBool,
     secure: bool,
     reach: Reach,
+}
+
+/// Where a login comes from.
+#[derive(Debug, Clone, Copy)]
+pub struct Client<'a> {
+    /// Address.
+    pub from: IpAddr,
+    /// Cookie of a browser that somebody has logged in with before.
+    pub device: Option<&'a str>,
 }
 
 /// A visitor with his cookie, and the cookie to set when it is new.
@@ -48,6 +62,7 @@ impl Guard {
         Self {
             visits: Mutex::default(),
             throttle: Mutex::default(),
+            devices: Mutex::default(),
             hashing: Hashing::default(),
             somebody_has_a_password: AtomicBool::new(somebody_has_a_password),
             secure,
@@ -109,7 +124,8 @@ impl Guard {
         Ok(Recognised { visitor: visitor(open, person, visit), cookie, fresh: false })
     }
 
-    /// Logs in: checks name and password, ends the visit before, begins a new one. Returns the new cookie.
+    /// Logs in: checks name and password, ends the visit before, begins a new one. Returns the new cookie and that of the browser, which is
+    /// known for this name from now on.
     ///
     /// # Errors
     /// When it has to wait, or name and password do not fit; which of the two is not told.
@@ -118,23 +134,28 @@ impl Guard {
         database: &Database,
         asked: (&str, &str),
         before: Option<&str>,
-        from: IpAddr,
-    ) -> Result<String, Refusal> {
+        client: &Client<'_>,
+    ) -> Result<(String, String), Refusal> {
         let (name, password) = asked;
-        let account = self.check(database, name, password, from)?;
+        let account = self.check(database, name, password, client)?;
         let credential = account.credential().ok_or_else(no_fit)?;
+        let now_us = clock::unix_us();
+        let [secret, _] = secrets()?;
+        let device = lock(&self.devices).remember(client.device, name, &secret, now_us);
         let mut visits = lock(&self.visits);
         before.iter().for_each(|cookie| visits.end(cookie));
-        let (cookie, _) = visits.begin(Some((name, credential)), secrets()?, clock::unix_us());
-        Ok(cookie)
+        let (cookie, _) = visits.begin(Some((name, credential)), secrets()?, now_us);
+        Ok((cookie, device))
     }
 
     /// Checks a password, within the limits on failures. Returns whose it is, as it was when it fitted.
     ///
     /// # Errors
     /// As [`Self::log_in`].
-    pub fn check(&self, database: &Database, name: &str, password: &str, from: IpAddr) -> Result<Account, Refusal> {
+    pub fn check(&self, database: &Database, name: &str, password: &str, client: &Client<'_>) -> Result<Account, Refusal> {
         let now_us = clock::unix_us();
+        let known = client.device.and_then(|cookie| lock(&self.devices).find(cookie, name, now_us));
+        let from = Origin::of(client.from, known);
         if let Some(wait_us) = lock(&self.throttle).wait_us(from, name, now_us) {
             return Err(Refusal::Later(wait_us.div_ceil(1_000_000)));
         }
@@ -145,7 +166,7 @@ impl Guard {
         let account = database.account(name)?;
         let hash = account.as_ref().and_then(|account| account.hash.as_deref());
         if !turn.fits(password, hash) {
-            tracing::info!("a login from {from} failed");
+            tracing::info!("a login from {} failed", client.from);
             return Err(no_fit());
         }
         lock(&self.throttle).went_well(from, name);
@@ -185,11 +206,25 @@ impl Guard {
         if self.secure { "__Host-spandrel" } else { "spandrel" }
     }
 
+    /// Name of the cookie of a known browser.
+    fn device_name(&self) -> &'static str {
+        if self.secure { "__Host-spandrel-device" } else { "spandrel-device" }
+    }
+
     /// Our cookie's value in a request.
     pub fn cookie_of(&self, headers: &HeaderMap) -> Option<String> {
-        let all = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
-        let pairs = all.flat_map(cookie::Cookie::split_parse).flatten();
-        pairs.into_iter().find(|cookie| cookie.name() == self.cookie_name()).map(|cookie| cookie.value().to_owned())
+        value_of(headers, self.cookie_name())
+    }
+
+    /// The value of a known browser's cookie in a request.
+    pub fn device_of(&self, headers: &HeaderMap) -> Option<String> {
+        value_of(headers, self.device_name())
+    }
+
+    /// The cookie of a known browser, to be set. It opens nothing: it only counts failed logins apart.
+    pub fn device_cookie(&self, value: &str) -> String {
+        let built = cookie::Cookie::build((self.device_name(), value)).path("/").http_only(true).secure(self.secure);
+        built.same_site(cookie::SameSite::Strict).max_age(DEVICE_KEPT).build().to_string()
     }
 
     /// Our cookie, to be set. Lax, for with Strict a link in a mail would come without it and be given a stranger's in its place: logged
@@ -198,6 +233,12 @@ impl Guard {
         let built = cookie::Cookie::build((self.cookie_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Lax).build().to_string()
     }
+}
+
+fn value_of(headers: &HeaderMap, name: &str) -> Option<String> {
+    let all = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
+    let mut pairs = all.flat_map(cookie::Cookie::split_parse).flatten();
+    pairs.find(|cookie| cookie.name() == name).map(|cookie| cookie.value().to_owned())
 }
 
 fn no_fit() -> Refusal {
@@ -234,5 +275,8 @@ mod tests {
         assert!(cookie.starts_with("__Host-spandrel=v;") && cookie.contains("Secure"), "{cookie}");
         assert_eq!(guard.cookie_of(&headers(&[("cookie", "a=b; __Host-spandrel=xyz; spandrel=no")])), Some("xyz".into()));
         assert_eq!(guard.cookie_of(&headers(&[])), None);
+        let device = guard.device_cookie("v");
+        assert!(device.starts_with("__Host-spandrel-device=v; HttpOnly; SameSite=Strict; Secure;"), "{device}");
+        assert!(device.contains("Max-Age=7776000"), "{device}");
     }
 }

@@ -24,10 +24,10 @@ pub fn login_page(_: &State, asked: &Asked) -> Answered {
 pub fn log_in(state: &State, asked: &Asked) -> Answered {
     let name = asked.field("name").unwrap_or_default().trim();
     let password = asked.field("password").unwrap_or_default();
-    match state.guard.log_in(&state.database, (name, password), asked.cookie.as_deref(), asked.from) {
-        Ok(cookie) => {
+    match state.guard.log_in(&state.database, (name, password), asked.cookie.as_deref(), &asked.client()) {
+        Ok((cookie, device)) => {
             let mut answer = Answer::to("/sessions");
-            answer.cookie = Some(state.guard.cookie(&cookie));
+            answer.cookies = vec![state.guard.cookie(&cookie), state.guard.device_cookie(&device)];
             Ok(answer)
         }
         Err(refusal @ (Refusal::Forbidden(_) | Refusal::Later(_) | Refusal::Busy(_))) => {
@@ -67,7 +67,7 @@ pub fn change_password(state: &State, asked: &Asked) -> Answered {
 }
 
 fn change(state: &State, asked: &Asked, name: &str) -> Result<(), Refusal> {
-    let mut account = state.guard.check(&state.database, name, asked.needed("present")?, asked.from)?;
+    let mut account = state.guard.check(&state.database, name, asked.needed("present")?, &asked.client())?;
     let new = asked.needed("new")?;
     login::check(new, name).map_err(Refusal::Wrong)?;
     let before = account.hash.replace(state.guard.hashing.enter()?.hash(new)?).unwrap_or_default();

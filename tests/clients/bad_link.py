@@ -1,13 +1,21 @@
 """Stock clients over links of four qualities: how often they succeed and how long they take.
 
     SPANDREL=target/release/spandrel .venv/bin/python tests/clients/bad_link.py --runs 20 --table table.md
+
+With SPANDREL_PX4=DIR, the build folder of a PX4 with its simulator SIH, the same clients also use a real PX4, in turn with Spandrel.
 """
 
 import argparse
+import concurrent.futures
 import dataclasses
+import multiprocessing
+import os
 import pathlib
+import queue
 import statistics
+import sys
 import tempfile
+import threading
 import time
 
 from mavsdk import ComponentType, Configuration, Mavsdk
@@ -18,6 +26,7 @@ from mavsdk.plugins.mission_raw import MissionItem, MissionRaw, MissionRawError
 from mavsdk.plugins.param import Param
 from mavsdk.plugins.telemetry import Telemetry
 
+import px4
 import relay
 import spandrel
 import test_mavproxy
@@ -27,6 +36,8 @@ NAN = float("nan")
 ITEMS, FILE_BYTES, LOG_BYTES = 200, 50_000, 50_000
 # Wall seconds after which a client that still tries counts as failed.
 LIMIT_S = 300
+# Wall seconds after which a client that does not even notice its own limit is ended: start, LIMIT_S and end of a run.
+HANGS_S = LIMIT_S + 120
 # How often a person presses a button again whose command got no answer, and clicks "refresh" of a list.
 PRESSES = 5
 
@@ -73,10 +84,20 @@ def content(length):
     return bytes(k * k % 251 for k in range(length))
 
 
+SPANDREL, PX4 = "Spandrel", "PX4"
+
+
+def start(vehicle, folder, files, port, slot):
+    """A fresh vehicle in real time whose FTP serves `files` and which calls `port`."""
+    if vehicle == PX4:
+        return px4.start(folder, files, port, slot)
+    return spandrel.start_sim(folder, port, "--files", str(files), speed=1)
+
+
 class Bench:
     """A vehicle with a folder, a relay and a client behind it, for one run."""
 
-    def __init__(self, folder, link, seed):
+    def __init__(self, folder, vehicle, link, seed, slot):
         self.folder = pathlib.Path(folder)
         files = self.folder / "files"
         day = files / "log" / "2026-11-20"
@@ -85,7 +106,7 @@ class Bench:
         (day / "15_08_00.ulg").write_bytes(content(LOG_BYTES))
         self.port = spandrel.free_udp_port()
         self.relay = relay.Relay(self.port, link, seed)
-        self.process = spandrel.start_sim(folder, self.relay.port, "--files", str(files), speed=1)
+        self.process = start(vehicle, folder, files, self.relay.port, slot)
         self.mavsdk = self.system = self.console = None
 
     def connect_mavsdk(self):
@@ -99,7 +120,10 @@ class Bench:
     def connect_mavproxy(self):
         """MAVProxy has found the vehicle and read its parameters."""
         self.console = test_mavproxy.Console(self.port, self.folder)
-        self.console.wait("parameters to")
+        try:
+            self.console.wait("parameters to")
+        except AssertionError:
+            raise Failed("parameters never came") from None
 
     def close(self):
         """Ends what was started here."""
@@ -186,9 +210,19 @@ TASKS = {
 TABLE = [link.name for link in relay.LINKS]
 
 
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """One try: a task on a link, with the seed of the losses."""
+
+    vehicle: str
+    name: str
+    link: relay.Link
+    seed: int
+
+
 @dataclasses.dataclass
 class Cell:
-    """What came of a task on a link."""
+    """Results of a task on a link."""
 
     runs: int
     seconds: list
@@ -199,10 +233,11 @@ class Cell:
         return f"{len(self.seconds)} of {self.runs}{took}"
 
 
-def run(name, link, seed):
+def run(name, link, seed, vehicle=SPANDREL, slot=0, begun=lambda bench: None):
     """Wall seconds of one task on a link; raises when it fails."""
     with tempfile.TemporaryDirectory() as folder:
-        bench = Bench(folder, link, seed)
+        bench = Bench(folder, vehicle, link, seed, slot)
+        begun(bench)
         try:
             if TASKS[name] is mavproxy_get:
                 bench.connect_mavproxy()
@@ -215,16 +250,73 @@ def run(name, link, seed):
             bench.close()
 
 
-def measure(name, link, seeds):
-    """A cell of the table."""
-    cell = Cell(len(seeds), [], [])
-    for seed in seeds:
+def run_in_process(results, this, slot):
+    """One try in a process of its own, which ends when its client hangs: MAVSDK now and then waits for itself."""
+    benches = []
+
+    def end():
+        results.send("the client hangs")
+        for bench in benches:
+            spandrel.end(bench.process)
+        os._exit(1)
+
+    timer = threading.Timer(HANGS_S, end)
+    timer.start()
+    try:
+        result = run(this.name, this.link, this.seed, this.vehicle, slot, benches.append)
+    except Failed as error:
+        result = str(error)
+    timer.cancel()
+    results.send(result)
+
+
+def attempt(this, slots):
+    """Seconds, or why it failed."""
+    context, slot = multiprocessing.get_context("spawn"), slots.get()
+    try:
+        receiver, sender = context.Pipe(duplex=False)
+        process = context.Process(target=run_in_process, args=(sender, this, slot))
+        process.start()
+        sender.close()
         try:
-            cell.seconds.append(run(name, link, seed))
-        except Failed as error:
-            cell.failures.append(str(error))
-    print(f"{name} | {link.name}: {cell} {sorted(set(cell.failures))}", flush=True)
-    return cell
+            return receiver.recv()
+        except EOFError:
+            raise RuntimeError(f"{this} ended without a result") from None
+        finally:
+            process.join()
+    finally:
+        slots.put(slot)
+
+
+def cell(begun):
+    """A cell of the table, from its runs."""
+    results = [future.result() for future in begun]
+    seconds = [result for result in results if isinstance(result, float)]
+    return Cell(len(results), seconds, [result for result in results if isinstance(result, str)])
+
+
+def measure(vehicles, tasks, links, seeds, at_once):
+    """The lines of the table. Runs of one seed follow each other, so that load of the machine meets all vehicles alike."""
+    slots = queue.Queue()
+    for slot in range(at_once):
+        slots.put(slot)
+    with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
+        begun = {}
+        for name in tasks:
+            for link in links:
+                for seed in seeds:
+                    for vehicle in vehicles:
+                        future = pool.submit(attempt, Run(vehicle, name, link, seed), slots)
+                        begun.setdefault((name, vehicle, link), []).append(future)
+        cells = {}
+        for (name, vehicle, link), futures in begun.items():
+            cells[name, vehicle, link] = found = cell(futures)
+            print(f"{name} | {vehicle} | {link.name}: {found} {sorted(set(found.failures))}", flush=True)
+    return [
+        f"| {name} | {vehicle} | " + " | ".join(str(cells[name, vehicle, link]) for link in links) + " |"
+        for name in tasks
+        for vehicle in vehicles
+    ]
 
 
 def main():
@@ -232,15 +324,22 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=20)
     parser.add_argument("--first", type=int, default=0, help="seed of the first run")
+    parser.add_argument("--at-once", type=int, default=1, help="runs side by side; most of a run is waiting")
+    parser.add_argument("--vehicle", action="append", choices=[SPANDREL, PX4], help="default: Spandrel, and PX4 if SPANDREL_PX4 is set")
     parser.add_argument("--task", action="append", choices=list(TASKS))
     parser.add_argument("--link", action="append", choices=[link.name for link in (*relay.LINKS, relay.LOSS_15)])
     parser.add_argument("--table", type=pathlib.Path)
     args = parser.parse_args()
-    tasks, links = args.task or list(TASKS), [link for link in (*relay.LINKS, relay.LOSS_15) if link.name in (args.link or TABLE)]
-    seeds = range(args.first, args.first + args.runs)
-    lines = ["| task | " + " | ".join(link.name for link in links) + " |", "|---" * (len(links) + 1) + "|"]
-    for name in tasks:
-        lines.append(f"| {name} | " + " | ".join(str(measure(name, link, seeds)) for link in links) + " |")
+    if PX4 in (args.vehicle or []) and not px4.BUILD:
+        parser.error("--vehicle PX4 needs SPANDREL_PX4, the build folder of a PX4 with SIH")
+    if not px4.BUILD:
+        print("SPANDREL_PX4 is not set: no PX4 in this table", file=sys.stderr)
+    vehicles = args.vehicle or ([SPANDREL, PX4] if px4.BUILD else [SPANDREL])
+    links = [link for link in (*relay.LINKS, relay.LOSS_15) if link.name in (args.link or TABLE)]
+    lines = ["| task | vehicle | " + " | ".join(link.name for link in links) + " |", "|---" * (len(links) + 2) + "|"]
+    lines += measure(vehicles, args.task or list(TASKS), links, range(args.first, args.first + args.runs), args.at_once)
+    if PX4 in vehicles:
+        lines += ["", f"PX4 {px4.version()}"]
     print("\n".join(lines))
     if args.table is not None:
         args.table.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -48,3 +48,18 @@ def vehicle(request, tmp_path):
     yield system, (sdk.asked if flavour == "ardupilot" else sdk.ready)(system)
     mavsdk.destroy()
     spandrel.end(process)
+
+
+@pytest.fixture
+def launch(tmp_path):
+    """Starts a vehicle in a flavour and gives the port of its ground station; all end with the test."""
+    started = []
+
+    def start(flavour, *more, speed=spandrel.SPEED):
+        port = spandrel.free_udp_port()
+        started.append(spandrel.start_sim(tmp_path, port, "--flavour", flavour, *more, speed=speed))
+        return port
+
+    yield start
+    for process in started:
+        spandrel.end(process)

@@ -3,6 +3,7 @@
 import pytest
 
 import bad_link
+import px4
 import relay
 
 # Tasks that their clients finish at this loss but for a chance of less than one in a thousand (their own retries, docs/bad-link.md).
@@ -20,3 +21,11 @@ SURE = [
 def test_wire_stock_clients_finish_over_a_bad_link(name, link, measured):
     """MAVSDK and MAVProxy behind a relay that loses datagrams, each way, from a seed."""
     measured(f"{name}, {link.name}: {bad_link.run(name, link, 1):.1f} s")
+
+
+@pytest.mark.skipif(not px4.BUILD, reason="SPANDREL_PX4 names no build folder of PX4")
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("name", ["Mission of 200 items, upload", "All parameters", "FTP, 50 kB, burst", "Log of 50 kB"])
+def test_wire_the_same_clients_finish_with_a_real_px4(name, measured):
+    """The comparison in docs/bad-link.md stands on these: without loss both vehicles let the clients finish."""
+    measured(f"{name}, PX4 {px4.version()}: {bad_link.run(name, relay.CLEAN, 1, bad_link.PX4):.1f} s")

@@ -17,25 +17,10 @@ M = mavutil.mavlink
 GRAVITY, GRAVITY_TOLERANCE = 9.81, 0.3
 
 
-@pytest.fixture
-def vehicle(tmp_path):
-    """Starts a vehicle in a flavour and gives its port."""
-    started = []
-
-    def start(flavour):
-        port = spandrel.free_udp_port()
-        started.append(spandrel.start_sim(tmp_path, port, "--flavour", flavour))
-        return port
-
-    yield start
-    for process in started:
-        spandrel.end(process)
-
-
 @pytest.mark.timeout(300)
-def test_regress_pymavlink_reads_ardupilots_own_messages(vehicle):
+def test_regress_pymavlink_reads_ardupilots_own_messages(launch):
     """pymavlink checks seed and layout of each message by its own definitions."""
-    link = asking.connect(vehicle("ardupilot"))
+    link = asking.connect(launch("ardupilot"))
     link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, 10, 1)
     ekf = asking.hear(link, "EKF_STATUS_REPORT", lambda e: e.flags == 831)
     assert 0.0 <= ekf.pos_horiz_variance < 0.5 and ekf.compass_variance == 0.0
@@ -50,9 +35,9 @@ def test_regress_pymavlink_reads_ardupilots_own_messages(vehicle):
 
 
 @pytest.mark.timeout(300)
-def test_regress_mavsdk_talks_to_px4s_shell(vehicle):
+def test_regress_mavsdk_talks_to_px4s_shell(launch):
     """A line to the shell and its answer."""
-    _mavsdk, system = sdk.connect(vehicle("px4"))
+    _mavsdk, system = sdk.connect(launch("px4"))
     shell, heard = Shell(system), []
     shell.subscribe_receive(lambda received, _: heard.append(received.data))
     shell.send("ver all\n", Device.SHELL)
@@ -62,9 +47,9 @@ def test_regress_mavsdk_talks_to_px4s_shell(vehicle):
 
 
 @pytest.mark.timeout(300)
-def test_regress_mavsdk_is_followed(vehicle):
+def test_regress_mavsdk_is_followed(launch):
     """MAVSDK's follow-me: configured, started, fed with a target, stopped."""
-    _mavsdk, system = sdk.connect(vehicle("px4"))
+    _mavsdk, system = sdk.connect(launch("px4"))
     telemetry, action = sdk.ready(system), Action(system)
     action.arm()
     action.takeoff()

@@ -11,11 +11,14 @@ import signal
 import subprocess
 import threading
 
+import pyulog
 import pytest
 from pymavlink import mavutil
 
+import display
 import sdk
 import spandrel
+import webserver
 from spandrel import wait_for
 
 HERE = pathlib.Path(__file__).parent
@@ -25,6 +28,9 @@ TRIED_MOST = 24
 OPERATIONS_MOST = 10_000
 # Height that counts as flying for the drill's session, m.
 HEIGHT_M = 2.0
+# Commands that take seconds (a whole flight, a scene) are tried at so many operations: the first, the last, and one between.
+SLOW_TRIED = 3
+KINDS = ["enospc", "eio", "short", "kill"]
 
 
 @pytest.fixture(scope="session")
@@ -140,6 +146,234 @@ def test_regress_a_fault_at_any_operation_leaves_whole_files(shim, flown, tmp_pa
         shutil.rmtree(place.root)
     assert hit > 0 or kind == "short" or kind == "enospc", "no fault was met"
     measured(f"{name} with {kind}: {total} file operations, {hit} faults met")
+
+
+def spread(total, most=SLOW_TRIED):
+    """Numbers of operations from the first to the last."""
+    return sorted({1 + round(k * (total - 1) / (most - 1)) for k in range(most)})
+
+
+def ended_well(done, kind, place):
+    """A program that met a fault ends with a message that names the file, and never by a panic."""
+    assert "panicked" not in done.stderr, done.stderr
+    if kind == "kill":
+        assert done.returncode in (-signal.SIGKILL, 0, 1), (done.returncode, done.stderr)
+    else:
+        assert done.returncode in (0, 1, 2), (done.returncode, done.stderr)
+        assert done.returncode == 0 or str(place) in done.stderr, ("the message names the file", done.stderr)
+
+
+# What is drawn of a session, small; {d} is the session, {o} a folder for results.
+DRAWN = {
+    "photographs": ["render", "{d}", "--snapshots", "--masks", "--quality", "low", "--size", "64x48"],
+    "film": ["render", "{d}", "--video", "{o}/film.mp4", "--span", "20,21", "--fps", "2", "--quality", "low", "--size", "64x48"],
+}
+DRAWN_FILES = (".jpg", ".png", ".json", ".mp4", ".vtt", ".html")
+
+
+@pytest.fixture(scope="module")
+def photographed(tmp_path_factory):
+    """A session with photographs, and how this machine draws."""
+    if not display.DRIVERS:
+        pytest.skip("Mesa's software Vulkan is missing: apt-get install mesa-vulkan-drivers")
+    sessions = tmp_path_factory.mktemp("photographed") / "sessions"
+    spandrel.run("demo", "--scenario", "practice", "--seed", "7", "--speed", "max", "--trainee", "anna", "--sessions", str(sessions))
+    (session,) = sessions.iterdir()
+    drawn = subprocess.run([spandrel.COCKPIT, "render", str(session), "--out", "-"], capture_output=True, timeout=120, check=False)
+    if b"built without the view" in drawn.stderr:
+        pytest.skip(f"{spandrel.COCKPIT} was built without the feature `view`")
+    assert drawn.returncode == 0, drawn.stderr
+    return session
+
+
+@pytest.mark.timeout(1200)
+@pytest.mark.parametrize("name", list(DRAWN))
+def test_regress_a_fault_while_drawing_leaves_whole_pictures(shim, photographed, tmp_path, name, measured):
+    """Photographs, films and pictures are the old ones or the new ones, and drawn again they are whole."""
+    def draw(root, env):
+        session, out = root / "sessions" / photographed.name, root / "out"
+        if not session.is_dir():
+            shutil.copytree(photographed, session)
+            out.mkdir()
+        args = [word.format(d=session, o=out) for word in DRAWN[name]]
+        drivers = {"VK_DRIVER_FILES": str(display.DRIVERS[0])}
+        return subprocess.run(
+            [spandrel.COCKPIT, *args], env=env | drivers, capture_output=True, text=True, timeout=spandrel.FLIGHT_LIMIT_S, check=False
+        )
+
+    def files(root):
+        found = [path for path in root.rglob("*") if path.is_file() and path.suffix in DRAWN_FILES]
+        return {str(path.relative_to(root)): path.read_bytes() for path in found}
+
+    log, before = tmp_path / "operations", files(photographed.parents[1])
+    sound = tmp_path / "sound"
+    done = draw(sound, environment(shim, sound, "none", log=log))
+    assert done.returncode == 0, done.stderr
+    expected, total = files(sound), len(operations(log))
+    assert total > 0 and expected != before, "something is drawn"
+    hit = 0
+    for kind in KINDS:
+        for first in spread(total):
+            root = tmp_path / f"{kind}-{first}"
+            log.unlink(missing_ok=True)
+            done = draw(root, environment(shim, root, kind, first, log=log))
+            hit += any(line.endswith(" fault") for line in operations(log))
+            ended_well(done, kind, root)
+            for file, content in files(root).items():
+                assert content in (before.get(file), expected.get(file)), (kind, first, file, "is neither the old file nor the new one")
+    again = draw(root, dict(os.environ))
+    assert again.returncode == 0 and files(root) == expected, (again.stderr, "after a kill it is drawn whole")
+    assert hit > 0, "no fault was met"
+    measured(f"drawing {name}: {total} file operations, {hit} faults met")
+
+
+@pytest.mark.timeout(1200)
+def test_regress_a_demo_ends_with_a_session_or_a_reason(shim, tmp_path, measured):
+    """Simulator, monitor and pilot meet the faults of their own operations: a session is scored, or the message says why not."""
+    def demo(sessions, env):
+        args = ["demo", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--sessions", str(sessions)]
+        return subprocess.run([spandrel.PROGRAM, *args], env=env, capture_output=True, text=True, timeout=spandrel.FLIGHT_LIMIT_S, check=False)
+
+    log, sound = tmp_path / "operations", tmp_path / "sound"
+    done = demo(sound, environment(shim, sound, "none", log=log))
+    assert done.returncode == 0, done.stderr
+    total, hit, scored = len(operations(log)), 0, 0
+    (expected,) = [path.read_text(encoding="utf-8") for path in sound.glob("*/assessment.json")]
+    for kind in KINDS:
+        for first in spread(total):
+            sessions = tmp_path / f"{kind}-{first}"
+            log.unlink(missing_ok=True)
+            done = demo(sessions, environment(shim, sessions, kind, first, log=log))
+            hit += any(line.endswith(" fault") for line in operations(log))
+            ended_well(done, kind, sessions)
+            for file in sessions.glob("*/*.json"):
+                json.loads(file.read_text(encoding="utf-8"))
+            for file in sessions.glob("*/report.html"):
+                assert file.read_text(encoding="utf-8").rstrip().endswith("</html>"), (kind, first)
+            for file in sessions.glob("*/assessment.json"):
+                assert file.read_text(encoding="utf-8") == expected, (kind, first, "the scores are those of a sound disk")
+                scored += 1
+    assert hit > 0 and scored > 0, "no fault was met"
+    measured(f"demo: {total} file operations, {hit} faults met, {scored} sessions scored")
+
+
+@pytest.mark.timeout(1200)
+def test_regress_a_flight_log_that_cannot_be_written_stops_no_flight(shim, tmp_path, measured):
+    """`sim --files` in flight: the pilot lands whatever the disk does, and what was written of the log can be read."""
+    def fly(files, env):
+        files.parent.mkdir()
+        pilot = subprocess.Popen(
+            [spandrel.PROGRAM, "pilot", "--scenario", "drill-hover", "--seed", "3", "--port", "0", "--announce", "--leash"],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+        )
+        address = f"127.0.0.1:{json.loads(pilot.stdout.readline())['port']}"
+        sim = subprocess.Popen(
+            [spandrel.PROGRAM, "sim", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--ports", "ephemeral", "--gcs", address,
+             "--lockstep", address, "--files", str(files), "--leash"],
+            env=env, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+        )
+        lines, told = [], []
+        readers = [
+            threading.Thread(target=lambda: lines.append(pilot.stdout.readline())), threading.Thread(target=lambda: told.append(sim.stderr.read())),
+        ]
+        for reader in readers:
+            reader.start()
+        # A simulator that dies before its first heartbeat leaves a pilot that waits.
+        wait_for("the landing, or the simulator's end", lambda: lines or sim.poll() is not None, limit_s=spandrel.FLIGHT_LIMIT_S)
+        sim.stdin.close()
+        code = sim.wait(timeout=spandrel.FLIGHT_LIMIT_S)
+        pilot.stdin.close()
+        pilot.wait(timeout=spandrel.FLIGHT_LIMIT_S)
+        for reader in readers:
+            reader.join()
+        return json.loads(lines[0] or "{}"), told[0], code
+
+    log, sound = tmp_path / "operations", tmp_path / "sound" / "files"
+    said, told, code = fly(sound, environment(shim, sound.parent, "none", log=log))
+    assert said["reason"] == "landed" and code == 0, told
+    total, hit, read = len(operations(log)), 0, 0
+    for kind in KINDS:
+        for first in spread(total):
+            files = tmp_path / f"{kind}-{first}" / "files"
+            log.unlink(missing_ok=True)
+            said, told, code = fly(files, environment(shim, files.parent, kind, first, log=log))
+            faults = [line for line in operations(log) if line.endswith(" fault")]
+            hit += len(faults)
+            assert "panicked" not in told, told
+            if kind == "kill":
+                assert code == -signal.SIGKILL, (first, told)
+            elif code == 0:
+                assert said["reason"] == "landed", (kind, first, told)
+                # A fault that the log met is reported once, with the file's name.
+                assert told.count("cannot be written") <= 1, told
+                assert kind == "short" or not faults or str(files) in told, (kind, first, faults, told)
+            else:
+                assert str(files) in told, (kind, first, told)
+            for ulog in files.rglob("*.ulg"):
+                if ulog.stat().st_size > 16:
+                    assert pyulog.ULog(str(ulog)).data_list is not None, ulog
+                    read += 1
+    assert hit > 0 and read > 0, "no fault was met"
+    measured(f"sim --files in flight: {total} file operations, {hit} faults met, {read} logs read")
+
+
+@pytest.mark.timeout(1200)
+def test_regress_a_server_on_a_bad_disk_answers_and_takes_in_whole_sessions_only(shim, flown, tmp_path, measured):
+    """A recording uploaded and an answer saved while the disk fails: each is there whole or not at all, and the page says so."""
+    recording = (flown / "telemetry.tlog").read_bytes()
+    fields = {"trainee": "carl", "scenario": "drill-hover", "vehicle": "phantom2"}
+    template = tmp_path / "template" / "sessions"
+    shutil.copytree(flown, template / flown.name)
+    spandrel.run("records", "import", "--sessions", str(template))
+
+    def serve(root, env):
+        sessions = root / "sessions"
+        if not sessions.is_dir():
+            shutil.copytree(template, sessions)
+        try:
+            server = webserver.Server(sessions, env=env)
+        except AssertionError as refused:
+            # It did not start: its reason is the last thing that it said.
+            return [], str(refused)
+        statuses = []
+        try:
+            browser = webserver.Browser(server.address)
+            page = f"/sessions/{flown.name}/questions"
+            statuses.append(browser.post(page, page, {"frustration": "3"}, headers={"Accept": "application/json"})[0])
+            statuses.append(browser.upload("/upload", "/upload", fields, recording[: len(recording) - 300])[0])
+        except (OSError, AssertionError, ValueError):
+            statuses.append(None)
+        server.process.stdin.close()
+        server.process.wait(timeout=webserver.PATIENCE_S)
+        server.log.close()
+        return statuses, pathlib.Path(server.log.name).read_text(encoding="utf-8")
+
+    log, sound = tmp_path / "operations", tmp_path / "sound"
+    statuses, told = serve(sound, environment(shim, sound, "none", log=log))
+    assert statuses == [200, 303], told
+    total, hit = len(operations(log)), 0
+    wanted = {path.name for path in next(p for p in (sound / "sessions").iterdir() if "-carl-" in p.name).iterdir() if path.is_file()}
+    for kind in KINDS:
+        for first in spread(total, 2 * SLOW_TRIED):
+            root = tmp_path / f"{kind}-{first}"
+            log.unlink(missing_ok=True)
+            statuses, told = serve(root, environment(shim, root, kind, first, log=log))
+            hit += any(line.endswith(" fault") for line in operations(log))
+            assert "panicked" not in told and "fault of the program" not in told, (kind, first, told)
+            taken = [path for path in (root / "sessions").iterdir() if "-carl-" in path.name and not path.name.startswith(".")]
+            confirmed = statuses[1:] == [303]
+            assert len(taken) == 1 if confirmed else len(taken) <= 1, (kind, first, statuses, taken)
+            for folder in taken:
+                there = {path.name for path in folder.iterdir() if path.is_file()}
+                assert wanted - there <= {"report.html"}, (kind, first, "a session is whole", wanted - there)
+            answers = root / "sessions" / flown.name / "answers.json"
+            if statuses[:1] == [200]:
+                assert json.loads(answers.read_text(encoding="utf-8"))["answers"]["frustration"] == 3, (kind, first)
+    statuses, told = serve(root, dict(os.environ))
+    # 409: the recording was taken in before the kill, and twice is one session.
+    assert statuses in ([200, 303], [200, 409]), (told, "after a kill it serves as before")
+    assert hit > 0, "no fault was met"
+    measured(f"serve: {total} file operations, {hit} faults met")
 
 
 def listen(port, texts, over):

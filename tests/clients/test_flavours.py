@@ -50,25 +50,10 @@ class Script:
         self.wait("HEARTBEAT", lambda b: b.get_srcComponent() == 1 and not b.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
 
 
-@pytest.fixture
-def vehicle(tmp_path):
-    """Starts a vehicle in a flavour and gives its port."""
-    started = []
-
-    def start(flavour, *more, speed=spandrel.SPEED):
-        port = spandrel.free_udp_port()
-        started.append(spandrel.start_sim(tmp_path, port, "--flavour", flavour, *more, speed=speed))
-        return port
-
-    yield start
-    for process in started:
-        spandrel.end(process)
-
-
 @pytest.mark.timeout(600)
-def test_wire_a_script_for_arducopter_flies(vehicle):
+def test_wire_a_script_for_arducopter_flies(launch):
     """pymavlink's own helpers for ArduPilot: mode by name, arming, take-off over home, a target, parameters cast, return."""
-    script = Script(vehicle("ardupilot"))
+    script = Script(launch("ardupilot"))
     link = script.link
     assert link.mode_mapping()["GUIDED"] == 4
     script.ready()
@@ -97,9 +82,9 @@ def test_wire_a_script_for_arducopter_flies(vehicle):
 
 
 @pytest.mark.timeout(600)
-def test_wire_a_script_for_the_standard_flies(vehicle):
+def test_wire_a_script_for_the_standard_flies(launch):
     """Nothing but common messages and standard modes: what is offered, take-off, position hold, return."""
-    script = Script(vehicle("generic"))
+    script = Script(launch("generic"))
     script.ready()
     standard = {1: "position hold", 5: "safe recovery", 7: "land", 8: "take-off"}
     modes, total = {}, 1
@@ -118,9 +103,9 @@ def test_wire_a_script_for_the_standard_flies(vehicle):
 
 
 @pytest.fixture
-def copter(tmp_path, vehicle):
+def copter(tmp_path, launch):
     """A Copter and MAVProxy beside it, parameters fetched."""
-    console = Console(vehicle("ardupilot", speed=2), tmp_path)
+    console = Console(launch("ardupilot", speed=2), tmp_path)
     console.wait("parameters to")
     yield console, tmp_path
     console.close()
@@ -185,9 +170,9 @@ def test_wire_mavproxy_loads_and_lists_a_copters_plans(copter):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_takes_it_for_an_ardupilot(vehicle):
+def test_wire_mavsdk_takes_it_for_an_ardupilot(launch):
     """Take-off, hold, parameters, a mission with home in front, return: MAVSDK chooses ArduPilot's ways by itself."""
-    port = vehicle("ardupilot")
+    port = launch("ardupilot")
     mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
     mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
     system = mavsdk.first_autopilot(60.0)

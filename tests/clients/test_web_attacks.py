@@ -268,11 +268,16 @@ def test_a_planted_cookie_opens_nothing(server):
 def test_a_flood_of_logins_waits(sessions):
     server = webserver.Server(sessions)
     try:
+        owner = webserver.Browser(server.address)
+        assert owner.log_in("ben") == 303 and owner.device, "a login makes the browser known"
+        assert owner.post("/sessions", "/logout", {})[0] == 303
         browser = webserver.Browser(server.address)
         statuses = [browser.log_in("ben", f"guess number {k}") for k in range(8)]
         assert statuses == [403] * 5 + [429] * 3
         status, headers, _ = browser.ask("/login", {"token": browser.token("/login"), "name": "ben", "password": webserver.PASSWORD})
         assert status == 429 and int(headers["Retry-After"]) > 0, "the right password waits as well"
+        assert owner.log_in("ben") == 303, "a stranger at the same address does not keep the owner's browser out"
+        assert browser.log_in("ben") == 429, "and the owner's login clears nobody else"
         assert browser.log_in("anna") == 303, "others log in all the same"
 
         def one(k):

@@ -19,12 +19,12 @@ PATIENCE_S = 300
 class Server:
     """`spandrel serve` on a free port."""
 
-    def __init__(self, sessions, *more, vehicle="none", program=None):
+    def __init__(self, sessions, *more, vehicle="none", program=None, env=None):
         self.sessions = sessions
         arguments = ["serve", "--sessions", str(sessions), "--listen", "127.0.0.1:0", "--vehicle", vehicle, "--announce", "--leash", *more]
         self.log = open(str(sessions) + ".log", "a", encoding="utf-8")
         self.process = subprocess.Popen(
-            [program or spandrel.PROGRAM, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.log, text=True
+            [program or spandrel.PROGRAM, *arguments], env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.log, text=True
         )
         line = self.process.stdout.readline()
         assert line, open(self.log.name, encoding="utf-8").read()
@@ -66,7 +66,7 @@ class Browser:
 
     def __init__(self, address):
         self.address = address
-        self.cookie = None
+        self.cookie, self.device = None, None
         self.opener = urllib.request.build_opener(NoRedirect)
 
     def ask(self, path, form=None, headers=None, body=None, method=None, keep_cookie=True):
@@ -74,15 +74,18 @@ class Browser:
         data = urllib.parse.urlencode(form).encode() if form is not None else body
         request = urllib.request.Request(self.address + path, data=data, headers=dict(headers or {}), method=method)
         if self.cookie and not request.has_header("Cookie"):
-            request.add_header("Cookie", self.cookie)
+            request.add_header("Cookie", "; ".join(filter(None, (self.cookie, self.device))))
         try:
             answer = self.opener.open(request, timeout=PATIENCE_S)
         except urllib.error.HTTPError as error:
             answer = error
         text = answer.read().decode("utf-8", "replace")
-        fresh = answer.headers.get("Set-Cookie")
-        if fresh and keep_cookie:
-            self.cookie = fresh.split(";")[0]
+        for fresh in answer.headers.get_all("Set-Cookie", []) if keep_cookie else []:
+            pair = fresh.split(";")[0]
+            if pair.split("=")[0].endswith("-device"):
+                self.device = pair
+            else:
+                self.cookie = pair
         return answer.status, answer.headers, text
 
     def token(self, path):

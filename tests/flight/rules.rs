@@ -5,7 +5,7 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 use spandrel_sitl::autopilot::fence::FenceAction;
 use spandrel_sitl::autopilot::operator_rules::{
-    Exceptions, FenceParts, Heading, JOB_BATTERY, MissionNeeds, OffboardLoss, Response, ReturnPlaces,
+    Exceptions, FenceParts, FenceSwitching, Heading, JOB_BATTERY, MissionNeeds, OffboardLoss, Response, ReturnPlaces,
 };
 use spandrel_sitl::autopilot::{Landed, MissionStep, Mode, OffboardSetpoint, Outcome, Request, Sticks, Tuning};
 
@@ -335,7 +335,7 @@ fn flight_a_mission_that_restarts_begins_anew_when_it_is_entered_again() {
 
 #[test]
 fn flight_only_the_parts_of_the_fence_that_are_on_act_and_its_floor_is_kept() {
-    let parts = |height, floor_m| FenceParts { height, distance: true, areas: true, floor_m };
+    let parts = |height, floor_m| FenceParts { height, distance: true, areas: true, floor_m, auto: FenceSwitching::Never };
     let up = |up_m| Request::GoTo { north_east_m: None, up_m: Some(up_m), yaw_rad: None, speed_m_s: None };
     for height in [true, false] {
         let mut bench = airborne(|tuning| {

@@ -267,3 +267,108 @@ fn regress_an_uploader_is_asked_again_after_a_quarter_of_a_second() {
     let heard = asked_or_acknowledged(&mut station);
     assert_eq!(heard.iter().filter(|(_, asked)| asked.is_none()).count(), 1, "{heard:?}");
 }
+
+/// An uploader that works as MAVSDK 4.1 does: a request for an item that it has sent sets it back, one for an item beyond its next is ignored.
+struct Uploader {
+    station: Station,
+    encoder: Encoder,
+    home: f64,
+    next: u16,
+}
+
+impl Uploader {
+    fn begin(items: u16) -> Self {
+        let mut station = Station::new("drill-hover", 7);
+        station.run_ms(2_500);
+        let home = home_north(&station);
+        let mut uploader = Self { station, encoder: Encoder::new(255, 190), home, next: 0 };
+        uploader.station.sim.handle_datagram(GCS, &uploader.encoder.encode(&count(items)));
+        uploader
+    }
+
+    fn send(&mut self, seq: u16) {
+        let waypoint = item(seq, MavCmd::MAV_CMD_NAV_WAYPOINT, self.home + 2.0 * f64::from(seq), 6.0);
+        self.station.sim.handle_datagram(GCS, &self.encoder.encode(&MavMessage::MISSION_ITEM_INT(waypoint)));
+    }
+
+    /// A request has arrived; whether it was answered.
+    fn answer(&mut self, seq: u16) -> bool {
+        if seq > self.next {
+            return false;
+        }
+        self.next = seq + 1;
+        self.send(seq);
+        true
+    }
+
+    /// What the vehicle sends in the next millisecond.
+    fn tick(&mut self) -> Vec<MavMessage> {
+        self.station.sim.handle_timeout(self.station.sim.poll_timeout());
+        let sent: Vec<_> = std::iter::from_fn(|| self.station.sim.poll_transmit()).collect();
+        sent.iter().flat_map(|transmit| Decoder::new().datagram(&transmit.bytes)).filter_map(|frame| frame.message).collect()
+    }
+
+    /// Answers until this item is requested or the upload is acknowledged; the requests.
+    fn answer_until(&mut self, stop: Option<u16>) -> Vec<u16> {
+        let mut requests = Vec::new();
+        for _ in 0..PATIENCE_OF_MAVSDK_MS {
+            for message in self.tick() {
+                match message {
+                    MavMessage::MISSION_REQUEST_INT(request) if Some(request.seq) == stop => return requests,
+                    MavMessage::MISSION_REQUEST_INT(request) => {
+                        requests.push(request.seq);
+                        self.answer(request.seq);
+                    }
+                    MavMessage::MISSION_ACK(ack) => {
+                        assert_eq!(ack.mavtype, MavMissionResult::MAV_MISSION_ACCEPTED, "after {requests:?}");
+                        return requests;
+                    }
+                    _ => {}
+                }
+            }
+        }
+        panic!("neither {stop:?} nor an acknowledgement came: {requests:?}")
+    }
+}
+
+/// Three silent half-seconds and what was answered before them: MAVSDK has given up by then.
+const PATIENCE_OF_MAVSDK_MS: i64 = 1_500;
+
+/// A request that the network delayed sets MAVSDK back. Its repeated item shows the vehicle from where it goes on.
+#[test]
+fn regress_an_upload_goes_on_when_a_delayed_request_has_set_the_client_back() {
+    let mut client = Uploader::begin(30);
+    client.answer_until(Some(20));
+    client.answer(15);
+    let requests = client.answer_until(None);
+    let led: Vec<u16> = (16..30).collect();
+    assert_eq!(requests, led, "the repeated item 15 is followed by 16, and each is requested once");
+}
+
+/// The same, but the repeated item is lost: the vehicle tries earlier items, further and further back.
+#[test]
+fn regress_an_upload_goes_on_when_the_item_of_a_set_back_client_was_lost() {
+    let mut client = Uploader::begin(30);
+    client.answer_until(Some(20));
+    // The link has reordered something before.
+    client.send(18);
+    client.next = 16;
+    let requests = client.answer_until(None);
+    assert_eq!(requests.iter().rev().take(14).rev().copied().collect::<Vec<_>>(), (16..30).collect::<Vec<_>>(), "{requests:?}");
+    assert!(requests.iter().filter(|seq| **seq > 16).count() < 24, "no doubling: {requests:?}");
+}
+
+/// A datagram that arrives twice causes no second request.
+#[test]
+fn regress_a_duplicated_item_is_not_requested_for_again() {
+    let mut client = Uploader::begin(10);
+    client.answer_until(Some(5));
+    client.send(3);
+    client.send(4);
+    client.answer(5);
+    assert_eq!(client.answer_until(None), [6, 7, 8, 9]);
+    // Nor does one that comes after the acknowledgement undo it.
+    client.send(7);
+    let answers: Vec<_> = (0..50).flat_map(|_| client.tick()).filter(|m| matches!(m, MavMessage::MISSION_ACK(_))).collect();
+    assert!(answers.is_empty(), "{answers:?}");
+}

@@ -2,14 +2,13 @@
 #![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use super::copter::{ARM, AUTO, SET_MODE, copter, copter_at, mode, next_beat};
+use super::plans::{item, upload};
 use super::station::{Station, one, p};
 use spandrel_mavlink::dialect::*;
-use spandrel_sitl::autopilot::operator_rules::{
-    Envelope, Exceptions, Heading, MissionNeeds, OffboardLoss, Response, ReturnPlaces,
-};
+use spandrel_sitl::autopilot::operator_rules::{Exceptions, Heading, MissionNeeds, OffboardLoss, Response, ReturnPlaces};
 use spandrel_sitl::autopilot::{LinkLoss, Mode, OperatorRules, Tuning};
 use spandrel_sitl::endpoint::params::face::{COPTER, Face, PX4};
-use spandrel_sitl::endpoint::params::{Pack, Params, Thresholds, Value, metadata};
+use spandrel_sitl::endpoint::params::{Pack, Params, Value, metadata};
 use std::io::Cursor;
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
@@ -22,21 +21,8 @@ const QGROUNDCONTROL_COPTER: &str = include_str!("names/qgroundcontrol-copter.ts
 const SUITE_PX4: &str = include_str!("names/suite-px4.tsv");
 const SUITE_COPTER: &str = include_str!("names/suite-copter.tsv");
 
-/// Limits of an aircraft; any will do.
-const FRAME: Envelope = Envelope {
-    manual_m_s: 15.0,
-    manual_up_m_s: 6.0,
-    manual_down_m_s: 2.0,
-    manual_yaw_rad_s: 2.0,
-    manual_tilt_rad: 0.6,
-    acceleration_m_s2: 4.0,
-    climb_acceleration_m_s2: 3.0,
-    landing_m_s: 2.0,
-};
-
 fn params(face: &'static Face) -> Params {
-    let thresholds = Thresholds { low_pct: 30.0, critical_pct: 10.0 };
-    Params::new(1, Pack { cells: 3, capacity_mah: 5_200.0, thresholds, returns_when_low: false, frame: FRAME }, face)
+    Params::new(1, Pack::SMALL, face)
 }
 
 /// Names of a list with what the autopilot's own description of each has.
@@ -288,29 +274,12 @@ fn wire_a_throttle_pulse_below_fs_thr_value_is_a_lost_transmitter() {
 fn wire_auto_options_allow_arming_in_auto_and_mis_total_counts_the_mission() {
     let mut station = copter();
     assert_eq!(value(&mut station, "MIS_TOTAL"), 0.0);
-    let item = |seq, command, z| MISSION_ITEM_INT_DATA {
-        seq,
-        command,
-        z,
-        target_system: 1,
-        target_component: 1,
-        frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT,
-        autocontinue: 1,
-        ..Default::default()
-    };
     let items = [
-        item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0),
-        item(1, MavCmd::MAV_CMD_NAV_TAKEOFF, 5.0),
-        item(2, MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH, 0.0),
+        item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0),
+        item(1, MavCmd::MAV_CMD_NAV_TAKEOFF, 0.0, 5.0),
+        item(2, MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH, 0.0, 0.0),
     ];
-    let count = MISSION_COUNT_DATA { count: items.len() as u16, target_system: 1, target_component: 1, ..Default::default() };
-    station.send(&MavMessage::MISSION_COUNT(count));
-    station.run_ms(20);
-    for item in items {
-        station.send(&MavMessage::MISSION_ITEM_INT(item));
-        station.run_ms(20);
-    }
-    station.run_ms(20);
+    assert_eq!(upload(&mut station, &items), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(value(&mut station, "MIS_TOTAL"), 3.0);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
     assert_eq!(station.command(1, ARM, one(1.0)), FAILED, "not without the option");

@@ -287,6 +287,8 @@ pub fn assess_log(
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log)?;
     let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
+    // The flight holds all that counts: two copies would double the memory.
+    drop(timeline);
     let survey = attention::gated(build(scenario, seed), &flight);
     let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: survey.as_ref() })?;
     Ok(Graded { assessment, frames, seed })

@@ -1,7 +1,7 @@
 //! A session as xAPI statements (Experience API 1.0.3) for a learning record store. A statement's id is made from what it says, so that
 //! one that is sent twice is stored once, and another flight is another statement.
 
-use super::record::{Record, TaskRecord};
+use super::record::{Outcome, Record, TaskRecord};
 use serde_json::{Value, json};
 use spandrel_model::calendar::utc;
 use spandrel_monitor::score::completion::TaskState;

@@ -207,7 +207,7 @@ impl Desk {
                 std::iter::from_fn(|| source.next(now)).for_each(|event| raw.take(event));
                 Ok(None)
             }
-            Held::Hand(hand) => hand.look(link, now, now).map(|look| look.sticks),
+            Held::Hand(hand) => Ok(hand.look(link, now, now).sticks),
             Held::Asked(source, wizard) => {
                 std::iter::from_fn(|| source.next(now)).for_each(|event| wizard.handle(event, now));
                 wizard.handle_timeout(now);

@@ -5,6 +5,7 @@
 pub mod frame;
 pub mod hand;
 pub mod log_stream;
+mod rows;
 pub mod sample;
 pub mod signal;
 pub mod timeline;

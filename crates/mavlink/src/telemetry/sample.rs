@@ -98,13 +98,20 @@ pub struct Truth {
     pub ned_from_frd: Rotation<Frd, Ned>,
 }
 
-/// What a sample says.
+/// Content of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Said {
     /// Truth; its clock is the one clock.
     Truth(Truth),
-    /// Forward, right, up, clockwise, each in [-1, 1].
-    Sticks([f64; 4]),
+    /// Anything else.
+    Value(SampleValue),
+}
+
+/// Content of a sample other than truth. A timeline keeps hundreds of thousands of these, so a variant's payload is 8 bytes at most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SampleValue {
+    /// Sticks.
+    Sticks(Sticks),
     /// Lamp on.
     Light(bool),
     /// Battery, %.
@@ -138,6 +145,31 @@ pub enum Said {
     OnGround(bool),
     /// A picture with this running number was taken.
     Snapshot(i32),
+}
+
+/// Stick positions in steps of the wire: forward, right, up, clockwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sticks([i16; 4]);
+
+impl Sticks {
+    /// Microseconds from center to full travel.
+    const TRAVEL_US: i16 = 500;
+
+    /// From the pulse widths of RC_CHANNELS 1 to 4, us: roll, pitch, throttle, yaw. Widths beyond full travel count as full.
+    #[must_use]
+    pub fn from_us(channels: [u16; 4]) -> Self {
+        let [right, forward, up, clockwise] = channels.map(|us| {
+            let off_center = i16::try_from(us).unwrap_or(i16::MAX) - 1500;
+            off_center.clamp(-Self::TRAVEL_US, Self::TRAVEL_US)
+        });
+        Self([forward, right, up, clockwise])
+    }
+
+    /// Forward, right, up, clockwise, each in [-1, 1].
+    #[must_use]
+    pub fn axes(self) -> [f64; 4] {
+        self.0.map(|step| f64::from(step) / f64::from(Self::TRAVEL_US))
+    }
 }
 
 /// One message of interest.
@@ -272,70 +304,75 @@ fn boot(ms: u32) -> Option<SimTime> {
 }
 
 fn decode(header: &Header, payload: &[u8], plane: &LocalPlane) -> Option<(Option<SimTime>, Said)> {
+    if header.message_id == HIL_STATE_QUATERNION_DATA::ID {
+        let truth = truth(&body(payload)?, plane)?;
+        return Some((Some(truth.time), Said::Truth(truth)));
+    }
+    let (own_time, value) = decode_value(header, payload)?;
+    Some((own_time, Said::Value(value)))
+}
+
+fn decode_value(header: &Header, payload: &[u8]) -> Option<(Option<SimTime>, SampleValue)> {
     match header.message_id {
-        HIL_STATE_QUATERNION_DATA::ID => {
-            let truth = truth(&body(payload)?, plane)?;
-            Some((Some(truth.time), Said::Truth(truth)))
-        }
         RC_CHANNELS_DATA::ID => {
             let rc: RC_CHANNELS_DATA = body(payload)?;
-            let axis = |us: u16| ((f64::from(us) - 1500.0) / 500.0).clamp(-1.0, 1.0);
-            let sticks = [axis(rc.chan2_raw), axis(rc.chan1_raw), axis(rc.chan3_raw), axis(rc.chan4_raw)];
-            Some((boot(rc.time_boot_ms), Said::Sticks(sticks)))
+            let sticks = Sticks::from_us([rc.chan1_raw, rc.chan2_raw, rc.chan3_raw, rc.chan4_raw]);
+            Some((boot(rc.time_boot_ms), SampleValue::Sticks(sticks)))
         }
         ILLUMINATOR_STATUS_DATA::ID => {
             let lamp: ILLUMINATOR_STATUS_DATA = body(payload)?;
-            Some((boot(lamp.uptime_ms), Said::Light(lamp.enable != 0)))
+            Some((boot(lamp.uptime_ms), SampleValue::Light(lamp.enable != 0)))
         }
         BATTERY_STATUS_DATA::ID => {
             let battery: BATTERY_STATUS_DATA = body(payload)?;
             (battery.battery_remaining >= 0 && battery.id == 0)
-                .then(|| (None, Said::Battery(f64::from(battery.battery_remaining))))
+                .then(|| (None, SampleValue::Battery(f64::from(battery.battery_remaining))))
         }
         HEARTBEAT_DATA::ID => {
             let beat: HEARTBEAT_DATA = body(payload)?;
             let armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
-            (header.sender.1 == 1).then_some((None, Said::Beat { armed, by: Hand::of(beat.autopilot as u8, beat.custom_mode) }))
+            (header.sender.1 == 1)
+                .then_some((None, SampleValue::Beat { armed, by: Hand::of(beat.autopilot as u8, beat.custom_mode) }))
         }
         EXTENDED_SYS_STATE_DATA::ID => {
             let state: EXTENDED_SYS_STATE_DATA = body(payload)?;
             let on_ground = state.landed_state == MavLandedState::MAV_LANDED_STATE_ON_GROUND;
-            Some((None, Said::OnGround(on_ground)))
+            Some((None, SampleValue::OnGround(on_ground)))
         }
         GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::ID => {
             let gimbal: GIMBAL_DEVICE_ATTITUDE_STATUS_DATA = body(payload)?;
             let attitude: Rotation<Frd, Ned> = Rotation::from_wxyz(gimbal.q.map(f64::from))?;
-            Some((boot(gimbal.time_boot_ms), Said::GimbalPitch(attitude.euler().1)))
+            Some((boot(gimbal.time_boot_ms), SampleValue::GimbalPitch(attitude.euler().1)))
         }
         CAMERA_IMAGE_CAPTURED_DATA::ID => {
             let image: CAMERA_IMAGE_CAPTURED_DATA = body(payload)?;
-            (image.capture_result.bits() == 1).then(|| (boot(image.time_boot_ms), Said::Snapshot(image.image_index)))
+            (image.capture_result.bits() == 1).then(|| (boot(image.time_boot_ms), SampleValue::Snapshot(image.image_index)))
         }
         CAMERA_FOV_STATUS_DATA::ID => {
             let camera: CAMERA_FOV_STATUS_DATA = body(payload)?;
             let hfov_rad = f64::from(camera.hfov).to_radians();
-            (hfov_rad > 0.0 && hfov_rad < math::PI).then(|| (boot(camera.time_boot_ms), Said::FieldOfView(hfov_rad)))
+            (hfov_rad > 0.0 && hfov_rad < math::PI).then(|| (boot(camera.time_boot_ms), SampleValue::FieldOfView(hfov_rad)))
         }
         NAMED_VALUE_INT_DATA::ID => named_int(&body(payload)?),
         NAMED_VALUE_FLOAT_DATA::ID => {
             let named: NAMED_VALUE_FLOAT_DATA = body(payload)?;
             let value = f64::from(named.value);
             (named.name.to_str() == Ok("clearance") && value.is_finite())
-                .then(|| (boot(named.time_boot_ms), Said::Clearance(value)))
+                .then(|| (boot(named.time_boot_ms), SampleValue::Clearance(value)))
         }
         _ => None,
     }
 }
 
-fn named_int(named: &NAMED_VALUE_INT_DATA) -> Option<(Option<SimTime>, Said)> {
+fn named_int(named: &NAMED_VALUE_INT_DATA) -> Option<(Option<SimTime>, SampleValue)> {
     let said = match named.name.to_str().ok()? {
-        "contact" => Said::Contact(Contact::from_wire(named.value)),
-        "hits" => Said::Hits(named.value),
-        "respawns" => Said::Respawns(named.value),
-        "traffic" => Said::Traffic(named.value),
+        "contact" => SampleValue::Contact(Contact::from_wire(named.value)),
+        "hits" => SampleValue::Hits(named.value),
+        "respawns" => SampleValue::Respawns(named.value),
+        "traffic" => SampleValue::Traffic(named.value),
         // A 32-bit field carries the seed; as unsigned, so that the upper half survives too.
-        "seed" => Said::Seed(u64::from(named.value as u32)),
-        "scn_crc" => Said::ScenarioCrc(named.value as u32),
+        "seed" => SampleValue::Seed(u64::from(named.value as u32)),
+        "scn_crc" => SampleValue::ScenarioCrc(named.value as u32),
         _ => return None,
     };
     Some((boot(named.time_boot_ms), said))

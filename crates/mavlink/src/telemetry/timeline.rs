@@ -6,7 +6,8 @@
 
 use super::hand::Hand;
 use super::log_stream::Log;
-use super::sample::{self, Contact, Header, Said, Sample, Truth};
+use super::rows::Rows;
+use super::sample::{self, Contact, Header, Said, Sample, SampleValue, Truth};
 use super::signal::Signal;
 use serde::Serialize;
 use spandrel_model::geodesy::LocalPlane;
@@ -95,23 +96,40 @@ impl Sequencer {
 }
 
 /// One sample with what is known of its place.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Entry {
-    sender: (u8, u8),
+    value: SampleValue,
     order: i64,
-    epoch: usize,
     /// Newest truth when it arrived.
-    arrival: Option<SimTime>,
-    own_time: Option<SimTime>,
-    said: Said,
+    arrival: Stamp,
+    own_time: Stamp,
+    epoch: u32,
+    sender: (u8, u8),
+}
+
+/// A time that may be unknown, in 8 bytes instead of the 16 of an `Option`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Stamp(i64);
+
+impl Stamp {
+    /// No clock on the wire reaches this: times begin at zero.
+    const UNKNOWN: i64 = i64::MIN;
+
+    fn of(time: Option<SimTime>) -> Self {
+        Self(time.map_or(Self::UNKNOWN, SimTime::ns))
+    }
+
+    fn get(self) -> Option<SimTime> {
+        (self.0 != Self::UNKNOWN).then_some(SimTime::from_ns(self.0))
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TruthEntry {
-    sender: (u8, u8),
-    order: i64,
-    epoch: usize,
     truth: Truth,
+    order: i64,
+    epoch: u32,
+    sender: (u8, u8),
 }
 
 /// Takes frames as they come.
@@ -119,8 +137,8 @@ struct TruthEntry {
 pub struct Timeline {
     plane: LocalPlane,
     sequencers: Vec<Sequencer>,
-    truths: Vec<TruthEntry>,
-    entries: Vec<Entry>,
+    truths: Rows<TruthEntry>,
+    entries: Rows<Entry>,
     suspects: Vec<TruthEntry>,
     newest: Option<SimTime>,
     /// Last truth times of the epochs before.
@@ -148,8 +166,8 @@ impl Timeline {
         Self {
             plane,
             sequencers: Vec::new(),
-            truths: Vec::new(),
-            entries: Vec::new(),
+            truths: Rows::default(),
+            entries: Rows::default(),
             suspects: Vec::new(),
             newest: None,
             ended: Vec::new(),
@@ -245,36 +263,38 @@ impl Timeline {
     }
 
     fn keep(&mut self, sample: Sample, order: i64) -> Pushed {
-        let Said::Truth(truth) = sample.said else {
-            let own_time = sample.own_time.map(|own| self.newest.map_or(own, |newest| unwrapped(own, newest)));
-            let sample = Sample { own_time, ..sample };
-            self.entries.push(Entry {
-                sender: sample.sender,
-                order,
-                epoch: self.ended.len(),
-                arrival: self.newest,
-                own_time: sample.own_time,
-                said: sample.said,
-            });
-            return Pushed::Kept(sample);
+        let (epoch, sender) = (self.epoch(), sample.sender);
+        let truth = match sample.said {
+            Said::Truth(truth) => truth,
+            Said::Value(value) => {
+                let own_time = sample.own_time.map(|own| self.newest.map_or(own, |newest| unwrapped(own, newest)));
+                let (arrival, stamp) = (Stamp::of(self.newest), Stamp::of(own_time));
+                self.entries.push(Entry { value, order, arrival, own_time: stamp, epoch, sender });
+                return Pushed::Kept(Sample { own_time, ..sample });
+            }
         };
-        let entry = TruthEntry { sender: sample.sender, order, epoch: self.ended.len(), truth };
+        let entry = TruthEntry { truth, order, epoch, sender };
         if self.newest.is_some_and(|newest| truth.time + RESTART_AFTER < newest) {
             self.suspects.push(entry);
             return if self.suspects.len() < RESTART_CONFIRM { Pushed::Kept(sample) } else { self.restart(sample) };
         }
         // Stragglers after all: they belong where their time says.
-        self.truths.append(&mut self.suspects);
+        self.truths.extend(self.suspects.drain(..));
         self.truths.push(entry);
         self.newest = Some(self.newest.map_or(truth.time, |newest| newest.max(truth.time)));
         Pushed::Kept(sample)
+    }
+
+    fn epoch(&self) -> u32 {
+        // Each restart takes several frames: no log is long enough for the count to saturate.
+        u32::try_from(self.ended.len()).unwrap_or(u32::MAX)
     }
 
     fn restart(&mut self, sample: Sample) -> Pushed {
         self.ended.extend(self.newest);
         self.counts.restarts += 1;
         self.newest = self.suspects.iter().map(|entry| entry.truth.time).max();
-        let epoch = self.ended.len();
+        let epoch = self.epoch();
         self.truths.extend(self.suspects.drain(..).map(|entry| TruthEntry { epoch, ..entry }));
         Pushed::Restarted(sample)
     }
@@ -283,35 +303,40 @@ impl Timeline {
     #[must_use]
     pub fn flight(&self, epoch: usize) -> Flight {
         let mut flight = Flight { ended_by_restart: epoch < self.ended.len(), ..Flight::default() };
-        let system = self.system;
-        let mut kept: Vec<TruthEntry> =
-            self.truths.iter().filter(|t| t.epoch == epoch && Some(t.sender.0) == system).copied().collect();
+        let counts = |sender: (u8, u8), of: u32| usize::try_from(of) == Ok(epoch) && Some(sender.0) == self.system;
+        let mut kept: Vec<&TruthEntry> = self.truths.iter().filter(|t| counts(t.sender, t.epoch)).collect();
         kept.sort_by_key(|entry| (entry.truth.time, entry.order));
         kept.dedup_by_key(|entry| entry.truth.time);
-        let mut numbered: Vec<((u8, u8), i64, SimTime)> = kept.iter().map(|t| (t.sender, t.order, t.truth.time)).collect();
-        numbered.sort_unstable();
         flight.truths = kept.iter().map(|entry| entry.truth).collect();
-        for entry in self.entries.iter().filter(|e| e.epoch == epoch && Some(e.sender.0) == system) {
-            flight.take(entry, time_of(entry, &numbered));
+        kept.sort_unstable_by_key(|entry| numbering(entry));
+        for entry in self.entries.iter().filter(|e| counts(e.sender, e.epoch)) {
+            flight.take(entry, time_of(entry, &kept));
         }
         flight.sort();
         flight
     }
 }
 
-fn time_of(entry: &Entry, numbered: &[((u8, u8), i64, SimTime)]) -> SimTime {
+/// Key by which truths are found for other messages of the same sender.
+fn numbering(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
+    (entry.sender, entry.order, entry.truth.time)
+}
+
+/// Returns the time of a sample; `numbered` are the flight's truths by [`numbering`].
+fn time_of(entry: &Entry, numbered: &[&TruthEntry]) -> SimTime {
     let near = |a: SimTime, b: SimTime, within: SimTime| a.saturating_sub(b) <= within && b.saturating_sub(a) <= within;
-    if let Some(own) = entry.own_time {
+    let arrival = entry.arrival.get();
+    if let Some(own) = entry.own_time.get() {
         // A picture that was missed is sent again much later and still says when it was taken.
-        let late = matches!(entry.said, Said::Snapshot(_)) && entry.arrival.is_some_and(|arrival| own <= arrival);
-        if late || entry.arrival.is_none_or(|arrival| near(own, arrival, OWN_CLOCK_WITHIN)) {
+        let late = matches!(entry.value, SampleValue::Snapshot(_)) && arrival.is_some_and(|arrival| own <= arrival);
+        if late || arrival.is_none_or(|arrival| near(own, arrival, OWN_CLOCK_WITHIN)) {
             return own;
         }
     }
-    let arrival = entry.arrival.unwrap_or(SimTime::ZERO);
-    let before = numbered.partition_point(|(sender, order, _)| (*sender, *order) < (entry.sender, entry.order));
+    let arrival = arrival.unwrap_or(SimTime::ZERO);
+    let before = numbered.partition_point(|truth| (truth.sender, truth.order) < (entry.sender, entry.order));
     match before.checked_sub(1).map(|k| numbered[k]) {
-        Some((sender, _, time)) if sender == entry.sender && near(time, arrival, NUMBER_WITHIN) => time,
+        Some(last) if last.sender == entry.sender && near(last.truth.time, arrival, NUMBER_WITHIN) => last.truth.time,
         Some(_) | None => arrival,
     }
 }
@@ -360,28 +385,27 @@ pub struct Flight {
 impl Flight {
     fn take(&mut self, entry: &Entry, time: SimTime) {
         let order = entry.order;
-        match entry.said {
-            Said::Truth(_) => {}
-            Said::Sticks(v) => self.sticks.push(time, order, v),
-            Said::Light(v) => self.light.push(time, order, v),
-            Said::Battery(v) => self.battery.push(time, order, v),
-            Said::Contact(v) => self.contact.push(time, order, v),
-            Said::Hits(v) => self.hits.push(time, order, v),
-            Said::Respawns(v) => self.respawns.push(time, order, v),
-            Said::Traffic(v) => self.traffic.push(time, order, v),
-            Said::Seed(v) => self.seeds.push(time, order, v),
-            Said::ScenarioCrc(v) => self.scenario_crcs.push(time, order, v),
-            Said::Clearance(v) => self.clearance.push(time, order, v),
-            Said::GimbalPitch(v) => self.gimbal.push(time, order, v),
-            Said::FieldOfView(v) => self.field_of_view.push(time, order, v),
-            Said::Beat { armed, by } => {
+        match entry.value {
+            SampleValue::Sticks(v) => self.sticks.push(time, order, v.axes()),
+            SampleValue::Light(v) => self.light.push(time, order, v),
+            SampleValue::Battery(v) => self.battery.push(time, order, v),
+            SampleValue::Contact(v) => self.contact.push(time, order, v),
+            SampleValue::Hits(v) => self.hits.push(time, order, v),
+            SampleValue::Respawns(v) => self.respawns.push(time, order, v),
+            SampleValue::Traffic(v) => self.traffic.push(time, order, v),
+            SampleValue::Seed(v) => self.seeds.push(time, order, v),
+            SampleValue::ScenarioCrc(v) => self.scenario_crcs.push(time, order, v),
+            SampleValue::Clearance(v) => self.clearance.push(time, order, v),
+            SampleValue::GimbalPitch(v) => self.gimbal.push(time, order, v),
+            SampleValue::FieldOfView(v) => self.field_of_view.push(time, order, v),
+            SampleValue::Beat { armed, by } => {
                 self.armed.push(time, order, armed);
                 self.flown_by.push(time, order, by);
             }
-            Said::OnGround(v) => self.on_ground.push(time, order, v),
-            Said::Snapshot(v) => {
+            SampleValue::OnGround(v) => self.on_ground.push(time, order, v),
+            SampleValue::Snapshot(v) => {
                 // A picture sent again keeps its number and its time; the earliest report of it stands. On a formatted card numbers begin again.
-                let picture = (v, entry.own_time);
+                let picture = (v, entry.own_time.get());
                 match self.snapshots.all_mut().iter_mut().find(|known| known.2 == picture) {
                     Some(known) => known.0 = known.0.min(time),
                     None => self.snapshots.push(time, order, picture),

@@ -12,7 +12,7 @@ use spandrel_mavlink::codec::Received;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_mavlink::note;
 use spandrel_mavlink::telemetry::frame::GAP_AFTER;
-use spandrel_mavlink::telemetry::sample::{Said, Sample};
+use spandrel_mavlink::telemetry::sample::{Said, Sample, SampleValue};
 use spandrel_mavlink::telemetry::timeline::Pushed;
 use spandrel_mavlink::telemetry::{Contact, Truth};
 use spandrel_model::frames::{Enu, Vec3};
@@ -65,26 +65,37 @@ impl Monitor {
     fn note(&mut self, sample: Sample, before: Option<SimTime>) {
         match sample.said {
             Said::Truth(truth) if before.is_none_or(|before| truth.time > before) => self.truth(truth, before),
-            Said::Truth(_) | Said::Sticks(_) | Said::Hits(_) | Said::GimbalPitch(_) | Said::FieldOfView(_) | Said::Light(_) => {}
-            Said::Battery(pct) => self.live.battery_pct = Some(pct),
-            Said::Contact(contact) => self.contact(contact),
-            Said::Respawns(count) => self.respawns(count),
-            Said::Traffic(code) => self.traffic(code),
-            Said::Seed(seed) => self.seed_heard(seed),
-            Said::ScenarioCrc(crc) => {
+            Said::Truth(_) => {}
+            Said::Value(value) => self.note_value(value),
+        }
+    }
+
+    fn note_value(&mut self, value: SampleValue) {
+        match value {
+            SampleValue::Sticks(_)
+            | SampleValue::Hits(_)
+            | SampleValue::GimbalPitch(_)
+            | SampleValue::FieldOfView(_)
+            | SampleValue::Light(_) => {}
+            SampleValue::Battery(pct) => self.live.battery_pct = Some(pct),
+            SampleValue::Contact(contact) => self.contact(contact),
+            SampleValue::Respawns(count) => self.respawns(count),
+            SampleValue::Traffic(code) => self.traffic(code),
+            SampleValue::Seed(seed) => self.seed_heard(seed),
+            SampleValue::ScenarioCrc(crc) => {
                 if let Err(error) = assessment::check_scenario(&self.config.scenario, crc) {
                     self.refuse(error);
                 }
             }
-            Said::Clearance(metres) => self.live.clearance_m = Some(metres),
-            Said::Beat { armed, by } => {
+            SampleValue::Clearance(metres) => self.live.clearance_m = Some(metres),
+            SampleValue::Beat { armed, by } => {
                 self.live.armed = Some(armed);
                 if self.live.flown_by.replace(by) != Some(by) {
                     self.event("flown_by", json!({ "by": by }));
                 }
             }
-            Said::OnGround(on_ground) => self.live.on_ground = on_ground,
-            Said::Snapshot(index) => self.event("snapshot", json!({ "image": index })),
+            SampleValue::OnGround(on_ground) => self.live.on_ground = on_ground,
+            SampleValue::Snapshot(index) => self.event("snapshot", json!({ "image": index })),
         }
     }
 

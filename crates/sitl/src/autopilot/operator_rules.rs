@@ -315,7 +315,7 @@ pub struct OperatorRules {
     pub mission_starts_armed: bool,
     /// `FENCE_TYPE`, `FENCE_ALT_MIN`.
     pub fence: FenceParts,
-    /// `CIRCLE_RADIUS`: radius of an orbit that names none, m.
+    /// `CIRCLE_RADIUS`: radius of an orbit that names none, and of a circle entered by its mode alone, m.
     pub orbit_radius_m: f64,
     /// `EKF2_NOAID_TOUT`: without GNSS and optical flow for this long the position counts as lost, s.
     pub no_aid_s: f64,

@@ -120,7 +120,7 @@ impl Autopilot {
             self.enter(Mode::Orbit, now);
             return Outcome::Accepted;
         }
-        let radius = self.tuning.circle_radius_m.abs().clamp(*RADII_M.start(), *RADII_M.end());
+        let radius = self.tuning.rules.orbit_radius_m.abs().clamp(*RADII_M.start(), *RADII_M.end());
         let rest = stopping_point(&self.gains, self.estimate.position_m, self.estimate.velocity_m_s);
         let (s, c) = math::sin_cos(self.estimate.attitude.yaw_rad());
         let rate = self.tuning.circle_rate_rad_s;

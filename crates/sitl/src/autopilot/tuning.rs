@@ -110,9 +110,7 @@ pub struct Tuning {
     pub mission_mode_stays: bool,
     /// The number that people give the mission's first step: 1 where home is 0. (ArduPilot)
     pub first_item: usize,
-    /// `CIRCLE_RADIUS` (ArduPilot): radius of a circle entered by its mode alone, m.
-    pub circle_radius_m: f64,
-    /// `CIRCLE_RATE` (ArduPilot): rate around that circle, rad/s, clockwise positive.
+    /// `CIRCLE_RATE` (ArduPilot): rate around a circle entered by its mode alone, rad/s, clockwise positive.
     pub circle_rate_rad_s: f64,
     /// How a target is followed.
     pub follow: super::follow::FollowRule,
@@ -180,7 +178,6 @@ impl Default for Tuning {
             mission_mode_stays: false,
             first_item: 0,
             // ArduCopter's defaults: 10 m, 20 deg/s.
-            circle_radius_m: 10.0,
             circle_rate_rad_s: 0.349,
             follow: super::follow::FollowRule::default(),
             start_unix_s: 0,

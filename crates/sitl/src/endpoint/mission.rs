@@ -27,6 +27,11 @@ const ASK_AGAIN_S: f64 = 0.25;
 /// after five half-seconds without a request; at 0.25 s only one repetition fits into each.
 const OVERDUE: f64 = 4.0;
 const ASK_AGAIN_SOONEST_S: f64 = 0.12;
+/// Requests without an answer after which earlier items are requested on a link that reorders datagrams, each time further back: an uploader that
+/// a delayed request has set back ignores requests for later items (MAVSDK). Fewer would use up MAVSDK's five attempts where requests are only lost.
+const STEP_BACK_AFTER: u8 = 4;
+/// Number of steps, each twice as far as the last: up to 128 items back, more than pass while a request is delayed.
+const STEPS_BACK: u8 = 8;
 /// Weight of the newest delay in the usual one.
 const DELAY_WEIGHT: f64 = 0.25;
 /// So often the acknowledgement of an upload that has lost something is sent again.
@@ -112,6 +117,12 @@ struct Upload {
     unanswered: u8,
     /// Usual time from a request to its item, s.
     delay_s: Option<f64>,
+    /// Number of the item that was requested last: the first that is missing, or an earlier one that leads a set-back uploader on.
+    requested: u16,
+    /// Number after that of an item which arrived again without a request: perhaps the uploader goes on from there.
+    set_back_to: Option<u16>,
+    /// Such an item has arrived: the link reorders or duplicates datagrams.
+    reorders: bool,
 }
 
 impl Upload {
@@ -130,6 +141,38 @@ impl Upload {
             asked_again: false,
             unanswered: 0,
             delay_s: None,
+            requested: 0,
+            set_back_to: None,
+            reorders: false,
+        }
+    }
+
+    /// Number of the first item that has not arrived.
+    fn missing(&self) -> u16 {
+        self.first + self.items.len() as u16
+    }
+
+    /// An item that the vehicle already has. If it was requested, the next one is due; else `remind` goes on from it once the missing item is
+    /// overdue. A request at every repeated item would double all that follows, and clients that count repetitions give up.
+    fn repeated(&mut self, seq: u16, now: SimTime) -> Option<MavMessage> {
+        if seq == self.requested {
+            (self.requested, self.asked, self.asked_again, self.unanswered) = (seq + 1, now, true, 0);
+            return Some(self.question());
+        }
+        (self.set_back_to, self.reorders) = (Some(seq + 1), true);
+        None
+    }
+
+    /// Number of the item to request when nothing has answered the last request.
+    fn overdue(&mut self) -> u16 {
+        if let Some(seq) = self.set_back_to.take() {
+            return seq;
+        }
+        match self.unanswered.checked_sub(STEP_BACK_AFTER).filter(|_| self.reorders) {
+            // Every other request is for the missing item: a client that never repeats an item waits for that one.
+            Some(turn) if turn.is_multiple_of(2) => self.missing().saturating_sub(1 << (turn / 2 % STEPS_BACK)).max(self.first),
+            Some(_) => self.missing(),
+            None => self.requested,
         }
     }
 
@@ -141,7 +184,7 @@ impl Upload {
 
     /// The item that was waited for has come.
     fn answered(&mut self, now: SimTime) {
-        self.unanswered = 0;
+        (self.unanswered, self.set_back_to) = (0, None);
         if !std::mem::take(&mut self.asked_again) {
             let delay_s = (now - self.asked).s();
             self.delay_s = Some(self.delay_s.map_or(delay_s, |usual_s| usual_s + DELAY_WEIGHT * (delay_s - usual_s)));
@@ -410,7 +453,8 @@ impl Plans {
             return refuse(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE);
         }
         self.done = None;
-        let upload = Upload { part: true, first, count: last - first + 1, ..Upload::begin(from, kind, self.form, now) };
+        let upload =
+            Upload { part: true, first, requested: first, count: last - first + 1, ..Upload::begin(from, kind, self.form, now) };
         Reply::Say(self.upload.insert(upload).question())
     }
 
@@ -424,18 +468,15 @@ impl Plans {
         let lead = self.lead(item.mission_type);
         let judged = self.filled(item, plane);
         let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && u.kind == item.mission_type) else {
-            let result = if self.is_last_again(from, item) {
-                MavMissionResult::MAV_MISSION_ACCEPTED
-            } else {
-                MavMissionResult::MAV_MISSION_ERROR
-            };
-            return Reply::Say(ack(from, item.mission_type, result));
+            return self.without_upload(from, item);
         };
         upload.heard = now;
-        let wanted = upload.first + upload.items.len() as u16;
+        let wanted = upload.missing();
+        if item.seq < wanted && item.seq >= upload.first {
+            return upload.repeated(item.seq, now).map_or(Reply::Nothing, Reply::Say);
+        }
         if item.seq != wanted {
-            // Heard before or out of turn. The one that is missing has been asked for; asking at every echo would double all that follows,
-            // and clients that count repetitions give up. Its time comes in `remind`.
+            // Out of turn: the missing item has been requested, and `remind` requests it again.
             return Reply::Nothing;
         }
         upload.answered(now);
@@ -455,6 +496,7 @@ impl Plans {
         let mut item = item.clone();
         item.current = 0;
         upload.items.push(item);
+        upload.requested = upload.missing();
         if (upload.items.len() as u16) < upload.count {
             return Reply::Say(upload.question());
         }
@@ -484,17 +526,28 @@ impl Plans {
         Reply::New(kind, done)
     }
 
-    /// The last item of a finished upload once more: its sender has not heard the acknowledgement.
-    fn is_last_again(&self, from: Peer, item: &MISSION_ITEM_INT_DATA) -> bool {
+    /// An item outside of an upload: an error, unless it repeats one of the plan that this peer has just finished. Its last item means that the
+    /// acknowledgement was lost; an earlier one was only delayed, and an error would undo the acknowledgement that is under way.
+    fn without_upload(&self, from: Peer, item: &MISSION_ITEM_INT_DATA) -> Reply {
+        let last = self.done.filter(|&(peer, kind, _)| (peer, kind) == (from, item.mission_type)).map(|(_, _, last)| last);
+        match last.filter(|_| self.is_kept(item)) {
+            Some(last) if item.seq < last => Reply::Nothing,
+            Some(last) if item.seq == last => Reply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ACCEPTED)),
+            _ => Reply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ERROR)),
+        }
+    }
+
+    /// Whether an item of the wire is the one that is kept under its number.
+    fn is_kept(&self, item: &MISSION_ITEM_INT_DATA) -> bool {
         let lead = self.lead(item.mission_type);
         let index = item.seq.checked_sub(lead).map(usize::from);
         let kept = slot(item.mission_type).zip(index).and_then(|(slot, index)| self.kept[slot].get(index));
-        // Not-a-number fields differ from themselves: the place and the command tell.
-        let same = |last: &MISSION_ITEM_INT_DATA| {
-            (last.seq + lead, last.command, last.frame, last.x, last.y) == (item.seq, item.command, item.frame, item.x, item.y)
+        // Not-a-number fields differ from themselves: place and command decide.
+        let same = |kept: &MISSION_ITEM_INT_DATA| {
+            (kept.seq + lead, kept.command, kept.frame, kept.x, kept.y) == (item.seq, item.command, item.frame, item.x, item.y)
         };
-        // Home is not kept: whatever is sent for it is the same.
-        self.done == Some((from, item.mission_type, item.seq)) && (item.seq < lead || kept.is_some_and(same))
+        // Home is not kept: any item for it is the same.
+        item.seq < lead || kept.is_some_and(same)
     }
 
     /// An item that the dialect cannot hold (unknown command or frame) ends the upload.
@@ -541,6 +594,7 @@ impl Plans {
             upload.asked = now;
             (upload.loses, upload.asked_again) = (true, true);
             upload.unanswered = upload.unanswered.saturating_add(1);
+            upload.requested = upload.overdue();
             // A client that has sent none yet may know only the other form. On a link that loses datagrams most know the first.
             if upload.items.is_empty() && self.form == Form::Int {
                 upload.form = if upload.unanswered.is_multiple_of(OTHER_FORM_EVERY) { Form::Float } else { Form::Int };
@@ -589,9 +643,9 @@ fn renumbered(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA
 }
 
 impl Upload {
-    /// What asks for the next item.
+    /// Requests an item.
     fn question(&self) -> MavMessage {
-        let seq = self.first + self.items.len() as u16;
+        let seq = self.requested;
         let ((target_system, target_component), mission_type) = (self.from, self.kind);
         match self.form {
             Form::Int => {

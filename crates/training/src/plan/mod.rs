@@ -7,7 +7,7 @@ mod rules;
 pub use changes::{Change, Changes};
 pub use rules::{Measure, RULES, Rule, Rules, read_rules};
 
-use super::record::{Crashes, DefectRecord, Incomplete, Record, TaskRecord};
+use super::record::{Crashes, DefectRecord, Incomplete, Outcome, Record, TaskRecord};
 use serde::Serialize;
 use spandrel_model::numbers::beside_limit;
 use std::cmp::Ordering;

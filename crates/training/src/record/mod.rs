@@ -2,6 +2,9 @@
 //! from the folder alone and can be made again.
 
 mod causes;
+mod outcome;
+
+pub use outcome::Outcome;
 
 use super::questionnaire::{Answers, Scales, scales};
 use serde::{Deserialize, Serialize};
@@ -9,7 +12,7 @@ use spandrel_mavlink::telemetry::Contact;
 use spandrel_model::scenario::{PlacedDefect, Scenario, TaskKind};
 use spandrel_monitor::Graded;
 use spandrel_monitor::folder::sha256_hex;
-use spandrel_monitor::score::completion::{Completion, TaskState, verdict};
+use spandrel_monitor::score::completion::{Completion, TaskState};
 use spandrel_monitor::score::{SCORER_VERSION, Score};
 
 /// Format of a record; it grows when a record says more, so that older ones are made again.
@@ -241,29 +244,12 @@ pub fn left_out_words(count: usize) -> Option<String> {
     }
 }
 
-/// The headline of a session whose record may be older than completion.
-#[must_use]
-pub fn headline(completion: Option<&Completion>) -> String {
-    completion.map_or_else(|| "Completion unknown: import this session again".to_owned(), Completion::headline)
-}
-
-impl Listed {
-    /// The job was done and the drone landed at home.
-    #[must_use]
-    pub fn is_complete(&self) -> bool {
-        self.completion.is_some_and(|completion| completion.complete)
+impl Outcome for Listed {
+    fn completion(&self) -> Option<&Completion> {
+        self.completion.as_ref()
     }
-
-    /// How much of the job was done, in words.
-    #[must_use]
-    pub fn headline(&self) -> String {
-        headline(self.completion.as_ref())
-    }
-
-    /// Certified, or the requirement that failed.
-    #[must_use]
-    pub fn verdict(&self) -> String {
-        verdict(self.certified, &self.unmet)
+    fn certification(&self) -> (bool, &[String]) {
+        (self.certified, &self.unmet)
     }
 }
 
@@ -369,25 +355,16 @@ pub fn record(source: &Source<'_>) -> Record {
     }
 }
 
+impl Outcome for Record {
+    fn completion(&self) -> Option<&Completion> {
+        self.completion.as_ref()
+    }
+    fn certification(&self) -> (bool, &[String]) {
+        (self.certified, &self.unmet)
+    }
+}
+
 impl Record {
-    /// The job was done and the drone landed at home; a record of format 1 does not say so.
-    #[must_use]
-    pub fn is_complete(&self) -> bool {
-        self.completion.is_some_and(|completion| completion.complete)
-    }
-
-    /// How much of the job was done, in words.
-    #[must_use]
-    pub fn headline(&self) -> String {
-        headline(self.completion.as_ref())
-    }
-
-    /// Certified, or the requirement that failed.
-    #[must_use]
-    pub fn verdict(&self) -> String {
-        verdict(self.certified, &self.unmet)
-    }
-
     /// Numbers of the tasks.
     #[must_use]
     pub fn task_ids(&self) -> Vec<u32> {

@@ -3,7 +3,9 @@
 use super::Scene;
 use super::track::Step;
 use spandrel_mavlink::telemetry::log_stream::Log;
+use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::feedback::cue;
 use spandrel_monitor::watch::build_site;
 use spandrel_monitor::{Monitor, MonitorConfig, Record};
@@ -62,16 +64,14 @@ pub struct Said {
     pub notes: Vec<(f64, String)>,
 }
 
-/// Plays a log to the monitor and collects its feedback.
-///
-/// # Errors
-/// When the log cannot be read.
-pub fn said(log: &(impl Log + ?Sized), scene: &Scene<'_>, track: &[Step]) -> std::io::Result<Said> {
-    let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return Ok(Said::default()) };
+/// Collects the feedback among the sidecar's events.
+#[must_use]
+pub fn said(events: Vec<Event>, scene: &Scene<'_>, track: &[Step]) -> Said {
+    let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return Said::default() };
     let end_s = (last.time - first.time).s();
     let mut said = Said::default();
     let mut open: [Option<f64>; KINDS.len()] = [None; KINDS.len()];
-    for (time_s, event) in events(log, scene)? {
+    for (time_s, event) in events {
         let t_s = time_s - first.time.s();
         if let Some(note) = event["text"].as_str().filter(|_| event["event"] == "note") {
             said.notes.push((t_s, note.to_owned()));
@@ -100,14 +100,20 @@ pub fn said(log: &(impl Log + ?Sized), scene: &Scene<'_>, track: &[Step]) -> std
         said.episodes.extend(since.map(|from_s| episode(kind, (from_s, end_s), scene, track)));
     }
     said.episodes.sort_by(|a, b| a.from_s.total_cmp(&b.from_s).then(a.kind.cmp(&b.kind)));
-    Ok(said)
+    said
 }
 
-/// The sidecar's events with their simulation times, s.
-fn events(log: &(impl Log + ?Sized), scene: &Scene<'_>) -> std::io::Result<Vec<(f64, serde_json::Value)>> {
+/// Simulation time, s, and a line of `events.jsonl`.
+pub type Event = (f64, serde_json::Value);
+
+/// Plays a log to the monitor and returns its events.
+///
+/// # Errors
+/// When the log cannot be read.
+pub fn events(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> std::io::Result<Vec<Event>> {
     let mut monitor = Monitor::new(MonitorConfig {
-        scenario: scene.scenario.clone(),
-        vehicle: scene.vehicle.clone(),
+        scenario: scenario.clone(),
+        vehicle: vehicle.clone(),
         trainee: String::new(),
         purpose: None,
         started_unix_us: 0,

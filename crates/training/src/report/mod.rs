@@ -108,9 +108,13 @@ impl Review {
     /// # Errors
     /// When the log cannot be read, is of another scenario or seed, or holds no session.
     pub fn of(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle, about: About) -> Result<Self, AssessError> {
+        // Before the flight is in memory: the sidecar that hears the log holds a second one until it has ended.
+        let events = cues::events(log, scenario, vehicle)?;
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log)?;
         let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
+        let link = timeline.counts();
+        drop(timeline);
         let site = Site::build(scenario, seed).with_gates(attention::gates(&flight));
         let (assessment, frames) = assess(&flight, &Job { scenario, vehicle, survey: &site })?;
         let paths = Paths::new(scenario);
@@ -120,7 +124,7 @@ impl Review {
         let pictures = pictures::judged(&scene, &assessment, &track);
         let coverage = coverage::covered(&scene, &pictures);
         let (crashes, tasks) = (crash::crashes(&frames, &on_path), track::tasks(&scene, &on_path, &track));
-        let (feedback, defects) = (cues::said(log, &scene, &track)?, defects::fates(&scene, &assessment));
+        let (feedback, defects) = (cues::said(events, &scene, &track), defects::fates(&scene, &assessment));
         let graded = Graded { assessment, frames, seed };
         let next = next(&about, scenario, vehicle, &graded, (&site, &defects));
         let Graded { assessment, frames, .. } = graded;
@@ -131,7 +135,7 @@ impl Review {
             defects,
             coverage,
             next,
-            link: timeline.counts(),
+            link,
             about,
             scenario: scenario.clone(),
             vehicle: vehicle.clone(),

@@ -4,6 +4,7 @@
 
 pub mod access;
 pub mod assets;
+pub mod devices;
 pub mod form;
 pub mod frame;
 pub mod group;

@@ -5,7 +5,7 @@ use super::frame::{page, section, table, token};
 use super::sessions::lines;
 use crate::cohort::by_job;
 use crate::plan::{Change, Plan};
-use crate::record::{Incomplete, Listed, Record, left_out_words};
+use crate::record::{Incomplete, Listed, Outcome, Record, left_out_words};
 use crate::report::page::progress::on_job;
 use crate::report::words;
 use crate::trainee::{AGE_BANDS, EXPERIENCE, Trainee};

@@ -3,7 +3,7 @@
 use super::access::{Needs, Visitor};
 use super::frame::{page, pages, section, table};
 use crate::questionnaire::Item;
-use crate::record::{Listed, Record, TaskRecord};
+use crate::record::{Listed, Outcome, Record, TaskRecord};
 use crate::report::plots::bars::{Row, shares};
 use crate::report::plots::radar::{Spoke, radar};
 use crate::report::words;

@@ -1,7 +1,9 @@
 //! Failed logins: after a few for one name from one address, or many from one address, each further try waits longer, up to a minute. A longer
 //! lock would let anyone behind the same address keep the owner of a name out; a minute leaves a guesser some 60 tries an hour against
-//! passwords that `login::check` accepts.
+//! passwords that `login::check` accepts. A browser that the owner of a name has logged in with before counts apart ([`super::devices`]):
+//! failures of others at its address do not delay it.
 
+use super::devices::Device;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
@@ -15,18 +17,35 @@ const LONGEST_WAIT_US: u64 = 60_000_000;
 const OF_NAME: usize = 5;
 /// Failures in that time from one address, whatever the names.
 const OF_ADDRESS: usize = 20;
-/// Addresses that are remembered; beyond it those that failed longest ago are forgotten.
+/// Addresses and known browsers that are remembered; beyond it those that failed longest ago are forgotten.
 const ADDRESSES: usize = 10_000;
 
-/// Failed logins by address: when, and for which name.
+/// Where a login comes from, as far as failures are counted together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Origin {
+    /// Anyone at an address or, with IPv6, in a network.
+    Network(IpAddr),
+    /// A browser known for the name.
+    Known(Device),
+}
+
+impl Origin {
+    /// The browser if it is known, otherwise the network of the address.
+    #[must_use]
+    pub fn of(from: IpAddr, known: Option<Device>) -> Self {
+        known.map_or_else(|| Self::Network(network(from)), Self::Known)
+    }
+}
+
+/// Failed logins by origin: when, and for which name.
 #[derive(Debug, Default)]
-pub struct Throttle(BTreeMap<IpAddr, Vec<(u64, String)>>);
+pub struct Throttle(BTreeMap<Origin, Vec<(u64, String)>>);
 
 impl Throttle {
     /// How long a login has to wait, µs; `None` when it may be tried.
     #[must_use]
-    pub fn wait_us(&self, from: IpAddr, name: &str, now_us: u64) -> Option<u64> {
-        let failures = self.0.get(&network(from))?;
+    pub fn wait_us(&self, from: Origin, name: &str, now_us: u64) -> Option<u64> {
+        let failures = self.0.get(&from)?;
         let recent: Vec<&(u64, String)> = failures.iter().filter(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US).collect();
         let left = |times: Vec<u64>, most: usize| {
             let waits_until = times.last()?.saturating_add(wait_after(times.len().checked_sub(most)?));
@@ -37,18 +56,18 @@ impl Throttle {
     }
 
     /// Notes a failure.
-    pub fn failed(&mut self, from: IpAddr, name: &str, now_us: u64) {
+    pub fn failed(&mut self, from: Origin, name: &str, now_us: u64) {
         if self.0.len() >= ADDRESSES {
             self.forget(now_us);
         }
-        let failures = self.0.entry(network(from)).or_default();
+        let failures = self.0.entry(from).or_default();
         failures.retain(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US);
         failures.push((now_us, kept(name)));
     }
 
     /// A login that went well clears its name.
-    pub fn went_well(&mut self, from: IpAddr, name: &str) {
-        if let Some(failures) = self.0.get_mut(&network(from)) {
+    pub fn went_well(&mut self, from: Origin, name: &str) {
+        if let Some(failures) = self.0.get_mut(&from) {
             let name = kept(name);
             failures.retain(|(_, who)| *who != name);
         }
@@ -91,8 +110,8 @@ fn network(from: IpAddr) -> IpAddr {
 mod tests {
     use super::*;
 
-    fn here() -> IpAddr {
-        [127, 0, 0, 1].into()
+    fn here() -> Origin {
+        Origin::of([127, 0, 0, 1].into(), None)
     }
 
     #[test]
@@ -104,7 +123,7 @@ mod tests {
         }
         assert_eq!(throttle.wait_us(here(), "anna", 4), Some(FIRST_WAIT_US));
         assert_eq!(throttle.wait_us(here(), "ben", 10), None, "another name");
-        assert_eq!(throttle.wait_us([10, 0, 0, 1].into(), "anna", 10), None, "the same name from elsewhere");
+        assert_eq!(throttle.wait_us(Origin::of([10, 0, 0, 1].into(), None), "anna", 10), None, "the same name from elsewhere");
         assert_eq!(throttle.wait_us(here(), "anna", 4 + FIRST_WAIT_US), None);
         let mut now_us = 4;
         let waits: Vec<u64> = (0..6)
@@ -130,6 +149,17 @@ mod tests {
     }
 
     #[test]
+    fn regress_a_known_browser_is_not_delayed_by_its_address_and_is_limited_itself() {
+        let mut throttle = Throttle::default();
+        let known = Origin::of([127, 0, 0, 1].into(), Some([7; 32]));
+        (0..30).for_each(|_| throttle.failed(here(), "anna", 0));
+        assert_eq!(throttle.wait_us(here(), "anna", 1), Some(LONGEST_WAIT_US - 1), "a stranger at the address");
+        assert_eq!(throttle.wait_us(known, "anna", 1), None, "the owner's browser");
+        (0..OF_NAME).for_each(|_| throttle.failed(known, "anna", 1));
+        assert_eq!(throttle.wait_us(known, "anna", 1), Some(FIRST_WAIT_US), "guessing with a stolen cookie");
+    }
+
+    #[test]
     fn exact_many_names_from_one_address_wait_together() {
         let mut throttle = Throttle::default();
         for k in 0..20 {
@@ -150,7 +180,7 @@ mod tests {
     fn prop_many_addresses_fill_no_memory() {
         let mut throttle = Throttle::default();
         for k in 0..30_000u32 {
-            throttle.failed(IpAddr::from(k.to_be_bytes()), "x", u64::from(k));
+            throttle.failed(Origin::of(k.to_be_bytes().into(), None), "x", u64::from(k));
         }
         assert!(throttle.0.len() <= ADDRESSES);
     }

@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 use spandrel_mavlink::codec::Received;
 use spandrel_mavlink::dialect::{MavAutopilot, MavMessage, MavSeverity};
-use spandrel_mavlink::telemetry::sample::{Said, Sample};
+use spandrel_mavlink::telemetry::sample::{Said, Sample, SampleValue};
 use spandrel_mavlink::telemetry::{Contact, Truth, sample};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::scenario::Scenario;
@@ -151,14 +151,20 @@ impl Watch {
     fn note(&mut self, sample: Sample) {
         match sample.said {
             Said::Truth(truth) => self.truth(truth),
-            Said::Battery(pct) => self.battery_pct = Some(pct),
-            Said::Contact(contact) => self.contact = contact,
-            Said::Clearance(metres) => self.clearance_m = Some(metres),
-            Said::Beat { armed, .. } => self.armed = armed,
-            Said::Traffic(code) => self.gates.hear(code),
-            Said::Seed(seed) => self.seed = Some(seed),
-            Said::ScenarioCrc(crc) => self.crc = Some(crc),
-            Said::Snapshot(index) => self.say("info", format!("picture {index}")),
+            Said::Value(value) => self.note_value(value),
+        }
+    }
+
+    fn note_value(&mut self, value: SampleValue) {
+        match value {
+            SampleValue::Battery(pct) => self.battery_pct = Some(pct),
+            SampleValue::Contact(contact) => self.contact = contact,
+            SampleValue::Clearance(metres) => self.clearance_m = Some(metres),
+            SampleValue::Beat { armed, .. } => self.armed = armed,
+            SampleValue::Traffic(code) => self.gates.hear(code),
+            SampleValue::Seed(seed) => self.seed = Some(seed),
+            SampleValue::ScenarioCrc(crc) => self.crc = Some(crc),
+            SampleValue::Snapshot(index) => self.say("info", format!("picture {index}")),
             _ => {}
         }
     }

@@ -18,7 +18,7 @@ use estimate::Estimate;
 use spandrel_mavlink::codec::{Decoder, Encoder, Received};
 use spandrel_mavlink::dialect::{MavCmd, MavMessage};
 use spandrel_mavlink::station;
-use spandrel_mavlink::telemetry::sample::{self, Said, Sample};
+use spandrel_mavlink::telemetry::sample::{self, Said, Sample, SampleValue};
 use spandrel_mavlink::telemetry::{RESTART_AFTER, RESTART_CONFIRM, Truth};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
@@ -214,9 +214,6 @@ impl Live {
     }
 
     fn sample(&mut self, sample: &Sample, wall: SimTime) {
-        let now = self.state.trace.newest().unwrap_or_default();
-        let state = &mut self.state;
-        let time = sample.own_time.filter(|own| *own <= now + RESTART_AFTER).unwrap_or(now);
         match sample.said {
             Said::Truth(truth) => {
                 if !self.spoken {
@@ -226,20 +223,34 @@ impl Live {
                 }
                 self.truth(truth, wall);
             }
-            Said::GimbalPitch(pitch_rad) => state.trace.push_gimbal(time, pitch_rad),
-            Said::Light(on) => state.lamp = on,
-            Said::Battery(pct) => state.battery_pct = Some(pct),
-            Said::FieldOfView(rad) => state.trace.push_lens(time, rad),
-            Said::Beat { armed, .. } => state.armed = armed,
-            Said::Snapshot(number) => {
-                if state.pictures.insert((number, sample.own_time)) {
-                    state.taken = Some(sample.own_time.unwrap_or(now));
+            Said::Value(value) => self.value(value, sample.own_time),
+        }
+    }
+
+    fn value(&mut self, value: SampleValue, own_time: Option<SimTime>) {
+        let now = self.state.trace.newest().unwrap_or_default();
+        let state = &mut self.state;
+        let time = own_time.filter(|own| *own <= now + RESTART_AFTER).unwrap_or(now);
+        match value {
+            SampleValue::GimbalPitch(pitch_rad) => state.trace.push_gimbal(time, pitch_rad),
+            SampleValue::Light(on) => state.lamp = on,
+            SampleValue::Battery(pct) => state.battery_pct = Some(pct),
+            SampleValue::FieldOfView(rad) => state.trace.push_lens(time, rad),
+            SampleValue::Beat { armed, .. } => state.armed = armed,
+            SampleValue::Snapshot(number) => {
+                if state.pictures.insert((number, own_time)) {
+                    state.taken = Some(own_time.unwrap_or(now));
                 }
             }
-            Said::Traffic(code) => state.gates.hear(code),
-            Said::Seed(seed) => self.hear_seed(seed),
-            Said::ScenarioCrc(crc) => self.scenario_crc = Some(crc),
-            Said::Sticks(_) | Said::Contact(_) | Said::Hits(_) | Said::Respawns(_) | Said::Clearance(_) | Said::OnGround(_) => {}
+            SampleValue::Traffic(code) => state.gates.hear(code),
+            SampleValue::Seed(seed) => self.hear_seed(seed),
+            SampleValue::ScenarioCrc(crc) => self.scenario_crc = Some(crc),
+            SampleValue::Sticks(_)
+            | SampleValue::Contact(_)
+            | SampleValue::Hits(_)
+            | SampleValue::Respawns(_)
+            | SampleValue::Clearance(_)
+            | SampleValue::OnGround(_) => {}
         }
     }
 

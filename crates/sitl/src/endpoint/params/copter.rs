@@ -200,22 +200,17 @@ const SWITCHED: &[(i32, &str)] = &[
     (27, "Auto RTL"),
 ];
 
-/// Channels that can switch modes: those that are no stick.
-const SWITCH_CHANNELS: &[(i32, &str)] = &[
-    (0, "Disabled"),
-    (5, "Channel 5"),
-    (6, "Channel 6"),
-    (7, "Channel 7"),
-    (8, "Channel 8"),
-    (9, "Channel 9"),
-    (10, "Channel 10"),
-    (11, "Channel 11"),
-    (12, "Channel 12"),
-    (13, "Channel 13"),
-    (14, "Channel 14"),
-    (15, "Channel 15"),
-    (16, "Channel 16"),
-];
+/// Channels that can switch modes: those after the four of the sticks.
+const SWITCH_CHANNELS: [(i32, &str); 13] = {
+    const STICKS: usize = 4;
+    let mut out = [(0, "Disabled"); 13];
+    let mut k = 1;
+    while k < out.len() {
+        out[k] = table::CHANNELS[STICKS + k];
+        k += 1;
+    }
+    out
+};
 
 /// The mode switch of RC_CHANNELS_OVERRIDE.
 fn mode_switch() -> Vec<Row> {
@@ -224,7 +219,7 @@ fn mode_switch() -> Vec<Row> {
         row
     };
     let position = |name| small(row(name, Int(5), (0.0, 27.0), "", "FLTMODE", "Mode of this switch position").values(SWITCHED));
-    let channel = row("FLTMODE_CH", Int(5), (0.0, 16.0), "", "FLTMODE", "Channel that switches modes").values(SWITCH_CHANNELS);
+    let channel = row("FLTMODE_CH", Int(5), (0.0, 16.0), "", "FLTMODE", "Channel that switches modes").values(&SWITCH_CHANNELS);
     let mut out = vec![small(channel)];
     out.extend(["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"].map(position));
     out

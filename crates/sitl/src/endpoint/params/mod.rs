@@ -104,6 +104,26 @@ pub struct Pack {
     pub frame: Envelope,
 }
 
+impl Pack {
+    /// A small aircraft, for tests of parameters that do not depend on the aircraft.
+    pub const SMALL: Self = Self {
+        cells: 3,
+        capacity_mah: 5_200.0,
+        thresholds: Thresholds { low_pct: 30.0, critical_pct: 10.0 },
+        returns_when_low: false,
+        frame: Envelope {
+            manual_m_s: 15.0,
+            manual_up_m_s: 6.0,
+            manual_down_m_s: 2.0,
+            manual_yaw_rad_s: 2.0,
+            manual_tilt_rad: 0.6,
+            acceleration_m_s2: 4.0,
+            climb_acceleration_m_s2: 3.0,
+            landing_m_s: 2.0,
+        },
+    };
+}
+
 /// A parameter as it goes out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Told {
@@ -455,9 +475,6 @@ impl Params {
         tuning.fence_height_m = self.number("GF_MAX_VER_DIST");
         tuning.manual_loss = LinkLoss::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLoss::Hold);
         tuning.follow = following::rule(self);
-        if let Some(radius_cm) = self.real("CIRCLE_RADIUS") {
-            tuning.circle_radius_m = 0.01 * radius_cm;
-        }
         if let Some(rate_deg_s) = self.real("CIRCLE_RATE") {
             tuning.circle_rate_rad_s = rate_deg_s.to_radians();
         }

@@ -134,7 +134,7 @@ const SYSTEM: &str = "System";
 const LOSS: &[(i32, &str)] =
     &[(0, "Disabled"), (1, "Hold mode"), (2, "Return mode"), (3, "Land mode"), (5, "Terminate"), (6, "Disarm")];
 /// The channel of a stick or switch. No radio is connected: all read as unassigned.
-const CHANNELS: &[(i32, &str)] = &[
+pub(super) const CHANNELS: &[(i32, &str)] = &[
     (0, "Unassigned"),
     (1, "Channel 1"),
     (2, "Channel 2"),

@@ -1,26 +1,12 @@
 //! Names, types, ranges, both encodings, the checksum.
 
 use super::*;
-use crate::autopilot::operator_rules::Envelope;
 
 const REAL: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
 const INT: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
 
-/// The limits of an aircraft; any will do.
-const FRAME: Envelope = Envelope {
-    manual_m_s: 15.0,
-    manual_up_m_s: 6.0,
-    manual_down_m_s: 2.0,
-    manual_yaw_rad_s: 2.0,
-    manual_tilt_rad: 0.6,
-    acceleration_m_s2: 4.0,
-    climb_acceleration_m_s2: 3.0,
-    landing_m_s: 2.0,
-};
-
 pub fn of(face: &'static Face) -> Params {
-    let thresholds = Thresholds { low_pct: 30.0, critical_pct: 10.0 };
-    Params::new(1, Pack { cells: 3, capacity_mah: 5_200.0, thresholds, returns_when_low: false, frame: FRAME }, face)
+    Params::new(1, Pack::SMALL, face)
 }
 
 #[test]

@@ -1,0 +1,90 @@
+"""How much memory it takes to score a session of ordinary length and to write its report."""
+
+import math
+import os
+import struct
+import subprocess
+
+import pytest
+from pymavlink.dialects.v20 import common as mavlink
+
+import spandrel
+
+# Length of the flight, s: the paper's job takes 15 to 20 minutes.
+FLIGHT_S = 1200
+# 2026-08-01 00:00 UTC, us: when the recording begins.
+STARTED_US = 1_785_542_400_000_000
+# Rates of the telemetry of a session, Hz: truth and sticks, clearance, contacts, everything else.
+TRUTH_HZ, CLEARANCE_HZ, CONTACT_HZ, SLOW_HZ = 50, 25, 10, 1
+# Most memory, MB, between what the debug build takes (44 and 62) and what it took when samples were kept as wide as they are read and the report
+# held a flight twice (66 and 100). The monitor writes the report in its own process, which is to stay below 100 MB.
+ASSESS_MB = 55
+REPORT_MB = 80
+# Degrees of latitude for a meter (40,000 km round).
+DEGREES_A_METER = 360.0 / 40_000_000.0
+
+
+class Recorder:
+    """Takes what pymavlink sends as records of a telemetry log."""
+
+    def __init__(self, path):
+        self.file = open(path, "wb")
+        self.now_us = STARTED_US
+
+    def write(self, frame):
+        """One frame with its time."""
+        self.file.write(struct.pack(">Q", self.now_us) + bytes(frame))
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    """A session as a hover drill leaves it, with the telemetry of a flight of ordinary length: circles over the shipped job."""
+    sessions = tmp_path_factory.mktemp("memory") / "sessions"
+    spandrel.run("demo", "--scenario", "drill-hover", "--seed", "7", "--speed", "max", "--sessions", str(sessions))
+    (session,) = sessions.iterdir()
+    scenario = (spandrel.ROOT / "scenarios" / "two-bridges.toml").read_text(encoding="utf-8")
+    (session / "scenario.toml").write_text(scenario, encoding="utf-8")
+    job = {key: float(line.split("=")[1].split("#")[0]) for line in scenario.splitlines() for key in ["latitude_deg", "longitude_deg", "altitude_m"]
+           if line.strip().startswith(key)}
+    record = Recorder(session / "telemetry.tlog")
+    mav = mavlink.MAVLink(record, srcSystem=1, srcComponent=1)
+    for k in range(FLIGHT_S * TRUTH_HZ):
+        t_s = k / TRUTH_HZ
+        record.now_us = STARTED_US + int(t_s * 1e6)
+        boot_ms = int(t_s * 1000)
+        up_m = min(t_s, 60.0)
+        north_m, east_m = 20.0 * math.sin(t_s / 10.0), 20.0 * math.cos(t_s / 10.0)
+        if k % (TRUTH_HZ // SLOW_HZ) == 0:
+            mav.heartbeat_send(2, 12, 0x80, 3 << 16, 4)
+            mav.named_value_int_send(boot_ms, b"seed", 7)
+            mav.battery_status_send(0, 0, 3, 0, [0] * 10, -1, -1, -1, 80)
+        mav.hil_state_quaternion_send(
+            int(t_s * 1e6), [1.0, 0.0, 0.0, 0.0], 0.0, 0.0, 0.0, int((job["latitude_deg"] + north_m * DEGREES_A_METER) * 1e7),
+            int((job["longitude_deg"] + east_m * DEGREES_A_METER / math.cos(math.radians(job["latitude_deg"]))) * 1e7),
+            int((job["altitude_m"] + up_m) * 1000), 0, 0, 0, 0, 0, 0, 0, 0,
+        )
+        mav.rc_channels_send(boot_ms, 4, *[1500 + k % 100] * 4, *[65535] * 14, 255)
+        if k % (TRUTH_HZ // CLEARANCE_HZ) == 0:
+            mav.named_value_float_send(boot_ms, b"clearance", 5.0)
+        if k % (TRUTH_HZ // CONTACT_HZ) == 0:
+            mav.named_value_int_send(boot_ms, b"contact", 0)
+            mav.named_value_int_send(boot_ms, b"hits", 0)
+    record.file.close()
+    return session
+
+
+def peak_mb(*args):
+    """Runs the program to its end; the most memory that it held, MB."""
+    process = subprocess.Popen([spandrel.PROGRAM, *args], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 0, args
+    return usage.ru_maxrss / 1000
+
+
+@pytest.mark.timeout(600)
+def test_regress_scoring_a_session_takes_little_memory(session, tmp_path, measured):
+    """Each sample of the telemetry is kept once, as small as the wire has it."""
+    assess, report = peak_mb("assess", str(session), "--json", str(tmp_path / "scores.json")), peak_mb("report", str(session))
+    measured(f"{FLIGHT_S / 60:.0f} minutes, {(session / 'telemetry.tlog').stat().st_size / 1e6:.0f} MB: assess {assess:.0f} MB, report {report:.0f} MB")
+    assert assess < ASSESS_MB and report < REPORT_MB
