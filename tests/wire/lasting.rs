@@ -33,8 +33,8 @@ fn speed(station: &Station) -> f32 {
 
 fn fence_is_there(station: &mut Station) -> bool {
     station.run_ms(1_100);
-    let present = |m: &MavMessage| if let MavMessage::SYS_STATUS(s) = m { Some(s.onboard_control_sensors_present) } else { None };
-    station.last(present).unwrap().contains(MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE)
+    let enabled = |m: &MavMessage| if let MavMessage::SYS_STATUS(s) = m { Some(s.onboard_control_sensors_enabled) } else { None };
+    station.last(enabled).unwrap().contains(MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE)
 }
 
 #[test]

@@ -327,3 +327,18 @@ fn exact_modes_that_a_lost_link_never_stops() {
     }
     assert!(!Exceptions::default().cover(Mode::Mission) && Exceptions::from_bits(1).cover(Mode::Mission));
 }
+
+#[test]
+fn regress_the_height_reference_takes_every_value_and_says_that_it_is_not_used() {
+    const INT: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
+    const REAL: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
+    for (face, name, codes) in [(&PX4, "EKF2_HGT_REF", [0, 1, 2, 3]), (&COPTER, "EK3_SRC1_POSZ", [1, 2, 3, 6])] {
+        let (mut own, all) = (params(face), described(face));
+        let row = all.iter().find(|row| row["name"] == name).unwrap();
+        assert!(row["longDesc"].as_str().unwrap().contains("No effect on this vehicle"), "{row}");
+        for code in codes {
+            let (wire, kind) = if face.cast { (code as f32, REAL) } else { (Value::Int(code).to_wire(), INT) };
+            assert_eq!(own.set(name, wire, kind), Ok(()), "{name} {code}");
+        }
+    }
+}
