@@ -5,6 +5,7 @@ use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::{scenario, shipped};
 
+/// Makes the job and asks.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A job is a TOML file; scenarios/README.md explains every key. This one gets other traffic and a name.
     let text = shipped::TWO_BRIDGES.replace("name = \"two-bridges\"", "name = \"quiet-bridges\"");

@@ -5,6 +5,7 @@ mod custom_job;
 #[path = "../../examples/hover.rs"]
 mod hover;
 #[path = "../../examples/score_tlog.rs"]
+#[expect(dead_code, reason = "its main reads the command line")]
 mod score_tlog;
 
 /// Lines that an example may have: it is read in one go.
