@@ -34,11 +34,18 @@ def test_regress_pymavlink_reads_ardupilots_own_messages(launch):
     assert abs(simulated.lat - position.lat) < 900 and abs(simulated.lng - position.lon) < 900
 
 
+@pytest.fixture(name="px4")
+def fixture_px4(launch):
+    """MAVSDK's view of a vehicle; it lets go of it before the vehicle ends."""
+    mavsdk, system = sdk.connect(launch("px4"))
+    yield system
+    mavsdk.destroy()
+
+
 @pytest.mark.timeout(300)
-def test_regress_mavsdk_talks_to_px4s_shell(launch):
+def test_regress_mavsdk_talks_to_px4s_shell(px4):
     """A line to the shell and its answer."""
-    _mavsdk, system = sdk.connect(launch("px4"))
-    shell, heard = Shell(system), []
+    shell, heard = Shell(px4), []
     shell.subscribe_receive(lambda received, _: heard.append(received.data))
     shell.send("ver all\n", Device.SHELL)
     wait_for("the version", lambda: "FW version" in "".join(heard))
@@ -47,14 +54,13 @@ def test_regress_mavsdk_talks_to_px4s_shell(launch):
 
 
 @pytest.mark.timeout(300)
-def test_regress_mavsdk_is_followed(launch):
+def test_regress_mavsdk_is_followed(px4):
     """MAVSDK's follow-me: configured, started, fed with a target, stopped."""
-    _mavsdk, system = sdk.connect(launch("px4"))
-    telemetry, action = sdk.ready(system), Action(system)
+    telemetry, action = sdk.ready(px4), Action(px4)
     action.arm()
     action.takeoff()
     wait_for("take-off", lambda: telemetry.flight_mode() == FlightMode.HOLD and telemetry.in_air())
-    follow = FollowMe(system)
+    follow = FollowMe(px4)
     follow.start()
     wait_for("the mode", lambda: telemetry.flight_mode() == FlightMode.FOLLOW_ME)
     follow.stop()
