@@ -47,6 +47,8 @@ def test_regress_mavsdk_talks_to_px4s_shell(px4):
     """A line to the shell and its answer."""
     shell, heard = Shell(px4), []
     shell.subscribe_receive(lambda received, _: heard.append(received.data))
+    # MAVSDK drops what a plugin hears within its first moments.
+    sdk.ready(px4)
     shell.send("ver all\n", Device.SHELL)
     wait_for("the version", lambda: "FW version" in "".join(heard))
     shell.send("param show MIS_TAKEOFF_ALT\n", Device.SHELL)
