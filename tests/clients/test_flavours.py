@@ -128,7 +128,7 @@ def test_wire_mavproxy_flies_a_copter(copter):
     typed.until("arm throttle", "Arm: RTL mode not armable")
     typed.until("mode loiter", "Mode LOITER")
     typed.say("rc 3 1900", None)
-    typed.until("arm throttle", "Arm: Sticks not centred")
+    typed.until("arm throttle", "Arm: Throttle too high")
     typed.say("rc 3 1000", None)
     typed.until("mode guided", "Mode GUIDED")
     typed.until("arm throttle", "ARMED")
