@@ -42,7 +42,7 @@ impl Autopilot {
         self.advance_heading((AUTO_YAW_GAIN * left).clamp(-limit, limit), dt_s);
     }
 
-    /// What is left of a turn in its direction, rad; once it is nearly there the direction no longer counts.
+    /// The rest of a turn in the commanded direction, rad. Close to the goal the direction no longer matters.
     fn the_way_round(&mut self, turn: Turn, left: f64) -> f64 {
         let long_way = turn.clockwise.is_some_and(|clockwise| clockwise != (left > 0.0));
         if left.abs() < NEARLY_TURNED_RAD {
@@ -267,8 +267,7 @@ impl Autopilot {
             return self.climb_at(&setpoint, up_m_s, dt_s);
         }
         if let Some((attitude, thrust)) = setpoint.attitude {
-            let thrust_n = (thrust.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n);
-            self.contact.wanted_down_m_s = if thrust < 0.1 { self.airframe.limits.descend_m_s } else { 0.0 };
+            let thrust_n = self.direct_thrust_n(thrust);
             self.course.yaw_rate_rad_s = 0.0;
             return Wanted::Direct(Pull { attitude, thrust_n });
         }
@@ -310,9 +309,14 @@ impl Autopilot {
         Wanted::Spin { rates_rad_s: rates, thrust_n: level.thrust_n }
     }
 
+    /// Thrust of a set-point that gives its share of the largest, N; hardly any of it means that the vehicle is to come down.
+    fn direct_thrust_n(&mut self, share: f64) -> f64 {
+        self.contact.wanted_down_m_s = if share < 0.1 { self.airframe.limits.descend_m_s } else { 0.0 };
+        (share.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n)
+    }
+
     fn spin(&mut self, rates_rad_s: Vec3<Frd>, thrust: f64) -> Wanted {
-        let thrust_n = (thrust.clamp(0.0, 1.0) * self.gains.thrust_max_n).max(self.gains.thrust_min_n);
-        self.contact.wanted_down_m_s = if thrust < 0.1 { self.airframe.limits.descend_m_s } else { 0.0 };
+        let thrust_n = self.direct_thrust_n(thrust);
         // Whatever comes after goes on from the nose as it is then.
         self.course.yaw_rad = self.estimate.attitude.yaw_rad();
         Wanted::Spin { rates_rad_s, thrust_n }

@@ -110,12 +110,7 @@ impl Autopilot {
             return Some(Outcome::Denied("No mission to fly".into()));
         }
         if mode == Mode::Mission
-            && let Some(why) = self.mission_leaves_fence()
-        {
-            return Some(Outcome::Denied(why));
-        }
-        if mode == Mode::Mission
-            && let Some(why) = self.mission_lacks()
+            && let Some(why) = self.mission_leaves_fence().or_else(|| self.mission_lacks())
         {
             return Some(Outcome::Denied(why));
         }
