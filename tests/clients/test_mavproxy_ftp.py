@@ -7,15 +7,13 @@ from test_mavproxy import Console
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavproxy_moves_files(tmp_path):
+def test_wire_mavproxy_moves_files(launch, tmp_path):
     """`ftp get`, `put`, `list`, `crc`, `rm` and two downloads at once: MAVProxy sorts answers by the session that it chose."""
     files = tmp_path / "files"
     files.mkdir()
     content = bytes(k * k % 251 for k in range(50_000))
     (files / "survey.bin").write_bytes(content)
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--files", str(files), speed=1)
-    typed = Console(port, tmp_path)
+    typed = Console(launch("px4", "--files", str(files), speed=1), tmp_path)
     # MAVProxy closes a file some time after it has said that it is written.
     same = lambda path: spandrel.wait_for(f"{path} on disk", lambda: path.read_bytes() == content, limit_s=60)  # noqa: E731
     try:
@@ -37,15 +35,12 @@ def test_wire_mavproxy_moves_files(tmp_path):
         spandrel.wait_for("the removal", lambda: not (files / "up.bin").exists(), limit_s=60)
     finally:
         typed.close()
-        spandrel.end(process)
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavproxy_fetches_parameters_by_ftp(tmp_path):
+def test_wire_mavproxy_fetches_parameters_by_ftp(launch, tmp_path):
     """As of an ArduPilot: `@PARAM/param.pck`, all values with their defaults, in one file."""
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--flavour", "ardupilot", speed=1)
-    typed = Console(port, tmp_path)
+    typed = Console(launch("ardupilot", speed=1), tmp_path)
     try:
         line = typed.wait("parameters (ftp)")
         assert int(line.split()[1]) > 50, line
@@ -53,4 +48,3 @@ def test_wire_mavproxy_fetches_parameters_by_ftp(tmp_path):
         typed.say("param ftp", "parameters (ftp)")
     finally:
         typed.close()
-        spandrel.end(process)

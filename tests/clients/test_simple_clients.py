@@ -11,7 +11,6 @@ os.environ["MAVLINK20"] = "1"
 import pytest
 from pymavlink import mavutil
 
-import spandrel
 from spandrel import wait_for
 
 # DroneKit 2.9.2 is older than Python 3.10, which took these names away.
@@ -37,60 +36,50 @@ def metres(a, b):
 
 
 @pytest.mark.timeout(300)
-def test_regress_whoever_looks_in_hears_the_autopilot_first(tmp_path):
+def test_regress_whoever_looks_in_hears_the_autopilot_first(launch):
     """Scripts that begin at any moment and take the first heartbeat; the camera's component is there all the while."""
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port)
-    try:
-        first = []
-        for _ in range(LOOKS):
-            link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="all")
-            beat = link.wait_heartbeat(timeout=60)
-            first.append((beat.get_srcComponent(), beat.autopilot))
-            link.close()
-        assert first == [(1, M.MAV_AUTOPILOT_PX4)] * LOOKS
-    finally:
-        spandrel.end(process)
+    port, first = launch("px4"), []
+    for _ in range(LOOKS):
+        link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="all")
+        beat = link.wait_heartbeat(timeout=60)
+        first.append((beat.get_srcComponent(), beat.autopilot))
+        link.close()
+    assert first == [(1, M.MAV_AUTOPILOT_PX4)] * LOOKS
 
 
 @pytest.mark.timeout(300)
-def test_regress_a_naive_script_flies(tmp_path):
+def test_regress_a_naive_script_flies(launch):
     """Mode, arming and take-off read off whatever heartbeat comes, as in many a tutorial."""
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--flavour", "ardupilot", "--camera", "off", speed=2)
-    try:
-        link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}")
-        link.wait_heartbeat()
-        link.mav.request_data_stream_send(link.target_system, link.target_component, M.MAV_DATA_STREAM_ALL, 10, 1)
-        guided = link.mode_mapping()["GUIDED"]
+    port = launch("ardupilot", "--camera", "off", speed=2)
+    link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}")
+    link.wait_heartbeat()
+    link.mav.request_data_stream_send(link.target_system, link.target_component, M.MAV_DATA_STREAM_ALL, 10, 1)
+    guided = link.mode_mapping()["GUIDED"]
 
-        def told(send, holds):
-            """Sends until the next heartbeat shows it."""
-            for _ in range(120):
-                send()
-                beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=5)
-                if beat is not None and holds(beat):
-                    return
-            raise AssertionError("no heartbeat shows it")
+    def told(send, holds):
+        """Sends until the next heartbeat shows it."""
+        for _ in range(120):
+            send()
+            beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=5)
+            if beat is not None and holds(beat):
+                return
+        raise AssertionError("no heartbeat shows it")
 
-        told(lambda: link.set_mode(guided), lambda beat: beat.custom_mode == guided)
-        told(link.arducopter_arm, lambda beat: beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
-        link.mav.command_long_send(link.target_system, link.target_component, M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 0, 5)
-        # Every heartbeat from here on is the vehicle's: armed, in GUIDED.
-        for _ in range(10):
-            beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=60)
-            assert beat.custom_mode == guided and beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED, beat
-        while link.recv_match(type="GLOBAL_POSITION_INT", blocking=True, timeout=60).relative_alt < 4_000:
-            pass
-    finally:
-        spandrel.end(process)
+    told(lambda: link.set_mode(guided), lambda beat: beat.custom_mode == guided)
+    told(link.arducopter_arm, lambda beat: beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
+    link.mav.command_long_send(link.target_system, link.target_component, M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 0, 5)
+    # Every heartbeat from here on is the vehicle's: armed, in GUIDED.
+    for _ in range(10):
+        beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=60)
+        assert beat.custom_mode == guided and beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED, beat
+    while link.recv_match(type="GLOBAL_POSITION_INT", blocking=True, timeout=60).relative_alt < 4_000:
+        pass
 
 
 @pytest.mark.timeout(600)
-def test_regress_dronekit_connects_arms_takes_off_and_goes(tmp_path):
+def test_regress_dronekit_connects_arms_takes_off_and_goes(launch):
     """DroneKit 2.9.2 as its own example has it; then a mission, which it uploads by the older request alone."""
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--flavour", "ardupilot", "--camera", "off", speed=2)
+    port = launch("ardupilot", "--camera", "off", speed=2)
     vehicle = None
     try:
         vehicle = dronekit.connect(f"udpin:127.0.0.1:{port}", wait_ready=True, heartbeat_timeout=60, timeout=120)
@@ -129,14 +118,12 @@ def test_regress_dronekit_connects_arms_takes_off_and_goes(tmp_path):
     finally:
         if vehicle is not None:
             vehicle.close()
-        spandrel.end(process)
 
 
 @pytest.mark.timeout(600)
-def test_regress_mavpilot_takes_off_goes_and_lands(tmp_path):
+def test_regress_mavpilot_takes_off_goes_and_lands(launch):
     """mavpilot 0.3, which flies PX4 by set-points in the local frame."""
-    port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--camera", "off", speed=1)
+    port = launch("px4", "--camera", "off", speed=1)
 
     async def mission():
         async with DroneController(connection_string=f"udpin:127.0.0.1:{port}", enable_viz=False) as drone:
@@ -146,7 +133,4 @@ def test_regress_mavpilot_takes_off_goes_and_lands(tmp_path):
             assert await drone.goto(x=6.0, y=4.0, z=-5.0, yaw_deg=90)
             assert await drone.land()
 
-    try:
-        asyncio.run(mission())
-    finally:
-        spandrel.end(process)
+    asyncio.run(mission())

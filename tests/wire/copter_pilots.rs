@@ -22,18 +22,7 @@ const DO_JUMP_TAG: u16 = 601;
 const COMMAND_LONG: u32 = 76;
 
 fn set(station: &mut Station, name: &str, value: f32) {
-    let set = PARAM_SET_DATA {
-        param_value: value,
-        target_system: 1,
-        target_component: 1,
-        param_id: name.into(),
-        param_type: MavParamType::MAV_PARAM_TYPE_REAL32,
-    };
-    let shown = station.ask(&MavMessage::PARAM_SET(set), |m| match m {
-        MavMessage::PARAM_VALUE(shown) => Some(shown.param_value),
-        _ => None,
-    });
-    assert_eq!(shown, Some(value), "{name}");
+    assert_eq!(station.set(name, value, MavParamType::MAV_PARAM_TYPE_REAL32), Some(value), "{name}");
 }
 
 /// Sticks in the middle but the throttle; switches on channels 5, 8 and 9.

@@ -19,10 +19,7 @@ const HOLD: u32 = 4 << 16 | 3 << 24;
 const WIND_TOLERANCE_M_S: f64 = 2.5;
 
 fn set(station: &mut Station, name: &str, value: f32, kind: MavParamType) {
-    let set =
-        PARAM_SET_DATA { param_value: value, target_system: 1, target_component: 1, param_id: name.into(), param_type: kind };
-    let told = station.ask(&MavMessage::PARAM_SET(set), |m| matches!(m, MavMessage::PARAM_VALUE(_)).then_some(()));
-    assert_eq!(told, Some(()), "{name}");
+    assert!(station.set(name, value, kind).is_some(), "{name}");
 }
 
 fn set_whole(station: &mut Station, name: &str, value: i32) {
@@ -368,16 +365,7 @@ fn wire_a_bad_radio_loses_its_share_and_is_late() {
     let share = frames(&mut station) / good;
     assert!((0.35..0.65).contains(&share), "{share}");
     // The way back to a good radio leads over the bad one.
-    let healed = (0..100).any(|_| {
-        let set = PARAM_SET_DATA {
-            param_value: 0.0,
-            target_system: 1,
-            target_component: 1,
-            param_id: "SIM_LINK_LOSS".into(),
-            param_type: MavParamType::MAV_PARAM_TYPE_REAL32,
-        };
-        station.ask(&MavMessage::PARAM_SET(set), |m| matches!(m, MavMessage::PARAM_VALUE(_)).then_some(())).is_some()
-    });
+    let healed = (0..100).any(|_| station.set("SIM_LINK_LOSS", 0.0, MavParamType::MAV_PARAM_TYPE_REAL32).is_some());
     assert!(healed);
     station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
         param_value: f32::from_bits(150),

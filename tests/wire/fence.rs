@@ -21,15 +21,8 @@ fn circle(north_m: f64, radius_m: f32) -> Vec<MISSION_ITEM_INT_DATA> {
 }
 
 fn set(station: &mut Station, name: &str, value: i32) {
-    let set = PARAM_SET_DATA {
-        param_value: f32::from_bits(value.cast_unsigned()),
-        target_system: 1,
-        target_component: 1,
-        param_id: name.into(),
-        param_type: MavParamType::MAV_PARAM_TYPE_INT32,
-    };
-    let told = station.ask(&MavMessage::PARAM_SET(set), |m| matches!(m, MavMessage::PARAM_VALUE(_)).then_some(()));
-    assert_eq!(told, Some(()));
+    let bits = f32::from_bits(value.cast_unsigned());
+    assert!(station.set(name, bits, MavParamType::MAV_PARAM_TYPE_INT32).is_some());
 }
 
 /// Holds the sticks for a while, as a ground station sends them.
@@ -101,14 +94,7 @@ fn wire_a_way_through_a_forbidden_area_is_refused_and_so_is_one_that_is_too_high
     assert_eq!(upload(&mut station, &[round]), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
     assert!(station.said("Mission item 0 lies outside the geofence"), "{:?}", station.texts());
-    let max = PARAM_SET_DATA {
-        param_value: 20.0,
-        target_system: 1,
-        target_component: 1,
-        param_id: "GF_MAX_VER_DIST".into(),
-        param_type: MavParamType::MAV_PARAM_TYPE_REAL32,
-    };
-    station.ask(&MavMessage::PARAM_SET(max), |m| matches!(m, MavMessage::PARAM_VALUE(_)).then_some(()));
+    station.set("GF_MAX_VER_DIST", 20.0, MavParamType::MAV_PARAM_TYPE_REAL32);
     assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, home, 30.0)]), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
     let amsl = super::station::scenario("drill-hover").origin.altitude_m as f32 + 50.0;

@@ -21,10 +21,8 @@ fn said(station: &Station, what: &str) -> bool {
     station.all(text).iter().any(|text| text.contains(what))
 }
 
-fn set(station: &mut Station, name: &str, param_value: f32) {
-    let (target_system, target_component, param_type) = (1, 1, MavParamType::MAV_PARAM_TYPE_REAL32);
-    let set = PARAM_SET_DATA { param_value, target_system, target_component, param_id: name.into(), param_type };
-    assert!(station.ask(&MavMessage::PARAM_SET(set), |m| matches!(m, MavMessage::PARAM_VALUE(_)).then_some(())).is_some());
+fn set(station: &mut Station, name: &str, value: f32) {
+    assert!(station.set(name, value, MavParamType::MAV_PARAM_TYPE_REAL32).is_some());
 }
 
 fn speed(station: &Station) -> f32 {

@@ -1,7 +1,9 @@
 //! A ground station and a monitor's place on an in-process vehicle: no sockets, no clock.
 
 use spandrel_mavlink::codec::{Decoder, Encoder, Received};
-use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavResult};
+use spandrel_mavlink::dialect::{
+    COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavParamType, MavResult, PARAM_SET_DATA,
+};
 use spandrel_model::geodesy::Geo;
 use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::site::Site;
@@ -145,6 +147,12 @@ impl Station {
         self.send(message);
         self.run_ms(1);
         self.heard.iter().filter_map(|f| f.message.as_ref()).find_map(pick)
+    }
+
+    /// Sets a parameter, whose value travels as these bits; the value shown in the answer.
+    pub fn set(&mut self, name: &str, param_value: f32, param_type: MavParamType) -> Option<f32> {
+        let set = PARAM_SET_DATA { param_value, target_system: 1, target_component: 1, param_id: name.into(), param_type };
+        self.ask(&MavMessage::PARAM_SET(set), |m| if let MavMessage::PARAM_VALUE(v) = m { Some(v.param_value) } else { None })
     }
 
     /// As another sender on the same link.
