@@ -1,4 +1,4 @@
-//! The program: everything is in the library, see `spandrel`.
+//! Entry point; the subcommands are in the library `spandrel`.
 #![forbid(unsafe_code)]
 
 fn main() -> std::process::ExitCode {

@@ -1,5 +1,5 @@
-//! Who flies: [`pilot`] is the synthetic trainee, who sees what a person sees through telemetry and moves sticks; [`rc`] turns what a controller
-//! or a keyboard gives into sticks, by a calibrated profile.
+//! Clients that fly the vehicle. [`pilot`] is a synthetic trainee that works from telemetry and moves the sticks; [`rc`] maps a controller or a
+//! keyboard to sticks through a calibrated profile.
 //!
 //! Both are MAVLink clients like any ground station and know nothing of the simulator.
 //!

@@ -184,7 +184,7 @@ fn known(message_id: u32) -> bool {
     MavMessage::default_message_from_id(message_id).is_some()
 }
 
-/// What an encoder makes a frame of.
+/// Content that an encoder can frame.
 pub trait Framed {
     /// The whole frame.
     fn frame(&self, encoder: &mut Encoder) -> Vec<u8>;

@@ -129,7 +129,7 @@ impl Signing {
         self.newest
     }
 
-    /// What a new stream is compared with: our clock, if it is set, or else the newest that was sent or heard.
+    /// The time that a new stream is compared with: our clock if it is set, otherwise the newest time sent or heard.
     fn present(&self) -> u64 {
         if self.clock >= CLOCK_SET { self.clock } else { self.newest }
     }

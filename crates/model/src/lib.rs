@@ -6,8 +6,8 @@
 //! come from [`math`] alone, so that the same inputs give the same bits on every machine.
 //!
 //! A job is a [`scenario::Scenario`], read from TOML with every problem of the file reported at once; an aircraft is a [`vehicle::Vehicle`].
-//! [`site::Site`] is what stands there, built from a scenario and a seed, and answers questions: how far is the nearest surface, what does a
-//! ray hit, how bright is it, which defects does a picture show. What moves takes the time as an argument.
+//! [`site::Site`] is built from a scenario and a seed and answers queries about it: distance to the nearest surface, what a ray hits, how
+//! bright it is, which defects a picture shows. What moves takes the time as an argument.
 //!
 //! ```
 //! use spandrel_model::frames::Vec3;

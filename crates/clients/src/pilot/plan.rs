@@ -15,7 +15,7 @@ const COMFORT_M: f64 = 4.0;
 const CRAMPED_M: f64 = 8.0;
 /// Near such an end the way may come closer to things than the end by this, m (estimate: stand-offs are rounded).
 const END_SLACK_M: f64 = 0.1;
-/// What is asked for in turn, as shares of the clearance to keep beyond the least one.
+/// Clearances to try, one after the other, as shares of what COMFORT_M adds to the minimum.
 const SHARES: [f64; 3] = [1.0, 0.7, 0.4];
 /// Room around the two ends for the search, m.
 const MARGIN_M: f64 = 40.0;
@@ -58,7 +58,7 @@ pub fn route(
 /// A clearance that holds but near cramped ends.
 struct Keep {
     keep_m: f64,
-    /// What holds near origin and goal, m.
+    /// Clearance required near the origin and near the goal, m.
     ends_m: [f64; 2],
 }
 

@@ -40,7 +40,7 @@ pub struct TaskNow {
     pub too_close_m: Option<f64>,
     /// Number for people.
     pub id: u32,
-    /// Who flies away from here leaves the task: it is flown, or the nearest place is an end of its path.
+    /// Flying away from here ends the task: it has been flown, or the nearest point is an end of its path.
     pub may_leave: bool,
 }
 
