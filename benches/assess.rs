@@ -3,14 +3,12 @@
 
 #[path = "support/best.rs"]
 mod best;
-#[path = "../tests/support/job.rs"]
-mod job;
 
 use best::best;
-use job::{Tape, fence_of_ten, line, scenario, task, vehicle};
 use spandrel_mavlink::dialect::{ATTITUDE_DATA, LOCAL_POSITION_NED_DATA, MavMessage, VFR_HUD_DATA};
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::{Monitor, MonitorConfig, assess_log};
+use spandrel_testkit::job::{self, Tape, fence_of_ten, line, scenario, task, vehicle};
 use std::process::ExitCode;
 use std::time::Duration;
 

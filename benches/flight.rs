@@ -1,16 +1,14 @@
 //! What a simulated second of flight costs, by room: sensors, estimator, autopilot, and all together with the physics. Each is also given
 //! as a multiple of real time on one core. (The simulator's own bench adds the telemetry.)
 
-#[path = "../tests/flight/bench.rs"]
-#[allow(dead_code)]
-mod bench;
 #[path = "support/best.rs"]
 mod best;
 
-use bench::{Bench, vehicle};
 use best::best;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::sensors::{BatteryReading, Readings, Truth};
+use spandrel_testkit::bench::Bench;
+use spandrel_testkit::shipped::vehicle;
 use std::hint::black_box;
 use std::time::Duration;
 

@@ -1,10 +1,6 @@
 //! The report of a 25-minute session: how long reading, working out and writing take, and how large the page is. Prints against the ceilings.
 
-#[path = "../tests/support/inspection.rs"]
-mod inspection;
-#[path = "../tests/support/job.rs"]
-mod job;
-
+use spandrel_testkit::inspection;
 use spandrel_training::report::{About, Review, page};
 use std::process::ExitCode;
 use std::time::Duration;

@@ -4,21 +4,19 @@
 
 #[path = "support/running.rs"]
 mod running;
-#[path = "../tests/support/studio.rs"]
-mod studio;
 
 use running::{Client, Lateness, now, start};
 use spandrel::aside::Aside;
 use spandrel_mavlink::dialect::{HEARTBEAT_DATA, MavMessage};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
+use spandrel_testkit::studio::{Studio, at, two_bridges};
 use spandrel_view::gpu::{Counts, Gpu, fill, picture_texture};
 use spandrel_view::quality::Quality;
 use spandrel_view::shot::Shot;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-use studio::{Studio, at, two_bridges};
 
 /// Frames a second of both views at 640 x 360 with the preset `low` on two cores: the target.
 const TARGET_HZ: f64 = 15.0;

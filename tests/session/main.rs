@@ -1,17 +1,4 @@
-//! Whole sessions from datagrams alone: frames, measures, ends, the live monitor and its replay.
+//! Both wings on one flight: what the vehicle sends and what the monitor makes of it.
 
-mod completion;
-mod cut;
-mod feedback;
-mod hostile;
-#[path = "../support/inspection.rs"]
-mod inspection;
-#[path = "../support/job.rs"]
-mod job;
-mod link;
-mod live;
-mod output;
-mod pieces;
-mod records;
-mod report;
-mod shipped;
+mod exported_plan;
+mod zoom;

@@ -14,8 +14,8 @@
 //! # }
 //! ```
 //!
-//! The vehicle is flown as any ground station flies it: by MAVLink frames, through the same interface. [`Vehicle::sim`] gives the simulator
-//! itself, for links of one's own, the truth and the digest.
+//! The vehicle is flown as any ground station flies it: by MAVLink frames, through the same interface. [`Vehicle::sim`] is the simulator
+//! itself, for further links, the truth and the digest.
 
 use crate::endpoint::flavour::{Flavour, px4};
 use crate::endpoint::{LinkId, LinkKind};
@@ -74,6 +74,7 @@ pub struct Builder {
     vehicle: String,
     seed: u64,
     flavour: &'static Flavour,
+    instance: u8,
     after_crash: Option<AfterCrash>,
 }
 
@@ -84,6 +85,7 @@ impl Default for Builder {
             vehicle: shipped::PHANTOM2.to_owned(),
             seed: 1,
             flavour: &px4::FLAVOUR,
+            instance: 0,
             after_crash: None,
         }
     }
@@ -118,6 +120,13 @@ impl Builder {
         self
     }
 
+    /// Which of several vehicles it is, from 0: its MAVLink system id is one more.
+    #[must_use]
+    pub fn instance(mut self, instance: u8) -> Self {
+        self.instance = instance;
+        self
+    }
+
     /// What a crash leads to, in place of the scenario's rule.
     #[must_use]
     pub fn after_crash(mut self, rule: AfterCrash) -> Self {
@@ -135,13 +144,15 @@ impl Builder {
         Ok(self.place(job, aircraft))
     }
 
-    fn place(self, job: Scenario, aircraft: vehicle::Vehicle) -> Vehicle {
+    /// The vehicle on the pad of a job and of an aircraft that were read already, in place of their texts.
+    #[must_use]
+    pub fn place(self, job: Scenario, aircraft: vehicle::Vehicle) -> Vehicle {
         let site = Arc::new(Site::build(&job, self.seed));
         let config = SimConfig {
             scenario: Arc::new(job),
             vehicle: Arc::new(aircraft),
             seed: self.seed,
-            instance: 0,
+            instance: self.instance,
             flavour: self.flavour,
             after_crash: self.after_crash,
         };
@@ -162,12 +173,15 @@ impl Builder {
 /// A simulated vehicle and the ground station that flies it.
 #[derive(Debug, Clone)]
 pub struct Vehicle {
-    sim: Sim,
+    /// The simulator itself: further links, the truth, faults, the digest.
+    pub sim: Sim,
+    /// What the harness sends is encoded by this: another system or component id is another sender on the same link.
+    pub encoder: Encoder,
+    /// Everything received and not yet dropped, oldest first.
+    pub heard: Vec<Received>,
     flavour: &'static Flavour,
     pad_up_m: f64,
-    encoder: Encoder,
     decoder: Decoder,
-    heard: Vec<Received>,
 }
 
 impl Vehicle {
@@ -177,22 +191,10 @@ impl Vehicle {
         Builder::default()
     }
 
-    /// The simulator itself.
-    #[must_use]
-    pub fn sim(&self) -> &Sim {
-        &self.sim
-    }
-
     /// Simulation time.
     #[must_use]
     pub fn now(&self) -> SimTime {
         self.sim.now()
-    }
-
-    /// Everything heard from the vehicle and not yet dropped, oldest first.
-    #[must_use]
-    pub fn heard(&self) -> &[Received] {
-        &self.heard
     }
 
     /// The newest message that a filter likes.
@@ -240,12 +242,21 @@ impl Vehicle {
     /// Lets simulation time pass.
     pub fn run(&mut self, time: SimTime) {
         self.sim.handle_timeout(self.sim.now() + time);
-        while let Some(transmit) = self.sim.poll_transmit() {
-            self.heard.extend(self.decoder.datagram(&transmit.bytes));
-        }
+        self.collect();
         if self.heard.len() > 2 * KEPT_FRAMES {
             self.heard.drain(..self.heard.len() - KEPT_FRAMES);
         }
+    }
+
+    /// Takes what the vehicle has sent, into [`Vehicle::heard`].
+    ///
+    /// # Panics
+    /// When the vehicle sent something that is no whole frame.
+    pub fn collect(&mut self) {
+        while let Some(transmit) = self.sim.poll_transmit() {
+            self.heard.extend(self.decoder.datagram(&transmit.bytes));
+        }
+        assert_eq!(self.decoder.bad_bytes(), 0, "whole frames only");
     }
 
     /// Runs until a condition holds; returns how long that took.

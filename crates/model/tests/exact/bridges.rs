@@ -1,0 +1,422 @@
+//! The bridges against the formulas that they are built from, and their task paths against the bridges.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::suspension::Suspension;
+use spandrel_model::scenario::bridges::{Field, Member, Solid, TaskPath};
+use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
+use spandrel_model::site::convex::Convex;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// m; rounding of positions some hundred metres from the origin.
+const ROUNDING_M: f64 = 1e-9;
+/// Relative rounding of volumes that are sums of many products.
+const SHARE: f64 = 1e-9;
+
+fn bridge(kind: BridgeKind) -> Bridge {
+    Bridge { name: "b".into(), centre_m: Vec3::new(12.0, -30.0, 40.0), heading_deg: 37.0, kind }
+}
+
+fn arch() -> Bridge {
+    bridge(BridgeKind::Arch(Arch::default()))
+}
+
+fn suspension() -> Bridge {
+    bridge(BridgeKind::Suspension(Suspension::default()))
+}
+
+/// Values strewn around the defaults, within their ranges.
+fn strewn(fields: &[Field], random: &mut RandomStream) -> Vec<f64> {
+    let strewn = |f: &Field| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
+    fields
+        .iter()
+        .map(strewn)
+        .zip(fields)
+        .map(|(v, f)| if ["panels", "stringers"].contains(&f.key) { v.round() } else { v })
+        .collect()
+}
+
+/// Both types at their defaults and with numbers strewn, as far as these go together.
+fn many() -> Vec<Bridge> {
+    let mut random = RandomStream::new(4, "bridges");
+    let mut out = vec![arch(), suspension()];
+    for _ in 0..60 {
+        out.push(bridge(BridgeKind::Arch(Arch::from_values(&strewn(Arch::FIELDS, &mut random)))));
+        out.push(bridge(BridgeKind::Suspension(Suspension::from_values(&strewn(Suspension::FIELDS, &mut random)))));
+    }
+    out.retain(|b| b.kind.misfits().is_empty());
+    let arches = out.iter().filter(|b| matches!(b.kind, BridgeKind::Arch(_))).count();
+    assert!(arches >= 10 && out.len() - arches >= 10, "{arches} of {}", out.len());
+    out
+}
+
+fn volume(solid: &Solid) -> f64 {
+    let at = |k: u32| solid.vertices_m[k as usize] - solid.vertices_m[0];
+    solid.triangles().iter().map(|t| at(t[0]).dot(at(t[1]).cross(at(t[2]))) / 6.0).sum()
+}
+
+fn counts(members: &[Member]) -> BTreeMap<u32, usize> {
+    members.iter().fold(BTreeMap::new(), |mut counts, m| {
+        *counts.entry(m.element).or_default() += 1;
+        counts
+    })
+}
+
+fn named<'a>(members: &'a [Member], part: &str) -> impl Iterator<Item = &'a Member> {
+    let start = format!("b/{part}");
+    members.iter().filter(move |m| m.name.starts_with(&start))
+}
+
+#[test]
+fn prop_every_solid_is_closed_convex_and_faces_outwards() {
+    for bridge in many() {
+        let members = bridge.members();
+        let names: BTreeSet<&str> = members.iter().map(|m| m.name.as_str()).collect();
+        assert_eq!(names.len(), members.len(), "names are unique");
+        for Member { name, solid, .. } in &members {
+            let mut edges = BTreeSet::new();
+            for face in &solid.faces {
+                for k in 0..face.len() {
+                    assert!(edges.insert((face[k], face[(k + 1) % face.len()])), "{name}: an edge runs twice the same way");
+                }
+            }
+            assert!(edges.iter().all(|(a, b)| edges.contains(&(*b, *a))), "{name} is open");
+            assert_eq!(solid.vertices_m.len() + solid.faces.len(), edges.len() / 2 + 2, "{name}: Euler");
+            assert!(volume(solid) > 0.0, "{name}: {} m3", volume(solid));
+            for face in &solid.faces {
+                let at = |k: usize| solid.vertices_m[face[k] as usize];
+                let normal = (at(1) - at(0)).cross(at(2) - at(0)).unit();
+                let height = |v: &Vec3<Enu>| normal.dot(*v - at(0));
+                assert!(face.iter().all(|k| height(&solid.vertices_m[*k as usize]).abs() < ROUNDING_M), "{name}: a bent face");
+                assert!(solid.vertices_m.iter().all(|v| height(v) < ROUNDING_M), "{name}: not convex");
+            }
+        }
+    }
+}
+
+/// Points of a solid that are enough to see what it touches.
+fn points_of(solid: &Solid) -> Vec<Vec3<Enu>> {
+    let corner = |k: u32| solid.vertices_m[k as usize];
+    let middle = |ks: &[u32]| ks.iter().fold(Vec3::zero(), |sum, k| sum + corner(*k)) / ks.len() as f64;
+    let mut out: Vec<Vec3<Enu>> = solid.faces.iter().map(|f| middle(f)).collect();
+    for face in &solid.faces {
+        for k in 0..face.len() {
+            let (a, b) = (corner(face[k]), corner(face[(k + 1) % face.len()]));
+            out.extend((0..40).map(|i| a.lerp(b, f64::from(i) / 40.0)));
+        }
+    }
+    out
+}
+
+#[test]
+fn exact_every_member_is_held_by_another_and_none_floats() {
+    for bridge in many() {
+        let members = bridge.members();
+        let shapes: Vec<Convex> = members.iter().map(|m| Convex::new(&m.solid)).collect();
+        let near_boxes = |i: usize, j: usize| {
+            let ((low, high), (other_low, other_high)) = (shapes[i].bounds(), shapes[j].bounds());
+            (0..3).all(|k| {
+                low.array()[k] <= other_high.array()[k] + ROUNDING_M && other_low.array()[k] <= high.array()[k] + ROUNDING_M
+            })
+        };
+        let touches = |i: usize, j: usize| {
+            near_boxes(i, j)
+                && (points_of(&members[i].solid).iter().any(|p| shapes[j].nearest(*p).distance_m < ROUNDING_M)
+                    || points_of(&members[j].solid).iter().any(|p| shapes[i].nearest(*p).distance_m < ROUNDING_M))
+        };
+        let mut joined = vec![false; members.len()];
+        let mut open = vec![0];
+        joined[0] = true;
+        while let Some(i) = open.pop() {
+            let more: Vec<usize> = (0..members.len()).filter(|j| !joined[*j] && touches(i, *j)).collect();
+            more.iter().for_each(|j| joined[*j] = true);
+            open.extend(more);
+        }
+        let floating: Vec<&str> = members.iter().zip(&joined).filter(|(_, j)| !**j).map(|(m, _)| m.name.as_str()).collect();
+        assert_eq!(floating, Vec::<&str>::new(), "{:?}", bridge.kind);
+    }
+}
+
+#[test]
+fn exact_an_arch_has_as_many_members_as_its_formulas_say() {
+    for bridge in many() {
+        let BridgeKind::Arch(a) = &bridge.kind else { continue };
+        let n = a.panels.round() as usize;
+        let lines = a.stringers.round() as usize;
+        let clear = |x: f64| {
+            a.crown_gap_m - a.floorbeam_depth_m
+                + (4.0 * a.rise_m - 2.0 * (a.springing_depth_m - a.crown_depth_m)) * x * x / (a.span_m * a.span_m)
+        };
+        let points: Vec<f64> = (1..n).map(|k| a.span_m * (k as f64 / n as f64 - 0.5)).collect();
+        // A column is a little longer than the clear height at its middle, because the rib falls away under it.
+        let (most, least) =
+            (points.iter().filter(|x| clear(**x) > 0.25 - 0.6).count(), points.iter().filter(|x| clear(**x) > 0.25).count());
+        let members = bridge.members();
+        let count = counts(&members);
+        assert_eq!(count[&12], n + 2);
+        assert_eq!(count[&155], n + 1);
+        assert_eq!(count[&116], lines * (n + 2));
+        assert_eq!(named(&members, "rib-").count(), 2 * 2 * n);
+        assert_eq!(count[&144], 4 * n + (n - 1) / 2);
+        assert!((2 * least..=2 * most).contains(&named(&members, "column-left").chain(named(&members, "column-right")).count()));
+        assert_eq!(count[&331], 2 * ((a.deck_length_m() / 2.0).floor() as usize + 1) + 6);
+        assert_eq!(count[&215], 4);
+    }
+    let count = counts(&arch().members());
+    let columns = named(&arch().members(), "column-left").count();
+    assert_eq!((columns, count[&144], count[&331]), (13, 62, 130));
+}
+
+#[test]
+fn exact_a_suspension_bridge_has_as_many_members_as_its_formulas_say() {
+    for bridge in many() {
+        let BridgeKind::Suspension(s) = &bridge.kind else { continue };
+        let main = (s.main_span_m / s.hanger_spacing_m).round() as usize;
+        let side = ((s.side_span_m / s.hanger_spacing_m).round() as usize).max(1);
+        let beams = main - 1 + 2 * (side - 1);
+        let panels = main + 2 * side + 2;
+        let count = counts(&bridge.members());
+        assert_eq!(count[&148], 2 * (main - 1));
+        assert_eq!(count[&147], 2 * (main + 2));
+        // A steel beam is two flanges and a web.
+        assert_eq!(count[&152], 3 * beams);
+        assert_eq!((count[&12], count[&107], count[&113]), (panels, 3 * 2 * panels, 3 * 2 * panels));
+        assert_eq!((count[&207], count[&210], count[&220], count[&311], count[&313]), (12, 2, 6, 10, 2));
+        assert_eq!(count[&330], 2 * ((s.deck_length_m() / 2.0).floor() as usize + 1) + 6);
+    }
+    let count = counts(&suspension().members());
+    assert_eq!((count[&148], count[&147], count[&152], count[&12], count[&330]), (38, 44, 3 * 29, 34, 254));
+}
+
+#[test]
+fn exact_volumes_of_slab_ribs_cables_and_hangers() {
+    let sum = |members: &[Member], part: &str| named(members, part).map(|m| volume(&m.solid)).sum::<f64>();
+    let close = |got: f64, want: f64| assert!((got - want).abs() < SHARE * want, "{got} m3, not {want} m3");
+    for bridge in many() {
+        let members = bridge.members();
+        match &bridge.kind {
+            BridgeKind::Arch(a) => {
+                close(sum(&members, "slab"), a.deck_length_m() * a.deck_width_m * a.slab_m);
+                // The depth is quadratic in u = 2x/L, and the trapezoidal rule over N segments makes 1/3 + 2/(3 N^2) of the mean of u^2.
+                let segments = 2.0 * a.panels.round();
+                let mean = 1.0 / 3.0 + 2.0 / (3.0 * segments * segments);
+                let area = a.span_m * (a.crown_depth_m + (a.springing_depth_m - a.crown_depth_m) * mean);
+                close(sum(&members, "rib-"), 2.0 * a.rib_width_m * area);
+            }
+            BridgeKind::Suspension(s) => {
+                close(sum(&members, "slab"), s.deck_length_m() * s.deck_width_m * s.slab_m);
+                // Flanges of 400 mm by 40 mm, webs of 16 mm.
+                let section = 2.0 * 0.4 * 0.04 + (s.girder_depth_m - 2.0 * 0.04) * 0.016;
+                close(sum(&members, "girder"), 2.0 * s.deck_length_m() * section);
+                let octagon = 2.0 * 2f64.sqrt() * s.cable_radius_m * s.cable_radius_m;
+                let hexagon = 1.5 * 3f64.sqrt() * s.hanger_radius_m * s.hanger_radius_m;
+                let z = |x: f64| s.cable_clearance_m + 4.0 * s.sag_m * x * x / (s.main_span_m * s.main_span_m);
+                let n = (s.main_span_m / s.hanger_spacing_m).round();
+                let x = |k: f64| s.main_span_m * (k / n - 0.5);
+                let straight = |k: f64| {
+                    ((x(k + 1.0) - x(k)) * (x(k + 1.0) - x(k)) + (z(x(k + 1.0)) - z(x(k))) * (z(x(k + 1.0)) - z(x(k)))).sqrt()
+                };
+                // The side spans go on straight for a metre into the anchorages.
+                let top = s.cable_clearance_m + s.sag_m;
+                let side = (s.side_span_m * s.side_span_m + top * top).sqrt() * (1.0 + 1.0 / s.side_span_m);
+                let cable = (0..n as u32).map(|k| straight(f64::from(k))).sum::<f64>() + 2.0 * side;
+                close(sum(&members, "cable"), 2.0 * octagon * cable);
+                let hangers: f64 = (1..n as u32).map(|k| z(x(f64::from(k))) + s.slab_m).sum();
+                close(sum(&members, "hanger"), 2.0 * hexagon * hangers);
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_the_rib_follows_its_parabola() {
+    let bridge = arch();
+    let a = Arch::default();
+    let crown = a.slab_m + a.crown_gap_m;
+    assert!((a.extrados_z_m(0.0) + crown).abs() < ROUNDING_M);
+    assert!((a.axis_z_m(0.0) - a.axis_z_m(0.5 * a.span_m) - a.rise_m).abs() < ROUNDING_M);
+    // Hand-worked for span 98, rise 26, depths 1.6 and 2.7, slab 0.23, gap 3.4, at a quarter of the span: axis -4.43 - 6.5.
+    assert!((a.axis_z_m(24.5) + 10.93).abs() < ROUNDING_M && (a.depth_m(24.5) - 1.875).abs() < ROUNDING_M);
+    for member in named(&bridge.members(), "rib-") {
+        for vertex in &member.solid.vertices_m {
+            let [x, y, z] = bridge.placement().local(*vertex);
+            let off = (z - a.intrados_z_m(x)).abs().min((z - a.extrados_z_m(x)).abs());
+            assert!(off < ROUNDING_M && ((y.abs() - 2.9).abs() - 0.75).abs() < ROUNDING_M, "{}", member.name);
+        }
+    }
+}
+
+#[test]
+fn exact_the_cable_sags_and_the_hangers_reach_it() {
+    let bridge = suspension();
+    let s = Suspension::default();
+    let members = bridge.members();
+    let middle = |vertices: &[Vec3<Enu>]| {
+        let sum = vertices.iter().fold(Vec3::zero(), |sum, v| sum + *v);
+        bridge.placement().local(sum / vertices.len() as f64)
+    };
+    // Sag 14 m over 140 m, 2 m over the deck at midspan: 16 m at the towers, 5.5 m at the quarter points.
+    for (x, z) in [(0.0, 2.0), (35.0, 5.5), (-70.0, 16.0), (115.0, 0.0)] {
+        assert!((s.cable_z_m(x) - z).abs() < ROUNDING_M);
+    }
+    for hanger in named(&members, "hanger-left") {
+        let (top, foot) = (middle(&hanger.solid.vertices_m[..6]), middle(&hanger.solid.vertices_m[6..]));
+        let u = top[0] / 70.0;
+        assert!((top[2] - (2.0 + 14.0 * u * u)).abs() < ROUNDING_M && (foot[2] + s.slab_m).abs() < ROUNDING_M);
+        assert!((top[0] - foot[0]).abs() < ROUNDING_M && (top[0] / 7.0 - (top[0] / 7.0).round()).abs() < ROUNDING_M);
+    }
+    let ends: Vec<_> = named(&members, "cable-left").map(|m| middle(&m.solid.vertices_m[..8])).collect();
+    assert!(ends.iter().all(|e| (e[2] - s.cable_z_m(e[0])).abs() < ROUNDING_M));
+    // Each piece begins with the very corners with which the one before it ends: the cable has no notch at its bends.
+    let pieces: Vec<_> = named(&members, "cable-left").map(|m| &m.solid.vertices_m).collect();
+    for pair in pieces.windows(2) {
+        assert!(pair[0][..8].iter().zip(&pair[1][8..]).all(|(end, start)| (*end - *start).norm() < ROUNDING_M));
+    }
+}
+
+fn solids(members: &[Member]) -> Vec<Convex> {
+    members.iter().map(|m| Convex::new(&m.solid)).collect()
+}
+
+fn least_gap(shapes: &[Convex], path: &TaskPath) -> f64 {
+    let gap = |p: &Vec3<Enu>| shapes.iter().map(|s| s.nearest(*p).distance_m).fold(f64::INFINITY, f64::min);
+    path.path_m.iter().map(gap).fold(f64::INFINITY, f64::min)
+}
+
+/// Steps of at most 1 m, no turn sharper than a slow aircraft flies at once, unit directions of sight.
+fn is_smooth(path: &TaskPath) {
+    // rad; 0.8 m of an arc with a radius of 4 m.
+    const SHARPEST: f64 = 0.25;
+    let n = path.path_m.len();
+    assert_eq!(path.look.len(), n);
+    assert!(path.look.iter().all(|l| (l.norm() - 1.0).abs() < 1e-12));
+    let last = if path.closed { n } else { n - 1 };
+    let step = |k: usize| path.path_m[(k + 1) % n] - path.path_m[k % n];
+    for k in 0..last {
+        assert!(step(k).norm() <= 1.0 && step(k).norm() > 0.1, "step {k}: {}", step(k).norm());
+        if path.closed || k + 1 < last {
+            assert!(step(k).unit().cross(step(k + 1).unit()).norm() < SHARPEST, "turn at {k}");
+        }
+    }
+}
+
+#[test]
+fn prop_paths_keep_their_stand_off() {
+    for bridge in many() {
+        let shapes = solids(&bridge.members());
+        for stand_off_m in [4.0, 6.5] {
+            for kind in [TaskKind::SlabSide, TaskKind::ArchBottom, TaskKind::PierCircle] {
+                let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
+                is_smooth(&path);
+                let gap = least_gap(&shapes, &path);
+                assert!(gap > stand_off_m - ROUNDING_M, "{kind:?}: {gap} m, not {stand_off_m} m, {:?}", bridge.kind);
+                assert!(kind == TaskKind::ArchBottom || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_the_pier_is_circled_at_one_distance_and_closed() {
+    let bridge = suspension();
+    let members = bridge.members();
+    let pier = Convex::new(&named(&members, "pier-start").next().unwrap().solid);
+    let path = bridge.task_path(TaskKind::PierCircle, 4.5).unwrap();
+    assert!(path.closed);
+    is_smooth(&path);
+    for (p, look) in path.path_m.iter().zip(&path.look) {
+        let near = pier.nearest(*p);
+        assert!((near.distance_m - 4.5).abs() < ROUNDING_M);
+        assert!((near.normal + *look).norm() < ROUNDING_M, "looks square at the pier");
+    }
+    let around: f64 = (0..path.path_m.len()).map(|k| (path.path_m[(k + 1) % path.path_m.len()] - path.path_m[k]).norm()).sum();
+    // The offset of a 4 m by 13 m rectangle; the polyline cuts the arcs a little short.
+    let exact = 2.0 * (4.0 + 13.0) + std::f64::consts::TAU * 4.5;
+    assert!(around < exact && around > 0.999 * exact, "{around} m of {exact} m");
+}
+
+#[test]
+fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
+    // Half of 1.07 m tip to tip (M30 class) and the margin of 0.5 m.
+    const NEEDED_M: f64 = 0.5 * 1.07 + 0.5;
+    let bridge = arch();
+    let path = bridge.task_path(TaskKind::Interlayer, 4.0).unwrap();
+    is_smooth(&path);
+    let gap = least_gap(&solids(&bridge.members()), &path);
+    assert!(gap >= NEEDED_M, "{gap} m");
+    // Between deck and arch: floorbeams over it, ribs beside and under it, all within a cramped reach.
+    for p in &path.path_m {
+        let [x, y, z] = bridge.placement().local(*p);
+        let a = Arch::default();
+        assert!(y.abs() < 0.5 * a.rib_spacing_m && z < a.floorbeam_z_m() && z > a.extrados_z_m(0.0), "{x} {z}");
+    }
+}
+
+#[test]
+fn prop_the_paths_look_at_the_bridge() {
+    // The slab is 0.23 m thick seen from level with it; under the arch a look may pass between beams out to the sky; around a corner of
+    // the pier all looks aim at its very edge, which rounding may miss.
+    for (bridge, kind, share) in [
+        (arch(), TaskKind::SlabSide, 1.0),
+        (arch(), TaskKind::ArchBottom, 0.95),
+        (arch(), TaskKind::Interlayer, 0.6),
+        (suspension(), TaskKind::PierCircle, 0.9),
+    ] {
+        let shapes = solids(&bridge.members());
+        let path = bridge.task_path(kind, 4.5).unwrap();
+        let hits =
+            path.path_m.iter().zip(&path.look).filter(|(p, l)| shapes.iter().any(|s| s.ray(**p, **l, 40.0).is_some())).count();
+        assert!(hits as f64 >= share * path.look.len() as f64, "{kind:?}: {hits} of {}", path.look.len());
+    }
+}
+
+#[test]
+fn exact_numbers_that_do_not_go_together_are_refused_with_their_line() {
+    let text = spandrel_model::shipped::DRILL_GAP;
+    let wide = text.replacen("heading_deg = 90.0\n\n", "heading_deg = 90.0\n[bridges.arch]\nrib_width_m = 5.5\n\n", 1);
+    assert_ne!(text, wide);
+    let problems = spandrel_model::scenario::read("wide.toml", &wide, &|_| Err(String::new())).unwrap_err();
+    let said = problems.to_string();
+    assert!(said.contains("rib_width_m = 5.5") && said.contains("at most 4.80"), "{said}");
+    assert!(said.starts_with("wide.toml:"), "{said}");
+}
+
+/// Elements of the MBEI (numbers and names in the AASHTO manual, 2015 interims) by the material and the part that they name.
+const MBEI: [(u32, &[&str]); 18] = [
+    (12, &["slab"]),
+    (107, &["girder"]),
+    (113, &["stringer"]),
+    (116, &["stringer"]),
+    (144, &["rib", "strut"]),
+    (147, &["cable"]),
+    (148, &["hanger"]),
+    (152, &["floorbeam"]),
+    (155, &["floorbeam"]),
+    (205, &["column"]),
+    (207, &["tower"]),
+    (210, &["pier"]),
+    (215, &["abutment", "skewback"]),
+    (220, &["anchorage"]),
+    (311, &["bearing"]),
+    (313, &["bearing"]),
+    (330, &["post", "rail"]),
+    (331, &["post", "rail"]),
+];
+
+#[test]
+fn exact_every_member_carries_the_element_number_of_what_it_is() {
+    let steel = [107, 113, 147, 148, 152, 207, 311, 313, 330];
+    for bridge in many() {
+        for member in bridge.members() {
+            let part = member.name.split('/').nth(1).unwrap();
+            let names = MBEI.iter().find(|(number, _)| *number == member.element).map(|(_, names)| *names);
+            let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
+            assert!(fits, "{} is element {}", member.name, member.element);
+            // The arch is of concrete; of the suspension bridge deck, piers and anchorages are.
+            let concrete =
+                matches!(bridge.kind, BridgeKind::Arch(_)) || ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n));
+            assert_eq!(concrete, !steel.contains(&member.element), "{} is element {}", member.name, member.element);
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! The exported geometry against the geometry that collides: the same surfaces, both ways.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_model::site::convex::Convex;
+use spandrel_model::site::{Site, gltf};
+use std::collections::BTreeMap;
+
+/// m; a 32-bit float carries positions within 1 km to 6e-5 m.
+const ROUNDING_M: f64 = 6e-5;
+/// m; how far rounding may carry the place where a ray with at least [`LEAST_COS`] hits.
+const ALONG_M: f64 = 2e-3;
+/// Flatter rays are not compared.
+const LEAST_COS: f64 = 0.1;
+
+type Triangle = [Vec3<Enu>; 3];
+
+struct Node {
+    element: Option<u32>,
+    corners: Vec<Vec3<Enu>>,
+    triangles: Vec<Triangle>,
+}
+
+fn site() -> Site {
+    let text = spandrel_model::shipped::TWO_BRIDGES;
+    let scenario =
+        spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap_or_else(|p| panic!("{p}"));
+    Site::build(&scenario, 1)
+}
+
+/// Parsed by the gltf crate, back into east, north, up.
+fn nodes(site: &Site) -> BTreeMap<String, Node> {
+    let (document, buffers, _) = ::gltf::import_slice(gltf::glb(site)).unwrap();
+    let back = |p: [f32; 3]| Vec3::new(f64::from(p[0]), -f64::from(p[2]), f64::from(p[1]));
+    let node = |node: ::gltf::Node| {
+        let primitive = node.mesh().unwrap().primitives().next().unwrap();
+        let reader = primitive.reader(|buffer| Some(&buffers[buffer.index()].0));
+        let corners: Vec<Vec3<Enu>> = reader.read_positions().unwrap().map(back).collect();
+        let indices: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+        let triangles = indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|k| corners[k as usize])).collect();
+        let extras: serde_json::Value = serde_json::from_str(node.extras().as_ref().unwrap().get()).unwrap();
+        let element = extras["element"].as_u64().map(|e| e as u32);
+        (node.name().unwrap().to_string(), Node { element, corners, triangles })
+    };
+    document.nodes().map(node).collect()
+}
+
+/// Unit normal, by the order of the corners.
+fn normal(t: &Triangle) -> Vec3<Enu> {
+    (t[1] - t[0]).cross(t[2] - t[0]).unit()
+}
+
+/// Distance along a ray to a triangle widened by the rounding of its corners, with the cosine of its incidence.
+fn hit(origin: Vec3<Enu>, direction: Vec3<Enu>, t: &Triangle) -> Option<(f64, f64)> {
+    let normal = normal(t);
+    let cos = normal.dot(direction);
+    let distance = normal.dot(t[0] - origin) / cos;
+    let p = origin + direction * distance;
+    let inside = |a: Vec3<Enu>, b: Vec3<Enu>| normal.cross((b - a).unit()).dot(p - a) >= -ALONG_M;
+    let within = inside(t[0], t[1]) && inside(t[1], t[2]) && inside(t[2], t[0]);
+    (distance >= 0.0 && within).then_some((distance, -cos))
+}
+
+fn direction(random: &mut RandomStream) -> Vec3<Enu> {
+    Vec3::new(random.normal(), random.normal(), random.normal()).unit()
+}
+
+#[test]
+fn val_every_member_of_the_file_is_the_solid_that_collides() {
+    let site = site();
+    let nodes = nodes(&site);
+    assert_eq!(nodes.len(), site.members().len() + 3, "members, ground, water, pad");
+    let mut random = RandomStream::new(1, "export");
+    for (k, member) in site.members().iter().enumerate() {
+        let node = &nodes[&member.name];
+        let shape = site.geometry().shape(k).unwrap();
+        assert_eq!(node.element, Some(member.element), "{}", member.name);
+        assert_eq!(node.triangles.len(), member.solid.triangles().len());
+        for corner in &node.corners {
+            assert!(shape.nearest(*corner).distance_m.abs() < ROUNDING_M, "{}", member.name);
+        }
+        for t in &node.triangles {
+            on_its_surface(&member.name, shape, t, &mut random);
+        }
+        rays_agree(&member.name, shape, node, &mut random);
+    }
+}
+
+/// From before any point of a triangle of the file, the collider is hit right there.
+fn on_its_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut RandomStream) {
+    let (mut a, mut b) = (random.uniform(), random.uniform());
+    if a + b > 1.0 {
+        (a, b) = (1.0 - a, 1.0 - b);
+    }
+    let middle = (t[0] + t[1] + t[2]) / 3.0;
+    // Off the very edge, where rounding decides.
+    let p = middle.lerp(t[0] + (t[1] - t[0]) * a + (t[2] - t[0]) * b, 0.9);
+    assert!(shape.nearest(p).distance_m.abs() < ROUNDING_M, "{name}");
+    let mut from = direction(random);
+    if from.dot(normal(t)) < 0.0 {
+        from = -from;
+    }
+    if from.dot(normal(t)) > LEAST_COS {
+        let (distance, _) = shape.ray(p + from * 3.0, -from, 10.0).unwrap_or_else(|| panic!("{name}: a ray at its face misses"));
+        assert!((distance - 3.0).abs() < ALONG_M, "{name}: hit after {distance} m, not 3 m");
+    }
+}
+
+/// Where a ray hits the collider, it hits the file's triangles.
+fn rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut RandomStream) {
+    let (low, high) = shape.bounds();
+    for _ in 0..8 {
+        let aim = Vec3::new(
+            random.range(low.east(), high.east()),
+            random.range(low.north(), high.north()),
+            random.range(low.up(), high.up()),
+        );
+        let towards = direction(random);
+        let origin = aim - towards * (high - low).norm();
+        let Some((distance, normal)) = shape.ray(origin, towards, f64::INFINITY) else { continue };
+        if -normal.dot(towards) > LEAST_COS {
+            let first = node.triangles.iter().filter_map(|t| hit(origin, towards, t)).filter(|h| h.1 > 0.0);
+            let first = first.map(|h| h.0).fold(f64::INFINITY, f64::min);
+            assert!((first - distance).abs() < ALONG_M / LEAST_COS, "{name}: {distance} m, in the file {first} m");
+        }
+    }
+}
+
+#[test]
+fn val_a_ray_through_the_site_ends_where_it_ends_in_the_file() {
+    let site = site();
+    let nodes = nodes(&site);
+    let faces: Vec<&Triangle> = nodes.values().flat_map(|n| &n.triangles).collect();
+    let mut random = RandomStream::new(2, "export");
+    let (mut compared, mut ground, mut bridge) = (0, 0, 0);
+    for k in 0..600 {
+        let spread = if k % 2 == 0 { 40.0 } else { 150.0 };
+        let origin = Vec3::<Enu>::new(random.range(-spread, spread), random.range(-spread, spread), random.range(1.0, 60.0));
+        if site.geometry().nearest(origin, 0.01).is_some() {
+            continue;
+        }
+        let towards = direction(&mut random);
+        let found = site.geometry().ray(origin, towards, 190.0);
+        let first =
+            faces.iter().filter_map(|t| hit(origin, towards, t)).fold((f64::INFINITY, 1.0), |a, b| if b.0 < a.0 { b } else { a });
+        if first.1.abs() < LEAST_COS || found.is_some_and(|f| -f.normal.dot(towards) < LEAST_COS) {
+            continue;
+        }
+        compared += 1;
+        match found {
+            Some(f) => {
+                assert!(
+                    (f.distance_m - first.0).abs() < ALONG_M / LEAST_COS,
+                    "{origin:?} {towards:?}: {f:?}, in the file {first:?}"
+                );
+                ground += usize::from(f.surface == spandrel_model::site::Surface::Terrain);
+                bridge += usize::from(f.surface == spandrel_model::site::Surface::Bridge);
+            }
+            None => assert!(first.0 > 190.0 - ALONG_M / LEAST_COS, "{origin:?} {towards:?}: nothing, in the file {first:?}"),
+        }
+    }
+    assert!(compared > 400 && ground > 40 && bridge > 20, "{compared}, {ground} on the ground, {bridge} on bridges");
+}

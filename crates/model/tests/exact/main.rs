@@ -1,0 +1,6 @@
+//! Geometry against closed forms.
+
+mod bridges;
+mod geometry;
+mod ground;
+mod site;

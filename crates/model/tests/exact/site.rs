@@ -1,0 +1,400 @@
+//! The site's geometry queries against slow and simple ones over the same faces.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::{Scenario, TaskKind};
+use spandrel_model::site::geometry::Geometry;
+use spandrel_model::site::{Contact, Probe, Surface};
+
+/// m; rounding of positions some hundred metres from the origin.
+const ROUNDING_M: f64 = 1e-9;
+
+fn scenario(text: &str) -> Scenario {
+    spandrel_model::scenario::read("shipped.toml", text, &|_| Err("no file".into())).unwrap_or_else(|p| panic!("{p}"))
+}
+
+fn two_bridges() -> Scenario {
+    scenario(spandrel_model::shipped::TWO_BRIDGES)
+}
+
+pub type Triangle = [Vec3<Enu>; 3];
+
+fn triangles(geometry: &Geometry) -> Vec<Triangle> {
+    let of = |solid: &spandrel_model::scenario::bridges::Solid| {
+        solid.triangles().into_iter().map(|t| t.map(|k| solid.vertices_m[k as usize])).collect::<Vec<_>>()
+    };
+    geometry.members().iter().flat_map(|m| of(&m.solid)).collect()
+}
+
+/// Distance to a triangle: inside its prism the height over it, else the nearest of its sides.
+pub fn to_triangle(p: Vec3<Enu>, t: &Triangle) -> f64 {
+    let normal = (t[1] - t[0]).cross(t[2] - t[0]).unit();
+    let sides = [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
+    if sides.iter().all(|(a, b)| normal.cross(*b - *a).dot(p - *a) >= 0.0) {
+        return normal.dot(p - t[0]).abs();
+    }
+    let to_side = |(a, b): &(Vec3<Enu>, Vec3<Enu>)| {
+        let along = *b - *a;
+        (p - (*a + along * ((p - *a).dot(along) / along.norm_squared()).clamp(0.0, 1.0))).norm()
+    };
+    sides.iter().map(to_side).fold(f64::INFINITY, f64::min)
+}
+
+/// Where a ray meets a triangle's plane within the triangle.
+fn ray_to_triangle(origin: Vec3<Enu>, direction: Vec3<Enu>, t: &Triangle) -> Option<f64> {
+    let normal = (t[1] - t[0]).cross(t[2] - t[0]).unit();
+    let distance = normal.dot(t[0] - origin) / normal.dot(direction);
+    let p = origin + direction * distance;
+    let within =
+        [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])].iter().all(|(a, b)| normal.cross((*b - *a).unit()).dot(p - *a) >= -ROUNDING_M);
+    (distance >= 0.0 && within).then_some(distance)
+}
+
+/// Points strewn around the members.
+fn points(geometry: &Geometry, count: usize) -> Vec<Vec3<Enu>> {
+    let mut random = RandomStream::new(6, "points");
+    let members = geometry.members();
+    let one = |_| {
+        let member = &members[(random.uniform() * members.len() as f64) as usize % members.len()];
+        let vertex = member.solid.vertices_m[0];
+        vertex + Vec3::new(random.normal(), random.normal(), random.normal()) * random.range(0.05, 4.0)
+    };
+    (0..count).map(one).collect()
+}
+
+#[test]
+fn prop_the_nearest_member_is_the_nearest_of_all_faces() {
+    let geometry = Geometry::new(&two_bridges());
+    let faces = triangles(&geometry);
+    let mut outside = 0;
+    for p in points(&geometry, 250) {
+        let near = geometry.nearest_member(p, f64::INFINITY).unwrap();
+        assert!((near.point_m + near.normal * near.distance_m - p).norm() < ROUNDING_M);
+        assert!((near.normal.norm() - 1.0).abs() < ROUNDING_M);
+        let within = (0..geometry.members().len()).any(|k| geometry.shape(k).unwrap().nearest(p).distance_m < 0.0);
+        assert_eq!(near.distance_m < 0.0, within);
+        if !within {
+            outside += 1;
+            let brute = faces.iter().map(|t| to_triangle(p, t)).fold(f64::INFINITY, f64::min);
+            assert!((near.distance_m - brute).abs() < ROUNDING_M, "{p:?}: {} m, by faces {brute} m", near.distance_m);
+            let capped = geometry.nearest_member(p, 1.5).map(|n| n.distance_m);
+            assert_eq!(capped, (brute <= 1.5).then_some(near.distance_m));
+        }
+    }
+    assert!(outside > 150, "{outside}");
+}
+
+#[test]
+fn prop_a_ray_hits_the_first_of_all_faces() {
+    let geometry = Geometry::new(&two_bridges());
+    let faces = triangles(&geometry);
+    let mut random = RandomStream::new(7, "directions");
+    let mut hits = 0;
+    for p in points(&geometry, 400) {
+        if geometry.nearest(p, 0.0).is_some() {
+            continue;
+        }
+        let axis = Vec3::new(0.0, 0.0, if random.uniform() < 0.5 { 1.0 } else { -1.0 });
+        let any = Vec3::new(random.normal(), random.normal(), random.normal()).unit();
+        let direction = if random.uniform() < 0.2 { axis } else { any };
+        let hit = geometry.ray(p, direction, 60.0);
+        let brute = faces.iter().filter_map(|t| ray_to_triangle(p, direction, t)).fold(f64::INFINITY, f64::min);
+        match hit {
+            Some(hit) if hit.surface == Surface::Bridge => {
+                hits += 1;
+                assert!((hit.distance_m - brute).abs() < 1e-7, "{p:?} {direction:?}: {} m, by faces {brute} m", hit.distance_m);
+                assert!(hit.normal.dot(direction) <= 0.0);
+            }
+            Some(other) => assert!(other.distance_m <= brute, "{other:?} behind a member at {brute} m"),
+            None => assert!(brute > 60.0, "{p:?} {direction:?}: nothing, by faces {brute} m"),
+        }
+    }
+    assert!(hits > 80, "{hits}");
+}
+
+fn capsule(p: Vec3<Enu>, random: &mut RandomStream) -> (Vec3<Enu>, Vec3<Enu>, f64) {
+    let half = Vec3::new(random.normal(), random.normal(), random.normal()).unit() * random.range(0.02, 0.4);
+    (p - half, p + half, random.range(0.005, 0.1))
+}
+
+#[test]
+fn prop_no_part_of_a_capsule_lies_deeper_than_its_deepest_contact() {
+    // m; half the spacing of the points tried along the longest capsule: distance changes no faster than that.
+    const COARSE_M: f64 = 0.5 * 0.8 / 400.0;
+    // m; what counts as level.
+    const LEVEL_M: f64 = 2e-7;
+    const MARGIN_M: f64 = 0.3;
+    let geometry = Geometry::new(&two_bridges());
+    let mut random = RandomStream::new(8, "capsules");
+    let mut found = 0;
+    for p in points(&geometry, 1500) {
+        let (a_m, b_m, radius_m) = capsule(p, &mut random);
+        let mut contacts: Vec<Contact> = Vec::new();
+        geometry.contacts(&Probe::Capsule { a_m, b_m, radius_m }, MARGIN_M, &mut contacts);
+        contacts.retain(|c| c.surface == Surface::Bridge);
+        let member = |k: usize| {
+            let shape = geometry.shape(k).unwrap();
+            (0..=400).map(|i| shape.nearest(a_m.lerp(b_m, f64::from(i) / 400.0)).distance_m).fold(f64::INFINITY, f64::min)
+                - radius_m
+        };
+        let mut objects: Vec<u32> = contacts.iter().map(|c| c.object.0).collect();
+        assert!(objects.is_sorted(), "members come in their own order");
+        objects.dedup();
+        for k in objects {
+            let deepest = contacts.iter().filter(|c| c.object.0 == k).map(|c| c.gap_m).fold(f64::INFINITY, f64::min);
+            let tried = member(k as usize);
+            assert!(deepest < tried + LEVEL_M && deepest > tried - COARSE_M, "{deepest} m, tried {tried} m");
+            found += 1;
+        }
+        // What is not reported is out of reach.
+        let near = geometry.nearest_member(p, MARGIN_M + radius_m);
+        assert!(near.is_none_or(|n| contacts.iter().any(|c| c.object == n.object)));
+    }
+    assert!(found > 800, "{found}");
+}
+
+#[test]
+fn exact_a_capsule_on_the_deck_rests_on_both_ends() {
+    let scenario = two_bridges();
+    let geometry = Geometry::new(&scenario);
+    // The middle of a panel of the arch's deck, 34 m up.
+    let (a_m, b_m) = (Vec3::new(3.2, 0.3, 34.05), Vec3::new(3.5, 0.5, 34.05));
+    let mut contacts = Vec::new();
+    geometry.contacts(&Probe::Capsule { a_m, b_m, radius_m: 0.05 }, 0.01, &mut contacts);
+    assert_eq!(contacts.len(), 2, "{contacts:?}");
+    for (contact, end) in contacts.iter().zip([a_m, b_m]) {
+        assert!(contact.gap_m.abs() < ROUNDING_M && (contact.normal - Vec3::new(0.0, 0.0, 1.0)).norm() < ROUNDING_M);
+        assert!((contact.point_m - (end - Vec3::new(0.0, 0.0, 0.05))).norm() < ROUNDING_M);
+    }
+}
+
+#[test]
+fn prop_nothing_stands_within_the_free_radius() {
+    let scenario = two_bridges();
+    let geometry = Geometry::new(&scenario);
+    let mut random = RandomStream::new(9, "balls");
+    let pad = scenario.ground_team.pad_m;
+    let mut places = points(&geometry, 150);
+    places
+        .extend((0..150).map(|_| pad + Vec3::new(random.range(-60.0, 60.0), random.range(-60.0, 60.0), random.range(0.0, 8.0))));
+    for p in places {
+        let free = geometry.free_radius(p, 4.0).unwrap_or(4.0);
+        for _ in 0..60 {
+            let q = p + Vec3::new(random.normal(), random.normal(), random.normal()).unit() * free * random.range(0.0, 0.999);
+            let mut contacts = Vec::new();
+            if free > 0.0 {
+                geometry.contacts(&Probe::Ball { centre_m: q, radius_m: 0.0 }, 0.0, &mut contacts);
+            }
+            assert_eq!(contacts, [], "{p:?} is free for {free} m but not at {q:?}");
+        }
+    }
+}
+
+#[test]
+fn exact_crew_truck_and_pad_stand_on_the_ground() {
+    // m; the pad's slab lies 0.05 m over the ground, feet and wheels on it.
+    const HANDS_BREADTH_M: f64 = 0.06;
+    for text in [spandrel_model::shipped::TWO_BRIDGES, spandrel_model::shipped::PRACTICE] {
+        let scenario = scenario(text);
+        let geometry = Geometry::new(&scenario);
+        let team = &scenario.ground_team;
+        for p in [team.inspector_m, team.truck_m] {
+            let over = p.up() - geometry.ground_up_m(p.east(), p.north());
+            assert!(over.abs() < HANDS_BREADTH_M, "{over} m over the ground");
+        }
+        for (e, n) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0), (0.0, 0.0)] {
+            let p = team.pad_m + Vec3::new(e, n, 0.0) * team.pad_half_m;
+            let over = p.up() - geometry.terrain.ground.ground(p.east(), p.north()).0;
+            assert!(over > 0.0 && over < HANDS_BREADTH_M, "{over} m over the ground");
+            assert_eq!(geometry.ground_up_m(p.east(), p.north()), p.up());
+        }
+    }
+}
+
+#[test]
+fn exact_the_ground_meets_the_decks_and_leaves_the_spans_free() {
+    // m; the road lies 0.15 m under the deck, and the ground's grid of 4 m may cut the edge.
+    const STEP_M: f64 = 0.5;
+    let scenario = two_bridges();
+    let geometry = Geometry::new(&scenario);
+    for bridge in &scenario.bridges {
+        let deck = bridge.centre_m.up();
+        let at = |x: f64| bridge.placement().point([x, 0.0, 0.0]);
+        for side in [-1.0, 1.0] {
+            let p = at(side * (0.5 * bridge.deck_length_m() + 5.0));
+            let step = deck - geometry.ground_up_m(p.east(), p.north());
+            assert!(step.abs() < STEP_M, "{}: {step} m from the deck down to the road", bridge.name);
+        }
+        for k in -8..=8 {
+            let p = at(f64::from(k) / 8.0 * bridge.opening_half_m());
+            assert!(deck - geometry.ground_up_m(p.east(), p.north()) > 1.5, "{}: the ground reaches the deck", bridge.name);
+        }
+    }
+    let foot = |name: &str| {
+        let member = geometry.members().iter().find(|m| m.name == name).unwrap();
+        let low = member.solid.vertices_m.iter().fold(f64::INFINITY, |low, v| low.min(v.up()));
+        (member.solid.vertices_m[0], low)
+    };
+    for name in [
+        "arch/skewback-start",
+        "arch/skewback-end",
+        "arch/abutment-start",
+        "arch/abutment-end",
+        "suspension/pier-start",
+        "suspension/pier-end",
+        "suspension/anchorage-start",
+        "suspension/anchorage-end",
+    ] {
+        let (p, low) = foot(name);
+        assert!(low < geometry.ground_up_m(p.east(), p.north()), "{name} stands on nothing");
+    }
+}
+
+#[test]
+fn exact_the_orbit_is_flown_two_to_four_metres_over_the_water() {
+    let scenario = two_bridges();
+    let task = scenario.tasks.iter().find(|t| t.kind == TaskKind::PierCircle).unwrap();
+    for p in &task.path_m {
+        let over = p.up() - scenario.terrain.water_level_m;
+        assert!((2.0..=4.0).contains(&over), "{over} m");
+    }
+}
+
+#[test]
+fn regress_two_builds_answer_with_the_same_bits() {
+    let (one, other) = (Geometry::new(&two_bridges()), Geometry::new(&two_bridges()));
+    for p in points(&one, 300) {
+        assert_eq!(one.nearest(p, 50.0), other.nearest(p, 50.0));
+        assert_eq!(one.ray(p, Vec3::new(0.6, 0.0, 0.8), 50.0), other.ray(p, Vec3::new(0.6, 0.0, 0.8), 50.0));
+    }
+}
+
+#[test]
+fn prop_the_tightest_place_of_a_piece_of_path_is_the_least_of_many() {
+    // m; half the spacing of the places tried, and the millimetre within which the search stops.
+    const COARSE_M: f64 = 0.5 * 6.0 / 600.0 + 1e-3;
+    let geometry = Geometry::new(&two_bridges());
+    let mut random = RandomStream::new(11, "pieces");
+    let mut tight = 0;
+    for from in points(&geometry, 150) {
+        let to = from + Vec3::new(random.normal(), random.normal(), random.normal()).unit() * random.range(0.0, 6.0);
+        let tried = (0..=600)
+            .filter_map(|k| geometry.nearest(from.lerp(to, f64::from(k) / 600.0), 5.0))
+            .map(|n| n.distance_m)
+            .fold(f64::INFINITY, f64::min);
+        let needed_m = random.range(0.2, 2.0);
+        match geometry.tightest(from, to, needed_m) {
+            Some((at, near)) => {
+                tight += 1;
+                assert!((near.distance_m - tried).abs() < COARSE_M && near.distance_m < needed_m, "{near:?}, tried {tried}");
+                assert_eq!(geometry.nearest(at, 5.0).map(|n| n.distance_m), Some(near.distance_m));
+            }
+            None => assert!(tried > needed_m - COARSE_M, "{tried} m, asked for {needed_m} m"),
+        }
+    }
+    assert!(tight > 50, "{tight}");
+}
+
+#[test]
+fn prop_beside_steep_ground_the_free_radius_ends_at_the_nearest_triangle() {
+    let scenario = two_bridges();
+    let geometry = Geometry::new(&scenario);
+    let (corners, triangles) = geometry.terrain.ground.triangles();
+    let ground: Vec<Triangle> = triangles.iter().map(|t| t.map(|k| corners[k as usize])).collect();
+    let mut faces = triangles_near(&ground, Vec3::zero(), 250.0);
+    faces.extend(self::triangles(&geometry));
+    let pad = geometry.pad();
+    faces.extend(pad.solid.triangles().iter().map(|t| t.map(|k| pad.solid.vertices_m[k as usize])));
+    let mut random = RandomStream::new(12, "slopes");
+    let mut steep = 0;
+    for _ in 0..400 {
+        let (e, n) = (random.range(-140.0, 140.0), random.range(-60.0, 90.0));
+        let (height, normal) = geometry.terrain.ground.ground(e, n);
+        let p = Vec3::new(e, n, height.max(scenario.terrain.water_level_m) + random.range(0.05, 4.0));
+        let near = triangles_near(&faces, p, 5.0);
+        let brute = near.iter().map(|t| to_triangle(p, t)).fold(p.up() - scenario.terrain.water_level_m, f64::min);
+        if geometry.nearest_member(p, 0.0).is_some() {
+            continue;
+        }
+        let free = geometry.free_radius(p, 5.0).unwrap_or(5.0);
+        assert!((free - brute.min(5.0)).abs() < ROUNDING_M, "{p:?}: {free} m, by triangles {brute} m");
+        steep += usize::from(normal.up() < 0.85 && free < 4.0);
+    }
+    assert!(steep > 30, "{steep}");
+}
+
+/// Triangles with a corner-box that comes within reach of a point.
+fn triangles_near(all: &[Triangle], p: Vec3<Enu>, reach_m: f64) -> Vec<Triangle> {
+    let near = |t: &&Triangle| {
+        (0..3).all(|k| {
+            let at = t.map(|c| c.array()[k]);
+            let (low, high) = (at[0].min(at[1]).min(at[2]), at[0].max(at[1]).max(at[2]));
+            low - reach_m <= p.array()[k] && p.array()[k] <= high + reach_m
+        })
+    };
+    all.iter().filter(near).copied().collect()
+}
+
+#[test]
+fn exact_shipped_tasks_one_two_and_four_keep_four_metres_from_every_member() {
+    // design: stand-off of tasks 1, 2 and 4, m.
+    const STAND_OFF_M: f64 = 4.0;
+    let mut seen = 0;
+    for text in [
+        spandrel_model::shipped::TWO_BRIDGES,
+        spandrel_model::shipped::PRACTICE,
+        spandrel_model::shipped::DRILL_CURVE_UNDER_ARCH,
+        spandrel_model::shipped::DRILL_ORBIT,
+    ] {
+        let scenario = scenario(text);
+        let geometry = Geometry::new(&scenario);
+        for task in &scenario.tasks {
+            if !matches!(task.kind, TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::PierCircle) {
+                continue;
+            }
+            seen += 1;
+            let points = &task.path_m;
+            for k in 0..points.len() - usize::from(!task.closed) {
+                for share in [0.0, 0.25, 0.5, 0.75] {
+                    let p = points[k].lerp(points[(k + 1) % points.len()], share);
+                    let near = geometry.nearest_member(p, STAND_OFF_M);
+                    assert_eq!(near, None, "{}: point {k} of {}", scenario.name, task.name);
+                }
+            }
+        }
+    }
+    assert_eq!(seen, 8);
+}
+
+#[test]
+fn prop_a_capsule_over_the_ground_touches_it_where_it_is_nearest() {
+    // m; half the spacing of the points tried, and what counts as level.
+    const COARSE_M: f64 = 0.5 * 6.0 / 400.0;
+    const LEVEL_M: f64 = 2e-7;
+    let geometry = Geometry::new(&two_bridges());
+    let ground = &geometry.terrain.ground;
+    let mut random = RandomStream::new(13, "ridges");
+    let (mut touching, mut across) = (0, 0);
+    for _ in 0..3000 {
+        // Over the crests of the roads beside the arch's ends, long and nearly level.
+        let (e, n) = (random.range(62.0, 90.0), random.range(-9.0, 9.0));
+        let half = Vec3::new(random.normal(), random.normal(), 0.1 * random.normal()).unit() * random.range(0.3, 3.0);
+        let middle = Vec3::new(e, n, ground.ground(e, n).0 + random.range(0.0, 0.6));
+        let (a_m, b_m, radius_m) = (middle - half, middle + half, random.range(0.005, 0.1));
+        let signed = |t: f64| ground.nearest(a_m.lerp(b_m, t), 5.0).map_or(5.0, |n| n.distance_m);
+        let tried = (0..=400).map(|k| signed(f64::from(k) / 400.0)).fold(f64::INFINITY, f64::min) - radius_m;
+        if tried < -radius_m {
+            continue;
+        }
+        let mut contacts: Vec<Contact> = Vec::new();
+        geometry.contacts(&Probe::Capsule { a_m, b_m, radius_m }, 0.2, &mut contacts);
+        let gaps = contacts.iter().filter(|c| c.surface == Surface::Terrain).map(|c| c.gap_m);
+        let deepest = gaps.fold(f64::INFINITY, f64::min);
+        if tried < 0.2 - COARSE_M {
+            touching += 1;
+            assert!(deepest > tried - COARSE_M && deepest < tried + LEVEL_M, "{deepest} m, tried {tried} m");
+            across += usize::from(tried < signed(0.0).min(signed(1.0)) - radius_m - 0.01);
+        }
+    }
+    assert!(touching > 200 && across > 50, "{touching}, {across} of them between the ends");
+}

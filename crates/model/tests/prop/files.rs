@@ -1,0 +1,253 @@
+//! Scenario and vehicle files, spoilt by seeded mutations: refused with a place and a reason, or read into something that builds.
+
+use spandrel_model::frames::Vec3;
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::bridges::Field;
+use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::suspension::Suspension;
+use spandrel_model::scenario::{Defects, Scenario, Terrain};
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::toml::Problems;
+use std::path::Path;
+
+const SCENARIO_MUTANTS: usize = 2_000;
+const VEHICLE_MUTANTS: usize = 500;
+/// Bridges with numbers drawn from their whole ranges, per type.
+const BRIDGES: usize = 150;
+/// Most mutations of one text.
+const MOST_SPOILS: usize = 3;
+
+/// Numbers that readers stumble over.
+const EXTREMES: [&str; 14] = [
+    "1e999",
+    "-1e999",
+    "nan",
+    "inf",
+    "-inf",
+    "-1",
+    "0",
+    "-0.0",
+    "1e-320",
+    "9223372036854775807",
+    "-9223372036854775808",
+    "99999999999999999999",
+    "0x7fffffff",
+    "1979-05-27",
+];
+
+fn texts(folder: &str) -> Vec<String> {
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(folder);
+    let mut paths: Vec<_> = std::fs::read_dir(root).unwrap().map(|e| e.unwrap().path()).collect();
+    paths.retain(|p| p.extension().is_some_and(|e| e == "toml"));
+    paths.sort();
+    paths.into_iter().map(|p| std::fs::read_to_string(p).unwrap()).collect()
+}
+
+fn read(text: &str) -> Result<Scenario, Problems> {
+    spandrel_model::scenario::read("job.toml", text, &|name| Err(format!("no file {name}")))
+}
+
+fn spoil(text: &str, random: &mut RandomStream) -> String {
+    let mut text = text.to_string();
+    for _ in 0..=random.below(MOST_SPOILS) {
+        text = spoil_once(&text, random);
+    }
+    text
+}
+
+fn spoil_once(text: &str, random: &mut RandomStream) -> String {
+    let mut lines: Vec<String> = text.lines().map(String::from).collect();
+    if lines.is_empty() {
+        return text.into();
+    }
+    let k = random.below(lines.len());
+    let other = random.below(lines.len());
+    match random.below(7) {
+        0 => return flip(text, random),
+        1 => return String::from_utf8_lossy(&text.as_bytes()[..random.below(text.len() + 1)]).into_owned(),
+        2 => drop(lines.remove(k)),
+        3 => lines.insert(other, lines[k].clone()),
+        4 => swap_values(&mut lines, k, other),
+        _ => with_extreme(&mut lines, random),
+    }
+    lines.join("\n")
+}
+
+fn flip(text: &str, random: &mut RandomStream) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    if !bytes.is_empty() {
+        let k = random.below(bytes.len());
+        bytes[k] ^= 1 << random.below(8);
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+fn halves(line: &str) -> Option<(String, String)> {
+    line.split_once(" = ").map(|(key, value)| (key.to_string(), value.to_string()))
+}
+
+fn swap_values(lines: &mut [String], a: usize, b: usize) {
+    if let (Some((key_a, value_a)), Some((key_b, value_b))) = (halves(&lines[a]), halves(&lines[b])) {
+        lines[a] = format!("{key_a} = {value_b}");
+        lines[b] = format!("{key_b} = {value_a}");
+    }
+}
+
+fn with_extreme(lines: &mut [String], random: &mut RandomStream) {
+    let keyed: Vec<usize> = (0..lines.len()).filter(|k| halves(&lines[*k]).is_some()).collect();
+    if keyed.is_empty() {
+        return;
+    }
+    let k = keyed[random.below(keyed.len())];
+    let extreme = EXTREMES[random.below(EXTREMES.len())];
+    if let Some((key, value)) = halves(&lines[k]) {
+        let inside = value.starts_with('[').then(|| value.split_once(',')).flatten();
+        lines[k] = inside.map_or_else(|| format!("{key} = {extreme}"), |(_, rest)| format!("{key} = [{extreme},{rest}"));
+    }
+}
+
+fn explained(problems: &Problems, file: &str, text: &str) {
+    assert!(!problems.0.is_empty(), "refused without a reason:\n{text}");
+    let last = text.lines().count().max(1) + 1;
+    for problem in &problems.0 {
+        let placed = problem.file == file && (1..=last).contains(&problem.line);
+        assert!(placed && !problem.key.is_empty() && !problem.message.is_empty(), "{problem:?}\n{text}");
+        assert_eq!(problem.to_string().lines().count(), 1, "{problem:?}");
+    }
+}
+
+/// The site with a coarser field and at most one defect, so that thousands can be built; every bridge and task stays.
+fn quick(scenario: Scenario) -> Scenario {
+    let spacing_m = scenario.terrain.spacing_m.max(scenario.terrain.size_m / 25.0);
+    let count = scenario.defects.count.min(1);
+    Scenario {
+        terrain: Terrain { spacing_m, ..scenario.terrain.clone() },
+        defects: Defects { count, ..scenario.defects.clone() },
+        ..scenario
+    }
+}
+
+fn builds(scenario: Scenario, text: &str) {
+    let pad = scenario.ground_team.pad_m;
+    let site = Site::build(&quick(scenario), 3);
+    let near = site.nearest(pad + Vec3::new(0.0, 0.0, 5.0), 100.0, SimTime::from_s(1.0));
+    assert!(near.is_none_or(|n| n.distance_m.is_finite() && n.normal.norm().is_finite()), "{near:?}\n{text}");
+    let finite = |v: Vec3<_>| v.array().iter().all(|c| c.is_finite());
+    assert!(site.members().iter().all(|m| m.solid.vertices_m.iter().all(|v| finite(*v))), "{text}");
+    assert!(site.defects().iter().all(|d| finite(d.position_m) && finite(d.normal)), "{text}");
+}
+
+#[test]
+fn prop_a_spoilt_scenario_is_refused_with_a_place_or_builds() {
+    let texts = texts("scenarios");
+    let mut random = RandomStream::new(1, "prop.scenario-files");
+    let (mut accepted, mut refused) = (0, 0);
+    for _ in 0..SCENARIO_MUTANTS {
+        let text = spoil(&texts[random.below(texts.len())], &mut random);
+        match read(&text) {
+            Ok(scenario) => {
+                accepted += 1;
+                builds(scenario, &text);
+            }
+            Err(problems) => {
+                refused += 1;
+                explained(&problems, "job.toml", &text);
+            }
+        }
+    }
+    // Both outcomes must occur often, or the mutations test nothing.
+    assert!(accepted > SCENARIO_MUTANTS / 20 && refused > SCENARIO_MUTANTS / 4, "{accepted} accepted, {refused} refused");
+}
+
+#[test]
+fn prop_a_spoilt_aircraft_is_refused_with_a_place_or_finite() {
+    let texts = texts("vehicle-params");
+    let mut random = RandomStream::new(1, "prop.vehicle-files");
+    let (mut accepted, mut refused) = (0, 0);
+    for _ in 0..VEHICLE_MUTANTS {
+        let text = spoil(&texts[random.below(texts.len())], &mut random);
+        match spandrel_model::vehicle::read("aircraft.toml", &text) {
+            Ok(vehicle) => {
+                accepted += 1;
+                let flies = vehicle.rotor.idle_speed_rad_s < vehicle.rotor.max_speed_rad_s && vehicle.mass_kg > 0.0;
+                assert!(flies && (3..=8).contains(&vehicle.rotors.len()), "{text}");
+            }
+            Err(problems) => {
+                refused += 1;
+                explained(&problems, "aircraft.toml", &text);
+            }
+        }
+    }
+    assert!(accepted > VEHICLE_MUTANTS / 20 && refused > VEHICLE_MUTANTS / 4, "{accepted} accepted, {refused} refused");
+}
+
+fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
+    let task = if kind == "arch" { "interlayer" } else { "pier_circle" };
+    let numbers: Vec<String> = values.iter().map(|(key, value)| format!("{key} = {value:?}")).collect();
+    format!(
+        "format = 1\nname = \"one\"\ntitle = \"One\"\n\
+         [origin]\nlatitude_deg = 46.0\nlongitude_deg = 8.0\naltitude_m = 400.0\n\
+         [terrain]\nsize_m = 200.0\nspacing_m = 50.0\n\
+         [ground_team]\npad_m = [0.0, 300.0, 5.0]\ninspector_m = [4.0, 300.0, 5.0]\ntruck_m = [9.0, 300.0, 5.0]\n\
+         [[bridges]]\nname = \"b\"\ntype = \"{kind}\"\ncentre_m = [0.0, 0.0, 150.0]\n[bridges.{kind}]\n{}\n\
+         [[tasks]]\nname = \"t\"\nkind = \"{task}\"\nbridge = \"b\"\n[defects]\ncount = 1\n",
+        numbers.join("\n")
+    )
+}
+
+/// Every number at either end of its range, then many drawn together (whole where the code asks for it).
+fn number_sets(fields: &'static [Field]) -> Vec<Vec<(&'static str, f64)>> {
+    let mut random = RandomStream::new(2, "prop.bridges");
+    let mut sets: Vec<Vec<(&str, f64)>> = fields.iter().flat_map(|f| [vec![(f.key, f.min)], vec![(f.key, f.max)]]).collect();
+    for _ in 0..BRIDGES {
+        // A cubed draw stays near the default often enough that a good share of the sets fits together.
+        let mut near = |f: &Field| {
+            let draw = random.range(-1.0, 1.0);
+            let towards = if draw < 0.0 { f.min } else { f.max };
+            let value = f.default + (towards - f.default) * (draw * draw * draw).abs();
+            if ["panels", "stringers"].contains(&f.key) { value.round() } else { value }
+        };
+        sets.push(fields.iter().map(|f| (f.key, near(f))).collect());
+    }
+    sets
+}
+
+fn closed(scenario: &Scenario) {
+    for member in scenario.bridges.iter().flat_map(spandrel_model::scenario::Bridge::members) {
+        let solid = &member.solid;
+        let at = |k: u32| solid.vertices_m[k as usize];
+        let fan = |face: &Vec<u32>| -> f64 {
+            (1..face.len() - 1).map(|k| at(face[0]).cross(at(face[k])).dot(at(face[k + 1])) / 6.0).sum()
+        };
+        let volume_m3: f64 = solid.faces.iter().map(fan).sum();
+        assert!(volume_m3 > 0.0, "{} has a volume of {volume_m3} m3", member.name);
+    }
+}
+
+fn any_bridge_builds(kind: &str, fields: &'static [Field]) {
+    let mut accepted = 0;
+    let sets = number_sets(fields);
+    for values in &sets {
+        let text = bridge_text(kind, values);
+        match read(&text) {
+            Ok(scenario) => {
+                accepted += 1;
+                closed(&scenario);
+                builds(scenario, &text);
+            }
+            Err(problems) => explained(&problems, "job.toml", &text),
+        }
+    }
+    assert!(accepted > sets.len() / 10, "{accepted} of {} sets of numbers accepted", sets.len());
+}
+
+#[test]
+fn prop_any_legal_arch_builds_with_members_that_have_a_volume() {
+    any_bridge_builds("arch", Arch::FIELDS);
+}
+
+#[test]
+fn prop_any_legal_suspension_bridge_builds_with_members_that_have_a_volume() {
+    any_bridge_builds("suspension", Suspension::FIELDS);
+}

@@ -1,0 +1,149 @@
+//! Mistakes that people make in a scenario file, one at a time.
+
+use spandrel_model::toml::Problems;
+use std::path::Path;
+
+fn shipped() -> String {
+    std::fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios/two-bridges.toml")).unwrap()
+}
+
+fn problems(text: &str) -> Problems {
+    let result = spandrel_model::scenario::read("job.toml", text, &|name| Err(format!("no file {name}")));
+    result.err().unwrap_or(Problems(Vec::new()))
+}
+
+/// Line index and key of every line that sets one.
+fn keys(text: &str) -> Vec<(usize, String)> {
+    let key = |(k, line): (usize, &str)| line.split_once(" = ").map(|(key, _)| (k, key.to_string()));
+    text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')).filter_map(key).collect()
+}
+
+fn with_line(text: &str, at: usize, new: Option<&str>) -> String {
+    let lines = text.lines().enumerate();
+    lines.filter_map(|(k, line)| if k == at { new } else { Some(line) }).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn prop_every_misspelt_key_is_named_with_its_line_and_the_right_spelling() {
+    let text = shipped();
+    for (at, key) in keys(&text) {
+        let line = text.lines().nth(at).unwrap();
+        // Doubling the last letter is no other key.
+        let wrong = format!("{key}{}", key.chars().last().unwrap());
+        let problems = problems(&with_line(&text, at, Some(&line.replacen(&key, &wrong, 1))));
+        let suggestion = format!("unknown key; did you mean {key}?");
+        let named = problems.0.iter().any(|p| p.line == at + 1 && p.key.ends_with(&wrong) && p.message == suggestion);
+        assert!(named, "line {}: {wrong}: {problems}", at + 1);
+    }
+}
+
+#[test]
+fn prop_a_missing_required_key_is_named_and_any_other_may_go() {
+    let text = shipped();
+    let siblings = |_: &str| Err(String::new());
+    let asked = spandrel_model::scenario::read_asked("job.toml", &text, &siblings).1;
+    let mut required = 0;
+    for (at, key) in keys(&text) {
+        let section = text.lines().take(at).filter(|l| l.starts_with('[')).last().unwrap_or("");
+        let prefix = section.replace("[[", "").replace("]]", "[].").replace('[', "").replace(']', ".");
+        let prefix = if section.starts_with("[[") { section[2..section.len() - 2].to_string() + "[]." } else { prefix };
+        let path = format!("{prefix}{key}");
+        let is_required = asked[&path].default == "required";
+        let found = problems(&with_line(&text, at, None));
+        let named = found.0.iter().any(|p| p.key == path && p.message == "missing");
+        assert_eq!(named, is_required, "{path}: {found}");
+        required += usize::from(is_required);
+    }
+    assert!(required > 20, "{required} required keys");
+}
+
+#[track_caller]
+fn says(from: &str, to: &str, expected: &str) {
+    let text = shipped();
+    assert!(text.contains(from), "{from}");
+    assert_eq!(problems(&text.replacen(from, to, 1)).to_string(), expected);
+}
+
+#[test]
+fn regress_the_words_for_an_unknown_key() {
+    says(
+        "cloud_cover = 0.9",
+        "cloud_covr = 0.9",
+        "job.toml:91: light.cloud_covr = 0.9: unknown key; did you mean cloud_cover? \
+         (allowed: start_utc, cloud_cover, water_albedo, ground_albedo)",
+    );
+}
+
+#[test]
+fn regress_the_words_for_a_number_out_of_range() {
+    says(
+        "latitude_deg = 46.7052",
+        "latitude_deg = 467.052",
+        "job.toml:7: origin.latitude_deg = 467.052: out of range (allowed: -85 to 85)",
+    );
+}
+
+#[test]
+fn regress_the_words_for_a_wrong_type() {
+    says(
+        "altitude_m = 430.0",
+        "altitude_m = \"high\"",
+        "job.toml:9: origin.altitude_m = \"high\": not a number (allowed: -400 to 5000)",
+    );
+    says(
+        "pad_m = [-112.0, 78.0, 5.0]",
+        "pad_m = [-112.0, 78.0]",
+        "job.toml:23: ground_team.pad_m = [-112.0, 78.0]: not such a list (allowed: 3 numbers, each -5000 to 5000)",
+    );
+}
+
+#[test]
+fn regress_the_words_for_a_missing_key() {
+    says("longitude_deg = 8.3814\n", "", "job.toml:6: origin.longitude_deg: missing (allowed: -180 to 180)");
+}
+
+#[test]
+fn regress_the_words_for_an_unknown_bridge() {
+    says(
+        "bridge = \"suspension\"",
+        "bridge = \"suspenson\"",
+        "job.toml:64: tasks[].bridge = suspenson: no such bridge (allowed: a bridge of this file: arch, suspension)",
+    );
+}
+
+#[test]
+fn regress_the_words_for_numbers_that_do_not_fit_together() {
+    says("spacing_m = 4.0", "spacing_m = 1.0", "");
+    says(
+        "size_m = 800.0\nspacing_m = 4.0",
+        "size_m = 4000.0\nspacing_m = 1.0",
+        "job.toml:13: terrain.spacing_m = 1: more than 2000 cells a side (allowed: at least 2 for this size_m)",
+    );
+    says(
+        "centre_m = [0.0, 0.0, 34.0]\n",
+        "centre_m = [0.0, 0.0, 34.0]\narch = { floorbeam_depth_m = 3.0 }\n",
+        "job.toml:35: bridges[].arch.floorbeam_depth_m = 3: does not fit the other numbers \
+         (allowed: crown_gap_m less 0.5 m: at most 2.90)",
+    );
+}
+
+#[test]
+fn regress_the_words_for_a_path_of_a_thousand_kilometres() {
+    let far: Vec<String> = (0..200).map(|k| format!("[{}, 0.0, 50.0]", if k % 2 == 0 { -4000.0 } else { 4000.0 })).collect();
+    let text = shipped() + &format!("\n[[tasks]]\nname = \"far\"\nkind = \"free\"\npoints_m = [{}]\n", far.join(", "));
+    let problems = problems(&text);
+    assert!(problems.to_string().ends_with("1592000 m long: too long (allowed: at most 20000 m of path)"), "{problems}");
+}
+
+#[test]
+fn regress_inline_tables_read_like_tables_and_survive_resolving() {
+    let text = shipped().replace("[defects]\ncount = 10\n", "").replacen("[origin]", "defects = { count = 2 }\n\n[origin]", 1);
+    let read =
+        |text: &str| spandrel_model::scenario::read("job.toml", text, &|_| Err(String::new())).unwrap_or_else(|p| panic!("{p}"));
+    let scenario = read(&text);
+    let site = spandrel_model::site::Site::build(&scenario, 5);
+    assert_eq!(site.defects().len(), 2);
+    let again = read(&spandrel_model::scenario::resolve(&text, 5, site.defects()));
+    assert_eq!(again.crc, scenario.crc);
+    assert_eq!(again.defects.placed.as_deref(), Some(site.defects()));
+}

@@ -1,0 +1,88 @@
+//! The READMEs beside the files document exactly the keys, ranges and defaults that the code asks for.
+
+use crate::shipped::files;
+use spandrel_model::toml::Asked;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+type Keys = BTreeMap<String, Asked>;
+
+/// Reaches the branches that no shipped scenario takes. It need not be a legal job: keys are recorded before values are judged.
+const OTHER_BRANCHES: [&str; 3] = [
+    "[terrain]\nsource = \"flat\"\n[[wind.events]]\nkind = \"gust\"\n[[wind.events]]\nkind = \"change\"\n[[defects.placed]]\n",
+    "[terrain]\nsource = \"valley\"\n[[bridges]]\ntype = \"arch\"\n[[bridges]]\ntype = \"suspension\"\n",
+    "[terrain]\nsource = \"file\"\n[[tasks]]\nkind = \"free\"\n[[tasks]]\nkind = \"interlayer\"\nbridge = \"none\"\n",
+];
+
+fn merge(all: &mut Keys, keys: Keys) {
+    for (key, asked) in keys {
+        let known = all.entry(key.clone()).or_insert_with(|| asked.clone());
+        assert_eq!(*known, asked, "{key} is asked for in two ways");
+    }
+}
+
+fn scenario_keys() -> Keys {
+    let mut all = Keys::new();
+    let shipped = files("scenarios").into_iter().map(|path| std::fs::read_to_string(path).unwrap());
+    for text in shipped.chain(OTHER_BRANCHES.map(String::from)) {
+        merge(&mut all, spandrel_model::scenario::read_asked("keys.toml", &text, &|_| Err("no file".into())).1);
+    }
+    all
+}
+
+fn vehicle_keys() -> Keys {
+    let mut all = Keys::new();
+    for path in files("vehicle-params") {
+        merge(&mut all, spandrel_model::vehicle::read_asked("keys.toml", &std::fs::read_to_string(path).unwrap()).1);
+    }
+    all
+}
+
+const HEADER: &str = "| key | allowed | default | meaning |";
+
+/// Rows of every table of keys.
+fn documented(readme: &str) -> Vec<(String, Asked, String)> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(readme);
+    let text = std::fs::read_to_string(path).unwrap();
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.strip_prefix("| `")?.strip_suffix(" |")?.splitn(4, " | ").collect();
+        let [key, allowed, default, meaning] = cells[..] else { panic!("{readme}: not four columns: {line}") };
+        let asked = Asked { allowed: allowed.into(), default: default.into() };
+        Some((key.trim_end_matches('`').to_string(), asked, meaning.to_string()))
+    };
+    let tables = text.split(HEADER).skip(1).flat_map(|rest| rest.lines().skip(1).take_while(|line| !line.is_empty()));
+    tables.filter_map(row).collect()
+}
+
+fn compare(readme: &str, keys: &Keys) -> Vec<String> {
+    let rows = documented(readme);
+    let mut wrong = Vec::new();
+    for (key, asked, meaning) in &rows {
+        let right = keys.get(key);
+        if right != Some(asked) {
+            wrong.push(format!("{key}: the README says {asked:?}, the code {right:?}"));
+        }
+        if meaning.trim().is_empty() {
+            wrong.push(format!("{key}: no meaning"));
+        }
+        if rows.iter().filter(|row| row.0 == *key).count() != 1 {
+            wrong.push(format!("{key}: documented twice"));
+        }
+    }
+    for (key, asked) in keys.iter().filter(|(key, _)| !rows.iter().any(|row| row.0 == **key)) {
+        wrong.push(format!("missing row: | `{key}` | {} | {} | |", asked.allowed, asked.default));
+    }
+    wrong
+}
+
+#[test]
+fn val_every_scenario_key_is_documented_as_the_code_asks() {
+    let wrong = compare("scenarios/README.md", &scenario_keys());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn val_every_aircraft_key_is_documented_as_the_code_asks() {
+    let wrong = compare("vehicle-params/README.md", &vehicle_keys());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

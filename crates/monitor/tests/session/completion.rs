@@ -1,0 +1,132 @@
+//! How much of the job was done: coverage by length, what a session is called, and what its scores are worth.
+
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::Scenario;
+use spandrel_monitor::measures::coverage::coverage;
+use spandrel_monitor::measures::on_path::{OnPath, Paths};
+use spandrel_monitor::score::completion::TaskState;
+use spandrel_monitor::session::EndReason;
+use spandrel_testkit::job::*;
+
+/// The nearest point changes half a point spacing (1 m) before and after the place where a stretch ends, share of a path of 100 m.
+const HALF_A_POINT: f64 = 0.01;
+
+/// One path of 100 m, 10 m up, from 10 to 110 m east.
+fn long_task() -> Scenario {
+    scenario(vec![task(1, line((10.0, 0.0, 10.0), (110.0, 0.0, 10.0)), 3.0)])
+}
+
+/// Flies the first `to_m` of it and comes home 20 m to the side, or not.
+fn flown(to_m: f64, home: bool) -> Tape {
+    let mut tape = Tape::new();
+    tape.hold(1.0);
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((10.0 + to_m, 0.0, 10.0), 4.0);
+    tape.fly((10.0 + to_m, 20.0, 10.0), 4.0);
+    if home {
+        tape.fly((0.0, 20.0, 10.0), 4.0);
+        tape.fly((0.0, 0.0, 10.0), 4.0);
+        tape.land();
+    }
+    tape
+}
+
+#[test]
+fn regress_a_task_is_done_from_80_percent_of_its_paths_length() {
+    for (to_m, state) in [(78.0, TaskState::Part), (82.0, TaskState::Done)] {
+        let assessment = grade(&flown(to_m, true), &long_task()).assessment;
+        let task = &assessment.tasks[0];
+        assert!((task.covered - to_m / 100.0).abs() <= HALF_A_POINT, "{} of {to_m} m", task.covered);
+        assert_eq!((task.state, assessment.completion.complete), (state, state == TaskState::Done));
+        assert_eq!(task.covered, assessment.certification.tasks[0].coverage, "coverage is one number");
+        assert_eq!(assessment.completion.path_share, task.covered);
+        // What the paper gives does not know of it.
+        assert!(assessment.scores.conformity.is_some_and(|score| score.pct > 95.0), "{:?}", assessment.scores);
+    }
+    let mut easier = long_task();
+    easier.scoring.task_done_share = 0.5;
+    assert!(grade(&flown(60.0, true), &easier).assessment.completion.complete, "the share is a value of the scenario");
+}
+
+#[test]
+fn regress_an_attempt_that_flew_nothing_is_incomplete_whatever_its_scores_are() {
+    let job = scenario(vec![
+        task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 3.0),
+        task(2, line((70.0, 0.0, 10.0), (100.0, 0.0, 10.0)), 3.0),
+    ]);
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 5.0), 2.0);
+    tape.hold(5.0);
+    tape.land();
+    let assessment = grade(&tape, &job).assessment;
+    let scores = &assessment.scores;
+    // As the paper has it: conformity 50, efficiency and safety 100.
+    assert_eq!((scores.conformity.map(|score| score.pct), scores.efficiency.pct, scores.safety.pct), (Some(50.0), 100.0, 100.0));
+    let completion = assessment.completion;
+    assert_eq!((completion.complete, completion.tasks_done, completion.tasks, completion.path_share), (false, 0, 2, 0.0));
+    assert_eq!(completion.headline(), "Incomplete: 0 of 2 tasks, 0 % of the path");
+    assert!(assessment.tasks.iter().all(|task| task.state == TaskState::NotAttempted));
+    assert_eq!(assessment.certification.unmet, ["task 1 not attempted", "task 2 not attempted"]);
+    assert!(!assessment.certification.passed && !assessment.certification.gates.session_complete);
+}
+
+#[test]
+fn regress_a_session_without_a_landing_at_home_is_incomplete() {
+    let graded = grade(&flown(100.0, false), &long_task());
+    let assessment = &graded.assessment;
+    assert_eq!((assessment.end.reason, assessment.tasks[0].state), (EndReason::Abort, TaskState::Done));
+    assert!(!assessment.completion.complete);
+    assert_eq!(assessment.completion.headline(), "Incomplete: 1 of 1 task, 100 % of the path, not landed at home");
+    assert_eq!(assessment.certification.unmet, ["not landed at home"]);
+}
+
+#[test]
+fn regress_half_a_path_is_not_certified_and_names_the_share() {
+    let mut job = long_task();
+    job.scoring.task_done_share = 0.8;
+    let assessment = grade(&flown(49.0, true), &job).assessment;
+    assert!(assessment.certification.gates.all_tasks_attempted, "the old gate was open");
+    let [only] = assessment.certification.unmet.as_slice() else { panic!("{:?}", assessment.certification.unmet) };
+    assert!(only.starts_with("task 1 not done: ") && only.ends_with(" % of its path, 80 % needed"), "{only}");
+    let share = assessment.completion.path_share;
+    assert!((share - 0.49).abs() <= HALF_A_POINT, "{share}");
+    assert_eq!(assessment.completion.headline(), format!("Incomplete: 0 of 1 task, {:.0} % of the path", 100.0 * share));
+}
+
+#[test]
+fn regress_a_place_to_hold_is_done_by_holding_it() {
+    let job = scenario(vec![task(1, line((0.0, 15.0, 10.0), (0.0, 15.4, 10.0)), 2.0)]);
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((0.0, 14.5, 10.0), 2.0);
+    tape.hold(5.0);
+    tape.land();
+    let assessment = grade(&tape, &job).assessment;
+    assert_eq!((assessment.tasks[0].state, assessment.completion.complete), (TaskState::Done, true));
+}
+
+/// Every shipped job's paths, flown along from end to end.
+#[test]
+fn prop_whoever_flies_every_shipped_path_has_done_every_task() {
+    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios");
+    let beside = |name: &str| std::fs::read_to_string(folder.join(name)).map_err(|error| error.to_string());
+    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut jobs = 0;
+    for file in files.filter(|file| file.extension().is_some_and(|ending| ending == "toml")) {
+        let name = file.file_name().unwrap().to_string_lossy().into_owned();
+        let scenario = spandrel_model::scenario::read(&name, &std::fs::read_to_string(&file).unwrap(), &beside).unwrap();
+        let paths = Paths::new(&scenario);
+        let along = |task: &spandrel_model::scenario::Task| {
+            let wrap = task.closed.then(|| task.path_m[0]);
+            let points: Vec<Vec3<Enu>> = task.path_m.iter().copied().chain(wrap).collect();
+            let steps = points.windows(2).flat_map(|pair| (0..4).map(|k| pair[0].lerp(pair[1], f64::from(k) / 4.0)));
+            steps.chain(points.last().copied()).collect::<Vec<_>>()
+        };
+        let on_path = OnPath::measure(&paths, scenario.tasks.iter().flat_map(along));
+        for (task, covered) in scenario.tasks.iter().zip(coverage(&paths, &on_path)) {
+            assert!(covered.share > 1.0 - HALF_A_POINT, "{name}, task {}: {covered:?}", task.id);
+        }
+        jobs += 1;
+    }
+    assert!(jobs >= 8, "{jobs} jobs");
+}

@@ -1,0 +1,286 @@
+//! The six feedbacks on the wire, with their thresholds and times.
+
+use crate::live::{monitor_of, sent};
+use spandrel_mavlink::dialect::MavMessage;
+use spandrel_monitor::Monitor;
+use spandrel_monitor::feedback::cue;
+use spandrel_testkit::job::*;
+
+struct Watch {
+    monitor: Monitor,
+    tape: Tape,
+    texts: Vec<String>,
+}
+
+impl Watch {
+    fn airborne() -> Self {
+        Self::of(one_task())
+    }
+
+    fn of(scenario: spandrel_model::scenario::Scenario) -> Self {
+        let mut watch = Self { monitor: monitor_of(scenario), tape: Tape::new(), texts: Vec::new() };
+        watch.tape.fly((0.0, 0.0, 10.0), 2.0);
+        watch.run();
+        watch
+    }
+
+    /// Feeds what the tape holds; the cues after each datagram with its time.
+    fn run(&mut self) -> Vec<(u32, i32)> {
+        let mut cues = Vec::new();
+        for datagram in std::mem::take(&mut self.tape.datagrams) {
+            self.monitor.handle_datagram(&datagram);
+            cues.push((u32::try_from(self.monitor.now().ms()).unwrap(), self.monitor.cues()));
+            for message in sent(&mut self.monitor) {
+                if let MavMessage::STATUSTEXT(text) = message {
+                    self.texts.push(text.text.to_str().unwrap().to_owned());
+                }
+            }
+        }
+        cues
+    }
+
+    fn has(&self, bit: i32) -> bool {
+        self.monitor.cues() & bit != 0
+    }
+}
+
+#[test]
+fn exact_off_path_shows_after_a_second_and_is_held_for_two() {
+    let mut watch = Watch::airborne();
+    watch.tape.fly((30.0, 0.0, 10.0), 20.0);
+    watch.run();
+    // Off to the side at 10 m/s: 5 m is past the threshold of 3 m and within 8 m.
+    watch.tape.fly((30.0, 5.0, 10.0), 10.0);
+    let left = watch.tape.now_ms;
+    watch.tape.hold(3.0);
+    let cues = watch.run();
+    let on = cues.iter().find(|(_, cues)| cues & cue::OFF_PATH != 0).unwrap().0;
+    // It crossed 3 m some 0.2 s before it arrived at 5 m; samples are 20 ms apart.
+    assert!((on as i64 - (i64::from(left) - 200 + 1_000)).abs() <= 20, "left {left}, on {on}");
+    // Back on the path within half a second: the cue stays until two seconds after it came on.
+    let mut watch = Watch::airborne();
+    watch.tape.fly((30.0, 0.0, 10.0), 20.0);
+    watch.tape.fly((30.0, 5.0, 10.0), 10.0);
+    watch.tape.hold(0.9);
+    watch.tape.fly((30.0, 0.0, 10.0), 10.0);
+    watch.tape.hold(3.0);
+    let cues = watch.run();
+    let on: Vec<u32> = cues.iter().filter(|(_, cues)| cues & cue::OFF_PATH != 0).map(|(time, _)| *time).collect();
+    let shown = on.last().unwrap() - on.first().unwrap();
+    assert!((1_960..2_000).contains(&shown), "{shown} ms");
+}
+
+#[test]
+fn exact_a_short_swerve_and_a_far_away_drone_are_not_off_path() {
+    let mut watch = Watch::airborne();
+    watch.tape.fly((30.0, 0.0, 10.0), 20.0);
+    watch.tape.fly((30.0, 5.0, 10.0), 10.0);
+    watch.tape.hold(0.5);
+    watch.tape.fly((30.0, 0.0, 10.0), 10.0);
+    watch.tape.hold(2.0);
+    watch.tape.fly((30.0, 20.0, 10.0), 30.0);
+    watch.tape.hold(3.0);
+    assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0));
+}
+
+#[test]
+fn regress_who_comes_to_a_task_or_leaves_it_by_its_end_is_not_off_path() {
+    // The path leads from 10 to 60 m east, its threshold is 3 m.
+    let mut watch = Watch::airborne();
+    watch.tape.fly((-20.0, 20.0, 10.0), 4.0);
+    watch.tape.fly((30.0, 20.0, 10.0), 8.0);
+    watch.tape.fly((30.0, 0.0, 10.0), 1.0);
+    watch.tape.fly((60.0, 0.0, 10.0), 4.0);
+    watch.tape.fly((80.0, 0.0, 10.0), 1.0);
+    assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
+    // Left for good: passing by on the way home brings no cue either.
+    watch.tape.fly((70.0, 6.0, 10.0), 4.0);
+    watch.tape.fly((0.0, 6.0, 10.0), 4.0);
+    assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
+}
+
+#[test]
+fn regress_who_stays_beside_the_end_or_strays_from_the_middle_is_off_path() {
+    for (from_m, to_m) in [((60.0, 0.0), (64.0, 0.0)), ((40.0, 0.0), (40.0, 4.0))] {
+        let mut watch = Watch::airborne();
+        watch.tape.fly((30.0, 0.0, 10.0), 4.0);
+        watch.tape.fly((from_m.0, from_m.1, 10.0), 4.0);
+        watch.tape.fly((to_m.0, to_m.1, 10.0), 4.0);
+        watch.tape.hold(3.0);
+        watch.run();
+        assert!(watch.has(cue::OFF_PATH), "{to_m:?}");
+    }
+}
+
+#[test]
+fn exact_too_close_comes_at_2_5_and_clears_at_2_8() {
+    let mut watch = Watch::airborne();
+    for (metres, on) in [(3.0, false), (2.6, false), (2.4, true), (2.6, true), (2.79, true), (2.81, false), (2.6, false)] {
+        watch.tape.clearance(metres);
+        watch.tape.hold(0.1);
+        watch.run();
+        assert_eq!(watch.has(cue::TOO_CLOSE), on, "{metres} m");
+    }
+    assert_eq!(watch.texts, ["Too close: 2.4 m"]);
+}
+
+#[test]
+fn exact_a_tasks_own_distance_holds_on_its_path() {
+    let mut scenario = one_task();
+    scenario.tasks[0].too_close_m = Some(1.0);
+    let mut watch = Watch::of(scenario);
+    watch.tape.fly((30.0, 0.0, 10.0), 4.0);
+    for (metres, on) in [(1.5, false), (0.9, true), (1.2, true), (1.31, false)] {
+        watch.tape.clearance(metres);
+        watch.tape.hold(0.1);
+        watch.run();
+        assert_eq!(watch.has(cue::TOO_CLOSE), on, "{metres} m");
+    }
+}
+
+#[test]
+fn regress_a_tasks_own_distance_holds_on_the_way_into_it() {
+    let mut scenario = one_task();
+    scenario.tasks[0].too_close_m = Some(1.0);
+    let mut watch = Watch::of(scenario);
+    watch.tape.fly((30.0, 20.0, 10.0), 8.0);
+    watch.tape.fly((30.0, 6.0, 10.0), 4.0);
+    watch.tape.clearance(1.5);
+    watch.tape.hold(0.1);
+    watch.run();
+    assert!(!watch.has(cue::TOO_CLOSE));
+    watch.tape.fly((30.0, 12.0, 10.0), 4.0);
+    watch.run();
+    assert!(watch.has(cue::TOO_CLOSE), "out of the task's reach the job's distance holds");
+}
+
+#[test]
+fn exact_the_ground_is_not_too_close_before_lift_off() {
+    let mut watch = Watch { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
+    watch.tape.clearance(0.5);
+    watch.tape.hold(1.0);
+    watch.run();
+    assert!(!watch.has(cue::TOO_CLOSE));
+}
+
+#[test]
+fn exact_speeding_is_said_on_the_path_and_not_far_from_it() {
+    let mut watch = Watch::airborne();
+    watch.tape.fly((30.0, 0.0, 10.0), 4.4);
+    watch.run();
+    assert!(!watch.has(cue::SPEEDING));
+    watch.tape.fly((40.0, 0.0, 10.0), 6.0);
+    watch.run();
+    assert!(watch.has(cue::SPEEDING));
+    assert_eq!(watch.texts.last().unwrap(), "Too fast: 13 mph, limit 10 mph");
+    watch.tape.hold(1.0);
+    watch.run();
+    assert!(!watch.has(cue::SPEEDING));
+    watch.tape.fly((40.0, 9.0, 10.0), 4.0);
+    watch.tape.fly((40.0, 40.0, 10.0), 6.0);
+    watch.run();
+    assert!(!watch.has(cue::SPEEDING));
+}
+
+#[test]
+fn exact_one_rule_speaks_once_per_interval_however_it_chatters() {
+    let mut watch = Watch::airborne();
+    for _ in 0..20 {
+        watch.tape.clearance(2.4);
+        watch.tape.hold(0.1);
+        watch.tape.clearance(3.0);
+        watch.tape.hold(0.1);
+    }
+    watch.run();
+    // Four seconds, an interval of five.
+    assert_eq!(watch.texts.len(), 1);
+}
+
+#[test]
+fn exact_a_crash_is_said_at_once_and_before_all_else() {
+    let mut watch = Watch::airborne();
+    watch.tape.clearance(2.0);
+    watch.tape.hold(0.02);
+    watch.tape.contact(1);
+    let cues = watch.run();
+    assert!(cues.last().unwrap().1 & cue::CRASH != 0, "in the very datagram of the contact");
+    assert_eq!(watch.texts, ["Too close: 2.0 m", "Crash: fence"]);
+    watch.tape.contact(0);
+    watch.tape.hold(1.9);
+    watch.run();
+    assert!(watch.has(cue::CRASH));
+    watch.tape.hold(0.2);
+    watch.run();
+    assert!(!watch.has(cue::CRASH));
+}
+
+#[test]
+fn exact_the_battery_turns_yellow_below_70_and_red_below_30() {
+    let mut watch = Watch::airborne();
+    for (pct, bits) in [(70, 0), (69, cue::BATTERY_YELLOW), (30, cue::BATTERY_YELLOW), (29, cue::BATTERY_RED)] {
+        watch.tape.battery(pct);
+        watch.tape.hold(2.0);
+        watch.run();
+        assert_eq!(watch.monitor.cues(), bits, "{pct} %");
+    }
+    assert_eq!(watch.texts, ["Battery 69 %", "Battery 29 %"]);
+}
+
+#[test]
+fn exact_cues_are_repeated_at_five_hertz() {
+    let mut watch = Watch::airborne();
+    watch.tape.hold(10.0);
+    let mut count = 0;
+    for datagram in std::mem::take(&mut watch.tape.datagrams) {
+        watch.monitor.handle_datagram(&datagram);
+        count += sent(&mut watch.monitor).iter().filter(|message| matches!(message, MavMessage::NAMED_VALUE_INT(_))).count();
+    }
+    assert_eq!(count, 50);
+}
+
+#[test]
+fn exact_too_close_is_told_below_the_pads_height_too() {
+    // The pier of the paper's job is circled 2 m lower than the pad lies.
+    let mut watch = Watch::of(one_task());
+    watch.tape.fly((30.0, 0.0, 10.0), 10.0);
+    watch.tape.fly((30.0, 0.0, -2.0), 4.0);
+    watch.tape.clearance(2.0);
+    watch.tape.hold(0.1);
+    watch.run();
+    assert!(watch.has(cue::TOO_CLOSE));
+    assert_eq!(watch.texts.last().unwrap(), "Too close: 2.0 m");
+}
+
+#[test]
+fn exact_a_drone_that_comes_down_on_its_pad_is_not_too_close() {
+    let mut watch = Watch::airborne();
+    watch.tape.fly((0.0, 0.0, 0.2), 4.0);
+    watch.tape.clearance(0.2);
+    watch.tape.hold(0.1);
+    watch.run();
+    assert!(!watch.has(cue::TOO_CLOSE));
+}
+
+#[test]
+fn exact_a_person_hit_is_told_even_right_after_another_bump() {
+    let mut watch = Watch::airborne();
+    for code in [1, 5] {
+        watch.tape.contact(code);
+        watch.tape.hold(0.1);
+    }
+    watch.run();
+    assert_eq!(watch.texts, ["Crash: fence", "Crash: person"]);
+}
+
+#[test]
+fn exact_texts_go_on_after_the_simulator_starts_anew_on_the_ground() {
+    let mut watch = Watch { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
+    for seconds in [20.0, 0.2] {
+        watch.tape.hold(seconds);
+        watch.tape.battery(60);
+        watch.tape.hold(2.0);
+        watch.run();
+        watch.tape = Tape::new();
+    }
+    assert_eq!(watch.texts, ["Battery 60 %", "Battery 60 %"]);
+}

@@ -1,0 +1,187 @@
+//! What a bad link does: lost, doubled, shuffled, cut off.
+
+use spandrel_mavlink::telemetry::{Timeline, tlog};
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::random::RandomStream;
+use spandrel_monitor::assessment::{AssessError, Graded, assess_log};
+use spandrel_monitor::export;
+use spandrel_testkit::job::*;
+
+fn grade(datagrams: &[Vec<u8>]) -> Graded {
+    assess_log(&log_of(datagrams, 5_000_000), &one_task(), &vehicle(), fence_of_ten).unwrap()
+}
+
+fn busy_flight() -> Tape {
+    busy_flight_at(0)
+}
+
+fn busy_flight_at(epoch_ms: u64) -> Tape {
+    let mut tape = Tape::starting_at(epoch_ms, &scenario(Vec::new()));
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    for k in 0..10 {
+        tape.fly((5.0 * f64::from(k), 0.0, 10.0), 4.0);
+        tape.battery(99 - k as i8);
+        tape.clearance(4.0 - 0.2 * k as f32);
+        tape.lamp(k % 2 == 0);
+        tape.snapshot(k);
+        tape.contact(k % 3);
+        tape.hold(0.1);
+        tape.contact(0);
+        tape.int("hits", k);
+    }
+    tape.land();
+    tape
+}
+
+fn counts(datagrams: &[Vec<u8>]) -> spandrel_mavlink::telemetry::timeline::LinkCounts {
+    let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
+    datagrams.iter().for_each(|datagram| {
+        timeline.push(datagram);
+    });
+    timeline.counts()
+}
+
+/// Simulation time at which clocks of 32-bit milliseconds start again.
+const WRAP_MS: u64 = 1 << 32;
+
+#[test]
+fn regress_a_flight_across_the_end_of_32_bit_milliseconds_is_the_same_flight() {
+    let epoch_ms = WRAP_MS - 10_000;
+    let flights = [0, epoch_ms].map(|epoch_ms| {
+        let tape = busy_flight_at(epoch_ms);
+        assert!(tape.now_ms > 20_000, "the clock starts again on the way");
+        let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
+        tape.datagrams.iter().for_each(|datagram| {
+            timeline.push(datagram);
+        });
+        let flight = timeline.flight(0);
+        let ms = |times: Vec<i64>| -> Vec<i64> { times.into_iter().map(|ms| ms - epoch_ms.cast_signed()).collect() };
+        let pictures = ms(flight.snapshots.all().iter().map(|picture| picture.0.ms()).collect());
+        let lamp = ms(flight.light.all().iter().map(|lamp| lamp.0.ms()).collect());
+        let sticks = ms(flight.sticks.all().iter().map(|sticks| sticks.0.ms()).collect());
+        (pictures, lamp, sticks, timeline.epochs())
+    });
+    assert_eq!(flights[0].0.len(), 10, "every picture once");
+    assert_eq!(flights[1], flights[0]);
+}
+
+#[test]
+fn prop_shuffled_and_doubled_datagrams_change_no_frame() {
+    let tape = busy_flight();
+    let clean = grade(&tape.datagrams);
+    let csv = export::frames_csv(&clean.frames);
+    for seed in 0..20 {
+        let mut stream = RandomStream::new(seed, "link");
+        let mut datagrams = Vec::new();
+        for datagram in &tape.datagrams {
+            datagrams.push(datagram.clone());
+            if stream.below(10) == 0 {
+                datagrams.push(datagram.clone());
+            }
+        }
+        for _ in 0..datagrams.len() / 4 {
+            let at = stream.below(datagrams.len() - 8);
+            datagrams.swap(at, at + 1 + stream.below(7));
+        }
+        let graded = grade(&datagrams);
+        let shuffled = export::frames_csv(&graded.frames);
+        let first = shuffled.lines().zip(csv.lines()).find(|(a, b)| a != b);
+        assert_eq!(first, None, "seed {seed}");
+        assert_eq!(shuffled.len(), csv.len(), "seed {seed}");
+        assert!(graded.assessment == clean.assessment, "seed {seed}");
+    }
+}
+
+#[test]
+fn exact_the_link_is_counted() {
+    let tape = busy_flight();
+    let all = tape.datagrams.len() as u64;
+    assert_eq!(counts(&tape.datagrams).frames, all);
+    assert_eq!(counts(&tape.datagrams).lost, 0);
+
+    let mut lossy = tape.datagrams.clone();
+    lossy.drain(100..107);
+    assert_eq!((counts(&lossy).lost, counts(&lossy).frames), (7, all - 7));
+
+    let mut doubled = tape.datagrams.clone();
+    doubled.insert(50, doubled[49].clone());
+    assert_eq!((counts(&doubled).duplicated, counts(&doubled).frames), (1, all));
+
+    let mut swapped = tape.datagrams.clone();
+    swapped.swap(60, 61);
+    let swapped = counts(&swapped);
+    assert_eq!((swapped.reordered, swapped.lost), (1, 0));
+}
+
+#[test]
+fn exact_a_long_silence_is_no_reordering() {
+    // Numbers wrap at 256; whatever the loss, time goes on and nothing is taken for old.
+    let tape = busy_flight();
+    let whole = grade(&tape.datagrams).frames;
+    for lost in [60, 100, 129, 200, 255, 256, 300] {
+        let mut datagrams = tape.datagrams.clone();
+        datagrams.drain(700..700 + lost);
+        let counts = counts(&datagrams);
+        assert_eq!((counts.duplicated, counts.reordered), (0, 0), "{lost} lost");
+        assert_eq!(grade(&datagrams).frames.len(), whole.len(), "{lost} lost");
+    }
+}
+
+#[test]
+fn exact_a_log_cut_anywhere_near_its_end_still_scores_its_whole_records() {
+    let log = busy_flight().log(5_000_000);
+    for cut in log.len() - 120..log.len() {
+        let whole = tlog::whole_len(&log[..cut]);
+        let a = assess_log(&log[..cut], &one_task(), &vehicle(), fence_of_ten).unwrap();
+        let b = assess_log(&log[..whole], &one_task(), &vehicle(), fence_of_ten).unwrap();
+        assert!(a == b, "cut at {cut}");
+    }
+}
+
+#[test]
+fn exact_another_scenario_or_seed_is_refused_by_name() {
+    let tape = clean_flight();
+    let mut other = one_task();
+    other.crc = 1;
+    let refused = assess_log(&tape.log(0), &other, &vehicle(), fence_of_ten).unwrap_err();
+    assert_eq!(refused, AssessError::OtherScenario { name: "test-job".to_owned(), heard: CRC, ours: 1 });
+    let mut seeded = one_task();
+    seeded.seed = Some(8);
+    let refused = assess_log(&tape.log(0), &seeded, &vehicle(), fence_of_ten).unwrap_err();
+    assert_eq!(refused, AssessError::OtherSeed { heard: SEED, ours: 8 });
+    assert!(refused.to_string().contains("seed is 7"));
+}
+
+#[test]
+fn exact_an_empty_log_and_one_without_a_flight_are_named() {
+    let refused = |log: &[u8]| assess_log(log, &one_task(), &vehicle(), fence_of_ten).unwrap_err();
+    assert_eq!(refused(&[]), AssessError::NoTruth);
+    let mut parked = Tape::new();
+    parked.hold(3.0);
+    assert_eq!(refused(&parked.log(0)), AssessError::NeverFlown);
+}
+
+#[test]
+fn exact_what_other_systems_say_does_not_touch_the_session() {
+    use spandrel_mavlink::codec::Encoder;
+    use spandrel_mavlink::dialect::*;
+    let mut monitor = crate::live::monitor_of(one_task());
+    let tape = clean_flight();
+    let mut stranger = Encoder::new(255, 190);
+    let int = |name: &str, value| MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: 0, value, name: name.into() });
+    let truth = MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
+        attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
+        ..HIL_STATE_QUATERNION_DATA::default()
+    });
+    let words = [int("seed", 99), int("scn_crc", 1), int("contact", 5), truth.clone(), truth.clone(), truth];
+    for (k, datagram) in tape.datagrams.iter().enumerate() {
+        monitor.handle_datagram(datagram);
+        if k == tape.datagrams.len() / 2 {
+            words.iter().for_each(|word| monitor.handle_datagram(&stranger.encode(word)));
+            assert_eq!((monitor.refused(), monitor.cues()), (None, 0));
+        }
+    }
+    let outcome = monitor.finished().expect("landed").clone().expect("scored");
+    assert_eq!(outcome.assessment.end.reason, spandrel_monitor::session::EndReason::Landed);
+    assert_eq!((monitor.link().restarts, outcome.frames.len()), (0, grade(&tape.datagrams).frames.len()));
+}

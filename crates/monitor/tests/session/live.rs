@@ -1,0 +1,270 @@
+//! The live monitor: what it answers, what it writes, and that a replay says the same.
+
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::time::SimTime;
+use spandrel_monitor::assessment::{AssessError, assess_log};
+use spandrel_monitor::{Monitor, MonitorConfig, Record, export};
+use spandrel_testkit::job::*;
+
+const START_US: u64 = 1_700_000_000_000_000;
+
+pub fn monitor_of(scenario: Scenario) -> Monitor {
+    Monitor::new(config(scenario))
+}
+
+fn config(scenario: Scenario) -> MonitorConfig {
+    MonitorConfig {
+        scenario,
+        vehicle: vehicle(),
+        trainee: "tester".to_owned(),
+        purpose: None,
+        started_unix_us: START_US,
+        system_id: 1,
+        seed: None,
+        build: fence_of_ten,
+    }
+}
+
+pub fn sent(monitor: &mut Monitor) -> Vec<MavMessage> {
+    let mut decoder = Decoder::new();
+    let mut messages = Vec::new();
+    while let Some(bytes) = monitor.poll_transmit() {
+        for frame in decoder.datagram(&bytes) {
+            assert_eq!((frame.system_id, frame.component_id), (1, 191));
+            messages.extend(frame.message);
+        }
+    }
+    messages
+}
+
+fn written(monitor: &mut Monitor) -> (Vec<u8>, Vec<String>) {
+    let (mut log, mut events) = (Vec::new(), Vec::new());
+    while let Some(record) = monitor.poll_record() {
+        match record {
+            Record::Telemetry(bytes) => log.extend(bytes),
+            Record::Event(line) => events.push(line),
+        }
+    }
+    (log, events)
+}
+
+#[test]
+fn exact_a_live_session_and_the_replay_of_its_log_give_the_same_bytes() {
+    let mut monitor = monitor_of(one_task());
+    for datagram in &clean_flight().datagrams {
+        monitor.handle_datagram(datagram);
+    }
+    let live = monitor.finished().expect("landed").clone().expect("scored");
+    let (log, events) = written(&mut monitor);
+    let replayed = assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap();
+    assert_eq!(export::json_text(&live.assessment), export::json_text(&replayed.assessment));
+    assert!(export::frames_csv(&live.frames) == export::frames_csv(&replayed.frames), "the frames differ");
+    let kinds: Vec<String> = events
+        .iter()
+        .map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap()["event"].as_str().unwrap().to_owned())
+        .collect();
+    for wanted in ["seed", "lift_off", "task_entered", "end"] {
+        assert!(kinds.iter().any(|kind| kind == wanted), "{wanted} in {kinds:?}");
+    }
+}
+
+#[test]
+fn exact_stamps_are_session_start_plus_simulation_time() {
+    let mut monitor = monitor_of(one_task());
+    let mut tape = Tape::new();
+    tape.hold(2.0);
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    let (log, _) = written(&mut monitor);
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::Reader::new(&log).map(|record| record.stamp_us).collect();
+    assert_eq!(stamps.first(), Some(&START_US));
+    assert_eq!(stamps.last(), Some(&(START_US + 2_000_000)));
+    assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
+    assert_eq!(spandrel_mavlink::telemetry::tlog::session_start_us(&log), Some(START_US));
+}
+
+/// A vehicle that has been up for an hour: what it does now is stamped with now, and not with an hour later.
+#[test]
+fn regress_stamps_of_a_monitor_that_joins_late_begin_at_the_sessions_start() {
+    let mut tape = Tape::new();
+    tape.hold(62.0);
+    let late = tape.datagrams.len() * 30 / 31;
+    let mut monitor = monitor_of(one_task());
+    tape.datagrams[late..].iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    let (mut log, _) = written(&mut monitor);
+    let stamps =
+        |log: &[u8]| -> Vec<u64> { spandrel_mavlink::telemetry::tlog::Reader::new(log).map(|record| record.stamp_us).collect() };
+    let (first, last) = (stamps(&log)[0], *stamps(&log).last().unwrap());
+    assert_eq!(first, START_US);
+    assert!((START_US + 1_900_000..=START_US + 2_100_000).contains(&last), "{} us", last - START_US);
+    let zero = spandrel_mavlink::telemetry::tlog::simulation_zero_us(&log).unwrap();
+    assert!((59_900_000..=60_100_000).contains(&(START_US - zero)), "{} us", START_US - zero);
+    assert_eq!(monitor.session_info(b"", b"", String::new(), 1).started_unix_us, START_US);
+    // One that was killed goes on with the same clock.
+    let mut second = Monitor::resume(config(one_task()), &log).unwrap();
+    let mut more = Tape::new();
+    more.hold(65.0);
+    let rest = more.datagrams.len() * 63 / 65;
+    more.datagrams[rest..].iter().for_each(|datagram| second.handle_datagram(datagram));
+    log = written(&mut second).0;
+    let last = *stamps(&log).last().unwrap();
+    assert!((START_US + 4_900_000..=START_US + 5_100_000).contains(&last), "{} us", last - START_US);
+}
+
+/// Any datagram made its sender the vehicle; now it takes the autopilot's frames, and those of the system whose flight is scored.
+#[test]
+fn regress_the_monitor_belongs_to_one_vehicle() {
+    let beat = |system: u8, component: u8, autopilot| {
+        let body = HEARTBEAT_DATA { autopilot, ..HEARTBEAT_DATA::default() };
+        Encoder::new(system, component).encode(&MavMessage::HEARTBEAT(body))
+    };
+    let (px4, none) = (MavAutopilot::MAV_AUTOPILOT_PX4, MavAutopilot::MAV_AUTOPILOT_INVALID);
+    let mut monitor = monitor_of(one_task());
+    for stranger in [vec![], vec![0xFD], vec![7; 60], beat(255, 190, none), beat(1, 191, none), beat(1, 1, none)] {
+        assert!(!monitor.is_from_vehicle(&stranger), "{stranger:?}");
+    }
+    assert!(monitor.is_from_vehicle(&beat(1, 1, px4)) && monitor.is_from_vehicle(&beat(9, 1, px4)));
+    let mut tape = Tape::new();
+    tape.hold(2.0);
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    assert!(monitor.is_from_vehicle(&beat(1, 1, px4)) && !monitor.is_from_vehicle(&beat(9, 1, px4)));
+    // Another vehicle's heartbeat, handed on to us, does not make us one of its components: `sent` looks at the sender's ids.
+    sent(&mut monitor);
+    monitor.handle_datagram(&beat(9, 1, px4));
+    tape.datagrams.clear();
+    tape.hold(1.5);
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    assert!(!sent(&mut monitor).is_empty());
+}
+
+#[test]
+fn exact_stamps_go_on_rising_after_the_simulator_starts_anew() {
+    let mut monitor = monitor_of(one_task());
+    for seconds in [20.0, 2.0] {
+        let mut tape = Tape::new();
+        tape.hold(seconds);
+        tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    }
+    let (log, _) = written(&mut monitor);
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::Reader::new(&log).map(|record| record.stamp_us).collect();
+    assert_eq!(stamps.last(), Some(&(START_US + 22_000_000)));
+    assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
+}
+
+#[test]
+fn exact_a_killed_monitor_goes_on_where_its_log_stops() {
+    let tape = clean_flight();
+    let half = tape.datagrams.len() / 2;
+    let mut first = monitor_of(one_task());
+    tape.datagrams[..half].iter().for_each(|datagram| first.handle_datagram(datagram));
+    let (mut log, _) = written(&mut first);
+    log.truncate(log.len() - 5);
+    log.truncate(spandrel_mavlink::telemetry::tlog::whole_len(&log));
+    let mut second = Monitor::resume(config(one_task()), &log).unwrap();
+    assert!(second.flown().is_some());
+    tape.datagrams[half..].iter().for_each(|datagram| second.handle_datagram(datagram));
+    let outcome = second.finished().expect("landed").clone().unwrap();
+    let (rest, events) = written(&mut second);
+    assert!(events[0].contains("monitor_restarted"));
+    log.extend(rest);
+    let replayed = assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap();
+    assert!(outcome == replayed, "the outcomes differ");
+    assert_eq!(outcome.assessment.scores.conformity.unwrap().pct, 100.0);
+}
+
+#[test]
+fn exact_timesync_is_answered_last_and_with_the_asker_addressed() {
+    let mut monitor = monitor_of(one_task());
+    let mut tape = Tape::new();
+    tape.hold(1.5);
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    sent(&mut monitor);
+    tape.datagrams.clear();
+    tape.hold(0.6);
+    let sync = TIMESYNC_DATA { tc1: 0, ts1: 4242, ..TIMESYNC_DATA::default() };
+    tape.send(&MavMessage::TIMESYNC(sync));
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    let messages = sent(&mut monitor);
+    assert!(messages.len() > 1, "heartbeat and cues were due");
+    let Some(MavMessage::TIMESYNC(answer)) = messages.last() else { panic!("last is {:?}", messages.last()) };
+    assert_eq!((answer.ts1, answer.target_system, answer.target_component), (4242, 1, 1));
+    assert_eq!(answer.tc1, 2_100_000_000);
+}
+
+#[test]
+fn exact_answers_and_other_peoples_timesync_stay_unanswered() {
+    let mut monitor = monitor_of(one_task());
+    let mut encoder = Encoder::new(1, 1);
+    for sync in [
+        TIMESYNC_DATA { tc1: 5, ts1: 6, ..TIMESYNC_DATA::default() },
+        TIMESYNC_DATA { tc1: 0, ts1: 6, target_system: 1, target_component: 190 },
+    ] {
+        monitor.handle_datagram(&encoder.encode(&MavMessage::TIMESYNC(sync)));
+    }
+    assert!(sent(&mut monitor).is_empty());
+}
+
+#[test]
+fn exact_commands_to_191_are_unsupported_and_parameter_lists_are_met_with_silence() {
+    let mut monitor = monitor_of(one_task());
+    let mut encoder = Encoder::new(255, 190);
+    let command = |target_component| {
+        MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+            command: MavCmd::MAV_CMD_REQUEST_MESSAGE,
+            target_system: 1,
+            target_component,
+            ..COMMAND_LONG_DATA::default()
+        })
+    };
+    monitor.handle_datagram(&encoder.encode(&command(191)));
+    let messages = sent(&mut monitor);
+    let [MavMessage::COMMAND_ACK(ack)] = &messages[..] else { panic!("{messages:?}") };
+    assert_eq!(ack.result, MavResult::MAV_RESULT_UNSUPPORTED);
+    assert_eq!((ack.target_system, ack.target_component), (255, 190));
+    monitor.handle_datagram(&encoder.encode(&command(1)));
+    let list = PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 0 };
+    monitor.handle_datagram(&encoder.encode(&MavMessage::PARAM_REQUEST_LIST(list)));
+    assert!(sent(&mut monitor).is_empty());
+}
+
+#[test]
+fn exact_it_introduces_itself_as_an_onboard_controller_once_a_second() {
+    let mut monitor = monitor_of(one_task());
+    monitor.handle_timeout(SimTime::ZERO);
+    let messages = sent(&mut monitor);
+    let [MavMessage::HEARTBEAT(beat)] = &messages[..] else { panic!("{messages:?}") };
+    assert_eq!(beat.mavtype, MavType::MAV_TYPE_ONBOARD_CONTROLLER);
+    assert_eq!(beat.autopilot, MavAutopilot::MAV_AUTOPILOT_INVALID);
+    assert_eq!(beat.base_mode.bits(), 0);
+    let mut tape = Tape::new();
+    tape.hold(10.0);
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    let beats = sent(&mut monitor).iter().filter(|message| matches!(message, MavMessage::HEARTBEAT(_))).count();
+    assert_eq!(beats, 11);
+}
+
+#[test]
+fn exact_another_scenario_is_refused_aloud() {
+    let mut scenario = one_task();
+    scenario.crc = 5;
+    let mut monitor = monitor_of(scenario);
+    Tape::new().datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    assert!(matches!(monitor.refused(), Some(AssessError::OtherScenario { .. })));
+    assert!(matches!(monitor.finished(), Some(Err(AssessError::OtherScenario { .. }))));
+    assert!(sent(&mut monitor).iter().any(|message| matches!(message, MavMessage::STATUSTEXT(_))));
+}
+
+#[test]
+fn exact_closing_in_mid_flight_scores_an_abort() {
+    let mut monitor = monitor_of(one_task());
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    monitor.close();
+    let graded = monitor.finished().unwrap().clone().unwrap();
+    assert_eq!(graded.assessment.end.reason, spandrel_monitor::session::EndReason::Abort);
+    assert!(!graded.assessment.certification.passed);
+    let (log, _) = written(&mut monitor);
+    assert!(assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap() == graded, "the replay differs");
+}

@@ -1,0 +1,122 @@
+//! Names that other tools read: JSON keys, CSV columns.
+
+use serde_json::Value;
+use spandrel_monitor::export::{self, ScenarioExport};
+use spandrel_testkit::job::*;
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+/// Every wanted key is there, in this order among themselves.
+fn check_keys(value: &Value, wanted: &[&str]) {
+    let kept: Vec<&str> = keys(value).into_iter().filter(|key| wanted.contains(key)).collect();
+    assert_eq!(kept, wanted);
+}
+
+#[test]
+fn exact_the_assessment_has_the_names_of_the_design() {
+    let mut tape = clean_flight();
+    tape.contact(0);
+    let value = serde_json::to_value(&grade(&tape, &one_task()).assessment).unwrap();
+    assert_eq!(
+        keys(&value),
+        ["profile", "scores", "completion", "tasks", "crashes", "snapshots", "end", "telemetry", "flown_by", "certification"]
+    );
+    assert_eq!(value["profile"], "paper");
+    check_keys(&value["scores"], &["conformity", "efficiency", "safety", "accuracy", "overall"]);
+    assert_eq!(keys(&value["scores"]["conformity"]), ["raw", "pct"]);
+    assert!(value["scores"]["overall"].is_number());
+    assert_eq!(
+        keys(&value["tasks"][0]),
+        ["id", "attempted", "state", "covered", "first_frame", "last_frame", "on_path", "speeding"]
+    );
+    let completion = ["complete", "tasks_done", "tasks", "path_share", "landed_at_home", "done_share"];
+    assert_eq!(keys(&value["completion"]), completion);
+    assert_eq!(keys(&value["crashes"]), ["other", "person", "vehicle", "by_task"]);
+    assert_eq!(keys(&value["crashes"]["by_task"]), ["1", "outside"]);
+    let snapshots = ["taken", "hits", "defects_found", "defects_placed", "precision", "recall", "f_beta"];
+    check_keys(&value["snapshots"], &snapshots);
+    assert_eq!(keys(&value["end"]), ["reason", "frames", "seconds", "battery_failed"]);
+    check_keys(&value["telemetry"], &["missing_frames"]);
+    assert_eq!(value["end"]["reason"], "landed");
+}
+
+/// Each frame once, in order, under the hand that the heartbeat before it names.
+#[test]
+fn exact_the_assessment_says_who_flew_when() {
+    let mut tape = Tape::new();
+    tape.beat(true, 3 << 16);
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.beat(true, 4 << 24 | 4 << 16);
+    tape.hold(2.0);
+    tape.beat(true, 3 << 16);
+    tape.hold(1.0);
+    tape.land();
+    let value = serde_json::to_value(&grade(&tape, &one_task()).assessment).unwrap();
+    let stretches = value["flown_by"].as_array().unwrap();
+    let by: Vec<&str> = stretches.iter().map(|s| s["by"].as_str().unwrap()).collect();
+    assert_eq!(by, ["pilot", "mission", "pilot"]);
+    let frames = |s: &Value, key: &str| s[key].as_u64().unwrap();
+    assert_eq!(frames(&stretches[0], "from_frame"), 1);
+    assert!(stretches.windows(2).all(|pair| frames(&pair[0], "to_frame") + 1 == frames(&pair[1], "from_frame")));
+    assert_eq!(frames(&stretches[2], "to_frame"), value["end"]["frames"].as_u64().unwrap());
+    let two_seconds = (2.0 * one_task().scoring.frame_rate_hz) as u64;
+    let flown = frames(&stretches[1], "to_frame") + 1 - frames(&stretches[1], "from_frame");
+    assert!(flown.abs_diff(two_seconds) <= 1, "{flown}");
+}
+
+#[test]
+fn exact_without_defects_accuracy_does_not_apply_and_the_sum_is_out_of_300() {
+    let empty = |_: &spandrel_model::scenario::Scenario,
+                 _: u64|
+     -> std::sync::Arc<dyn spandrel_monitor::measures::attention::Survey> { std::sync::Arc::new(Fence::of(0)) };
+    let log = clean_flight().log(0);
+    let graded = spandrel_monitor::assess_log(&log, &one_task(), &vehicle(), empty).unwrap();
+    let value = serde_json::to_value(&graded.assessment).unwrap();
+    assert!(value["scores"]["accuracy"].is_null() && value["snapshots"]["f_beta"].is_null());
+    assert_eq!((&value["scores"]["overall"], &value["scores"]["overall_max"]), (&300.0.into(), &300.0.into()));
+}
+
+#[test]
+fn exact_frames_have_the_columns_of_the_design_and_numbers_that_read_back() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.snapshot(0);
+    tape.lamp(true);
+    tape.contact(1);
+    tape.hold(0.2);
+    tape.contact(0);
+    tape.land();
+    let graded = grade(&tape, &one_task());
+    let csv = export::frames_csv(&graded.frames);
+    let mut lines = csv.lines();
+    let header = "frame,t_s,fb,rl,ud,rt,light,snapshot,east_m,north_m,up_m,speed_m_s,battery_pct,contact,missing";
+    assert_eq!(lines.next(), Some(header));
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), graded.frames.len());
+    for (row, frame) in rows.iter().zip(&graded.frames) {
+        assert_eq!(row.len(), 15);
+        assert_eq!(row[0], frame.index.to_string());
+        assert_eq!(row[8].parse::<f64>().unwrap().to_bits(), frame.position_m.east().to_bits());
+        assert_eq!(row[11].parse::<f64>().unwrap().to_bits(), frame.speed_m_s().to_bits());
+    }
+    assert_eq!(rows[0][1], "0");
+    assert_eq!(rows.iter().filter(|row| row[7] == "1").count(), 1, "a press is one frame");
+    assert!(rows.iter().any(|row| row[13] == "bridge") && rows.iter().any(|row| row[6] == "1"));
+    assert!(rows.iter().all(|row| (-1.0..=1.0).contains(&row[2].parse::<f64>().unwrap())));
+}
+
+#[test]
+fn exact_the_scenario_export_has_the_names_of_the_design() {
+    let mut scenario = one_task();
+    scenario.scoring.beta = f64::INFINITY;
+    let value = serde_json::to_value(ScenarioExport::new(&scenario, &Fence::of(2).defects)).unwrap();
+    let top =
+        ["name", "frame_rate_hz", "speed_limit_m_s", "max_speed_m_s", "time_best_s", "time_max_s", "beta", "tasks", "defects"];
+    assert_eq!(keys(&value), top);
+    assert_eq!(value["beta"], "inf");
+    assert_eq!(keys(&value["tasks"][0]), ["id", "name", "threshold_m", "closed", "path_enu_m"]);
+    assert_eq!(keys(&value["defects"][0]), ["id", "element", "kind", "position_enu_m", "normal_enu", "size_m"]);
+    assert_eq!(value["tasks"][0]["path_enu_m"][0], serde_json::json!([10.0, 0.0, 10.0]));
+}

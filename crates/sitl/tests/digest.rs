@@ -1,0 +1,124 @@
+//! The same flight gives the same bits: in two runs and from a snapshot taken anywhere. (Debug and release builds are compared over the
+//! wire, in `tests/clients/`.)
+
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::sim::{Sim, SimEvent};
+use spandrel_testkit::station::{GCS, Station};
+
+const SEED: u64 = 7;
+/// Sticks arrive this often, ms.
+const PERIOD_MS: i64 = 40;
+/// How long which sticks (forward, right, up from 0 to 1000) are held, ms: higher, sideways into the suspension bridge's girder, away
+/// from it; then the motors are stopped, and after a fall into the lake and three seconds there it flies on.
+const SCRIPT: [(i64, [i16; 3]); 5] =
+    [(4_000, [0, 0, 800]), (15_000, [0, -1000, 500]), (4_000, [0, 1000, 500]), (9_000, [0, 0, 500]), (5_000, [500, 0, 600])];
+const STOP_BEFORE: usize = 3;
+/// The number that stops motors in the air.
+const FORCE: f32 = 21_196.0;
+
+/// Snapshots are taken this far apart at least.
+const APART: SimTime = SimTime::from_ms(2_000);
+
+/// When which bytes come in.
+type Inputs = Vec<(SimTime, Vec<u8>)>;
+
+fn inputs(mut at: SimTime) -> (Inputs, SimTime) {
+    let (mut encoder, mut inputs) = (Encoder::new(255, 190), Inputs::new());
+    for (k, (for_ms, [x, y, z])) in SCRIPT.into_iter().enumerate() {
+        if k == STOP_BEFORE {
+            let command = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM;
+            let stop = COMMAND_LONG_DATA { command, param2: FORCE, target_system: 1, target_component: 1, ..Default::default() };
+            inputs.push((at, encoder.encode(&MavMessage::COMMAND_LONG(stop))));
+        }
+        for _ in 0..for_ms / PERIOD_MS {
+            let sticks = MANUAL_CONTROL_DATA { target: 1, x, y, z, ..Default::default() };
+            inputs.push((at, encoder.encode(&MavMessage::MANUAL_CONTROL(sticks))));
+            at += SimTime::from_ms(PERIOD_MS);
+        }
+    }
+    (inputs, at)
+}
+
+/// Flies on from where the vehicle is; hands out what happened and the vehicle right after.
+fn fly(sim: &mut Sim, inputs: &Inputs, end: SimTime, mut look: impl FnMut(&SimEvent, &Sim)) {
+    let left = inputs.iter().filter(|(at, _)| *at >= sim.now()).cloned().collect::<Inputs>();
+    let times = left.iter().skip(1).map(|(at, _)| *at).chain([end]);
+    for ((_, bytes), next) in left.iter().zip(times) {
+        sim.handle_datagram(GCS, bytes);
+        sim.handle_timeout(next);
+        while sim.poll_transmit().is_some() {}
+        while let Some(event) = sim.poll_event() {
+            look(&event, sim);
+        }
+    }
+}
+
+fn hex(sim: &Sim) -> String {
+    sim.digest().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Time that stands still changes nothing of the flight, and the vehicle is heard all the while: a heartbeat a call on the link, at the
+/// beginning a word, no truth.
+#[test]
+fn flight_a_pause_changes_no_bit_and_heartbeats_go_on() {
+    let start = Station::airborne("drill-hover", SEED).vehicle.sim;
+    let end = start.now() + SimTime::from_ms(3_000);
+    let sticks = MANUAL_CONTROL_DATA { target: 1, x: 300, y: -200, z: 600, ..Default::default() };
+    let mut encoder = Encoder::new(255, 190);
+    let inputs: Inputs = (0..60)
+        .map(|k| (start.now() + SimTime::from_ms(50 * k), encoder.encode(&MavMessage::MANUAL_CONTROL(sticks.clone()))))
+        .collect();
+    let mut through = start.clone();
+    fly(&mut through, &inputs, end, |_, _| {});
+    let mut paused = start;
+    let (middle, (first, second)) = (inputs[30].0, inputs.split_at(30));
+    fly(&mut paused, &first.to_vec(), middle, |_, _| {});
+    let mut messages = Vec::new();
+    for k in 0..100 {
+        paused.stand_still(k == 0);
+        let bytes: Vec<u8> =
+            std::iter::from_fn(|| paused.poll_transmit()).filter(|t| t.link == GCS).flat_map(|t| t.bytes).collect();
+        messages
+            .extend(Decoder::new().datagram(&bytes).into_iter().filter_map(|frame| Some((frame.component_id, frame.message?))));
+    }
+    assert_eq!(paused.now(), middle);
+    let beats = |component: u8| messages.iter().filter(|(c, m)| *c == component && matches!(m, MavMessage::HEARTBEAT(_))).count();
+    assert_eq!((beats(1), beats(100)), (100, 0), "the autopilot's; nobody uses the camera");
+    let words =
+        messages.iter().filter(|(_, m)| matches!(m, MavMessage::STATUSTEXT(t) if t.text.to_str() == Ok("Time stands still")));
+    assert_eq!(words.count(), 1);
+    assert!(messages.iter().all(|(_, m)| matches!(m, MavMessage::HEARTBEAT(_) | MavMessage::STATUSTEXT(_))), "{messages:?}");
+    paused.run_again();
+    fly(&mut paused, &second.to_vec(), end, |_, _| {});
+    assert_eq!(hex(&paused), hex(&through));
+}
+
+#[test]
+fn flight_the_same_inputs_give_the_same_bits_through_wind_collision_and_being_put_back() {
+    let start = Station::airborne("two-bridges", SEED).vehicle.sim;
+    let (inputs, end) = inputs(start.now());
+    let (mut crashes, mut respawns, mut snapshots) = (0, 0, vec![start.clone()]);
+    let mut first = start;
+    fly(&mut first, &inputs, end, |event, sim| {
+        crashes += usize::from(matches!(event, SimEvent::Crash { .. }));
+        respawns += usize::from(*event == SimEvent::Respawn);
+        // Right after something happened is where forgotten state would show.
+        if snapshots.last().is_none_or(|last| sim.now() >= last.now() + APART) {
+            snapshots.push(sim.clone());
+        }
+    });
+    assert!(crashes > 0 && respawns > 0, "{crashes} collisions, put back {respawns} times");
+    let mut second = Station::airborne("two-bridges", SEED).vehicle.sim;
+    fly(&mut second, &inputs, end, |_, _| {});
+    assert_eq!(hex(&second), hex(&first), "a second run");
+    for mut snapshot in snapshots {
+        let from = snapshot.now();
+        fly(&mut snapshot, &inputs, end, |_, _| {});
+        assert_eq!(hex(&snapshot), hex(&first), "from a snapshot at {from}");
+    }
+    let mut other = Station::airborne("two-bridges", SEED + 1).vehicle.sim;
+    fly(&mut other, &inputs, end, |_, _| {});
+    assert_ne!(hex(&other), hex(&first), "another seed");
+}

@@ -1,0 +1,221 @@
+//! Circles, places to look at, and a restart.
+
+use spandrel_mavlink::dialect::*;
+use spandrel_testkit::plans::{ACCEPTED, home_north, item, ready, upload};
+use spandrel_testkit::station::Station;
+
+/// The circle as the vehicle itself sees it is flown this exactly, m.
+const RADIUS_TOLERANCE_M: f64 = 0.6;
+/// The nose points this exactly, rad.
+const YAW_TOLERANCE: f32 = 0.2;
+const NAN: f32 = f32::NAN;
+
+fn yaw(station: &Station) -> f32 {
+    station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap()
+}
+
+fn off(a: f32, b: f32) -> f32 {
+    let d = (a - b).rem_euclid(std::f32::consts::TAU);
+    d.min(std::f32::consts::TAU - d)
+}
+
+#[test]
+fn flight_an_orbit_keeps_its_radius_and_speed_with_the_nose_to_the_middle() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.sticks(0, 0, 500, 0);
+    let centre = station.place();
+    let orbit = [-8.0, 2.0, 0.0, 0.0, NAN, NAN, NAN];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(12_000);
+    assert_eq!(station.mode(), Some(1 << 24 | 3 << 16));
+    let status = station.last(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some(o.radius) } else { None });
+    assert_eq!(status, Some(-8.0));
+    let mut turned = 0.0f32;
+    let mut before: Option<f32> = None;
+    for _ in 0..120 {
+        station.run_ms(100);
+        let p = station.place();
+        let (n, e) = (p[0] - centre[0], p[1] - centre[1]);
+        let radius = f64::from(n.hypot(e));
+        assert!((radius - 8.0).abs() < RADIUS_TOLERANCE_M, "{radius}");
+        assert!(off(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {p:?}", yaw(&station));
+        let bearing = e.atan2(n);
+        turned += before
+            .map_or(0.0, |b| (bearing - b + 3.0 * std::f32::consts::PI).rem_euclid(std::f32::consts::TAU) - std::f32::consts::PI);
+        before = Some(bearing);
+    }
+    // Twelve seconds at 2 m/s on 8 m, counter-clockwise.
+    assert!((turned + 11.9 * 2.0 / 8.0).abs() < 0.3, "{turned} rad");
+    let too_wide = [5_000.0, 2.0, 0.0, 0.0, NAN, NAN, NAN];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, too_wide), MavResult::MAV_RESULT_DENIED);
+}
+
+#[test]
+fn flight_an_orbit_of_half_a_circle_ends_in_a_hold() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let orbit = [5.0, 2.0, 0.0, std::f32::consts::PI, NAN, NAN, NAN];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(40.0, |s| s.mode() == Some(3 << 24 | 4 << 16)), "{:?}", station.place());
+}
+
+#[test]
+fn flight_in_a_mission_the_nose_turns_to_the_place_of_interest_until_it_is_told_no_more() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let home = home_north(&station);
+    let mut aim = item(1, MavCmd::MAV_CMD_DO_SET_ROI_LOCATION, home + 20.0, 2.0);
+    aim.y += 3_000;
+    let plan = [
+        item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 2.0, 8.0),
+        aim.clone(),
+        item(2, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 40.0, 8.0),
+        item(3, MavCmd::MAV_CMD_DO_SET_ROI_NONE, home, 0.0),
+        item(4, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 20.0, 8.0),
+    ];
+    assert_eq!(upload(&mut station, &plan), ACCEPTED);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(60.0, |s| home_north(s) > home + 25.0));
+    // Where the place lies, m: 1e-7 degrees of longitude are shorter than those of latitude.
+    let east = 3_000.0 * 1e-7 * 40_000_000.0 / 360.0 * 46.7f32.to_radians().cos();
+    let p = station.place();
+    let wanted = (east - p[1]).atan2(home as f32 + 20.0 - p[0]);
+    assert!(off(yaw(&station), wanted) < 2.0 * YAW_TOLERANCE, "{} not {wanted} at {p:?}", yaw(&station));
+    assert!(station.run_until(60.0, |s| s.mode() == Some(3 << 24 | 4 << 16)));
+    assert!(off(yaw(&station), std::f32::consts::PI) < 2.0 * YAW_TOLERANCE, "south again, along the way: {}", yaw(&station));
+}
+
+#[test]
+fn wire_a_reboot_on_the_ground_keeps_parameters_and_plans_and_is_refused_in_flight() {
+    let mut station = ready(7);
+    let home = home_north(&station);
+    assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 5.0, 6.0)]), ACCEPTED);
+    station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
+        param_value: 7.0,
+        target_system: 1,
+        target_component: 1,
+        param_id: "MIS_TAKEOFF_ALT".into(),
+        param_type: MavParamType::MAV_PARAM_TYPE_REAL32,
+    }));
+    station.run_ms(10);
+    let reboot = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, reboot), MavResult::MAV_RESULT_ACCEPTED);
+    let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(
+        station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm),
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
+        "it boots"
+    );
+    station.run_ms(2_500);
+    let asked = MavMessage::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA {
+        param_index: -1,
+        target_system: 1,
+        target_component: 1,
+        param_id: "MIS_TAKEOFF_ALT".into(),
+    });
+    let height = station.ask(&asked, |m| if let MavMessage::PARAM_VALUE(v) = m { Some(v.param_value) } else { None });
+    assert_eq!(height, Some(7.0));
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
+    let take_off = [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, take_off), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(50);
+    let base = station.place()[2];
+    assert!(station.run_until(30.0, |s| base - s.place()[2] > 6.0), "the parameter's height still acts");
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, reboot), MavResult::MAV_RESULT_TEMPORARILY_REJECTED);
+    assert_eq!(
+        station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]),
+        MavResult::MAV_RESULT_ACCEPTED,
+        "the plan is still there"
+    );
+}
+
+#[test]
+fn flight_a_turn_by_command_leaves_the_mission_flying() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let home = home_north(&station);
+    let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 60.0, 8.0)];
+    let turn = [90.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+    station.sticks(0, 0, 500, 0);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, turn), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "by hand");
+    assert_eq!(upload(&mut station, &plan), ACCEPTED);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(3_000);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, turn), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(5_000);
+    assert_eq!(station.mode(), Some(4 << 24 | 4 << 16));
+    assert!(off(yaw(&station), std::f32::consts::FRAC_PI_2) < YAW_TOLERANCE, "{}", yaw(&station));
+}
+
+/// A home over home: the height that is given counts from where home is.
+#[test]
+fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
+    let mut station = ready(7);
+    let home_mm = |s: &mut Station| {
+        s.run_ms(2_100);
+        s.last(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.altitude) } else { None }).unwrap()
+    };
+    let before = home_mm(&mut station);
+    let there = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0);
+    let set = |s: &mut Station, frame: MavFrame, z: f32| {
+        s.heard.clear();
+        s.send(&MavMessage::COMMAND_INT(COMMAND_INT_DATA {
+            command: MavCmd::MAV_CMD_DO_SET_HOME,
+            frame,
+            x: there.x,
+            y: there.y,
+            z,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        }));
+        s.run_ms(5);
+        s.last(|m| if let MavMessage::COMMAND_ACK(ack) = m { Some(ack.result) } else { None }).unwrap()
+    };
+    assert_eq!(set(&mut station, MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT, 3.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!((home_mm(&mut station) - before - 3_000).abs() < 50);
+    assert_eq!(set(&mut station, MavFrame::MAV_FRAME_LOCAL_NED, 3.0), MavResult::MAV_RESULT_DENIED);
+}
+
+/// The middle of the circle that is flown, as COMMAND_INT has it.
+fn middle(station: &Station) -> (i32, i32, f32) {
+    station.last(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some((o.x, o.y, o.z)) } else { None }).unwrap()
+}
+
+/// QGroundControl's orbit names no behavior of its own (5, unchanged): a PX4 that is not in an orbit yet turns its nose to the middle.
+#[test]
+fn regress_an_orbit_with_yaw_unchanged_faces_its_middle_and_keeps_what_is_flown() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.sticks(0, 0, 500, 0);
+    let centre = station.place();
+    let orbit = |yaw: f32| [8.0, 2.0, yaw, 0.0, NAN, NAN, NAN];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit(5.0)), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(15_000);
+    let [n, e, _] = std::array::from_fn(|k| station.place()[k] - centre[k]);
+    assert!(off(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
+    // Around the same middle, the nose along the circle (3), then unchanged.
+    let (x, y, z) = middle(&station);
+    for behavior in [3.0, 5.0] {
+        let orbit = COMMAND_INT_DATA {
+            command: MavCmd::MAV_CMD_DO_ORBIT,
+            frame: MavFrame::MAV_FRAME_GLOBAL,
+            param1: 8.0,
+            param2: 2.0,
+            param3: behavior,
+            x,
+            y,
+            z,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        };
+        station.heard.clear();
+        station.send(&MavMessage::COMMAND_INT(orbit));
+        // Streamed at 2 Hz.
+        station.run_ms(1_000);
+        let result = station.last(|m| if let MavMessage::COMMAND_ACK(ack) = m { Some(ack.result) } else { None });
+        assert_eq!(result, Some(MavResult::MAV_RESULT_ACCEPTED));
+        let radius = station.last(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some(o.radius) } else { None });
+        assert_eq!(radius, Some(8.0));
+    }
+    station.run_ms(8_000);
+    let [n, e, _] = std::array::from_fn(|k| station.place()[k] - centre[k]);
+    assert!(off(yaw(&station), n.atan2(-e)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
+}

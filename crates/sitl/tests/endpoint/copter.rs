@@ -1,0 +1,268 @@
+//! As an ArduCopter it is flown: modes, arming, take-off, GUIDED, and the pilot's hand.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use super::copter_plans::item;
+use spandrel_mavlink::dialect::*;
+use spandrel_sitl::endpoint::flavour::ardupilot;
+use spandrel_testkit::station::{Station, one};
+
+const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
+const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
+const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
+pub(super) const ARM: MavCmd = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM;
+pub(super) const SET_MODE: MavCmd = MavCmd::MAV_CMD_DO_SET_MODE;
+/// Copter's numbers.
+const ALT_HOLD: f32 = 2.0;
+pub(super) const AUTO: f32 = 3.0;
+pub(super) const GUIDED: f32 = 4.0;
+pub(super) const LOITER: f32 = 5.0;
+const RTL: f32 = 6.0;
+const POSHOLD: f32 = 16.0;
+pub(super) const BRAKE: f32 = 17.0;
+/// A height counts as reached within this, m (the autopilot's own 0.4 m and its way to rest).
+const HEIGHT_M: f32 = 0.6;
+/// The drill's pad in 1e-7 degrees, and metres for one of them north.
+pub(super) const PAD: (i32, i32) = (467_052_000, 83_814_000);
+pub(super) const M_PER_E7: f64 = 0.011_132;
+
+pub(super) fn mode(number: f32) -> [f32; 7] {
+    [1.0, number, 0.0, 0.0, 0.0, 0.0, 0.0]
+}
+
+pub(super) fn beat(station: &Station) -> HEARTBEAT_DATA {
+    station
+        .last(|m| match m {
+            MavMessage::HEARTBEAT(beat) if beat.mavtype == MavType::MAV_TYPE_QUADROTOR => Some(beat.clone()),
+            _ => None,
+        })
+        .unwrap()
+}
+
+pub(super) fn next_beat(station: &mut Station) -> HEARTBEAT_DATA {
+    station.heard.clear();
+    station.run_ms(1_100);
+    beat(station)
+}
+
+/// A Copter on the ground, ready, with the streams that these tests look at.
+pub(super) fn copter() -> Station {
+    let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
+    station.run_ms(2_500);
+    for id in [32.0, 33.0, 245.0, 65.0] {
+        let interval = [id, 50_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, interval), ACCEPTED);
+    }
+    station
+}
+
+/// In GUIDED at a height over home, m.
+pub(super) fn copter_at(height_m: f32) -> Station {
+    let mut station = copter();
+    assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);
+    assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
+    let take_off = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height_m];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, take_off), ACCEPTED);
+    let ground = station.place_after(100)[2];
+    assert!(station.run_until(30.0, |s| ground - s.place()[2] > height_m - HEIGHT_M), "no take-off: {:?}", station.texts());
+    station.run_ms(3_000);
+    station
+}
+
+#[test]
+fn wire_copters_modes_are_refused_as_copter_refuses_them() {
+    let mut station = copter();
+    for (number, name) in [(77.0, "No such mode 77"), (AUTO, "Mode change to AUTO failed: No mission to fly")] {
+        assert_eq!(station.command(1, SET_MODE, mode(number)), FAILED);
+        station.run_ms(5);
+        assert!(station.texts().iter().any(|text| text.starts_with(name)), "{:?}", station.texts());
+    }
+    assert_eq!(station.command(1, SET_MODE, [0.0, GUIDED, 0.0, 0.0, 0.0, 0.0, 0.0]), DENIED, "without the flag for custom modes");
+    let switch = SET_MODE_DATA { custom_mode: 0, target_system: 1, base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED };
+    station.send(&MavMessage::SET_MODE(switch));
+    assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32, "MAVProxy's words for the safety switch are no mode");
+    assert_eq!(station.command(1, SET_MODE, mode(RTL)), ACCEPTED);
+    assert_eq!(station.command(1, ARM, one(1.0)), FAILED);
+    station.run_ms(5);
+    assert!(station.texts().contains(&"Arm: RTL mode not armable".to_owned()), "{:?}", station.texts());
+    station.command(1, SET_MODE, mode(LOITER));
+    station.sticks(0, 900, 500, 0);
+    station.run_ms(100);
+    assert_eq!(station.command(1, ARM, one(1.0)), FAILED);
+    station.run_ms(5);
+    assert!(station.texts().contains(&"Arm: Sticks not centred".to_owned()), "{:?}", station.texts());
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_RUN_PREARM_CHECKS, one(0.0)), ACCEPTED);
+    station.run_ms(5);
+    assert!(!station.texts().contains(&"PreArm: Sticks not centred".to_owned()), "sticks count when motors are armed");
+    let forced = [1.0, 2989.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(1, ARM, forced), ACCEPTED, "ArduPilot's number forces it");
+}
+
+#[test]
+fn wire_a_transmitters_throttle_that_is_down_does_not_keep_a_copter_from_arming() {
+    let low = |chan3_raw| {
+        MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+            chan1_raw: 1500,
+            chan2_raw: 1500,
+            chan3_raw,
+            chan4_raw: 1500,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        })
+    };
+    let mut station = copter();
+    station.command(1, SET_MODE, mode(ALT_HOLD));
+    for (pulse, result) in [(1_900, FAILED), (1_000, ACCEPTED)] {
+        station.send(&low(pulse));
+        station.run_ms(200);
+        assert_eq!(station.command(1, ARM, one(1.0)), result, "throttle {pulse}");
+    }
+    station.send(&low(1_000));
+    assert_eq!(next_beat(&mut station).custom_mode, ALT_HOLD as u32);
+    let mut px4 = Station::new("drill-hover", 7);
+    px4.run_ms(2_500);
+    px4.send(&low(1_000));
+    px4.run_ms(200);
+    assert_eq!(px4.command(1, ARM, one(1.0)), MavResult::MAV_RESULT_TEMPORARILY_REJECTED);
+}
+
+#[test]
+fn flight_guided_takes_off_over_home_and_keeps_its_number_in_the_air() {
+    let mut station = copter();
+    let take_off = |height: f32| [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height];
+    let command = MavCmd::MAV_CMD_NAV_TAKEOFF;
+    assert_eq!(station.command(1, command, take_off(6.0)), FAILED, "not in GUIDED");
+    station.command(1, SET_MODE, mode(GUIDED));
+    assert_eq!(station.command(1, command, take_off(6.0)), FAILED, "not armed");
+    assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
+    let on_ground = next_beat(&mut station);
+    assert_eq!(
+        (on_ground.custom_mode, on_ground.system_status),
+        (GUIDED as u32, MavState::MAV_STATE_STANDBY),
+        "armed, on the ground"
+    );
+    assert_eq!(station.command(1, command, take_off(0.0)), FAILED);
+    assert_eq!(station.command(1, command, take_off(f32::NAN)), FAILED);
+    assert_eq!(station.command(1, command, take_off(6.0)), ACCEPTED);
+    let flying = next_beat(&mut station);
+    assert!(station.run_until(5.0, |s| beat(s).system_status == MavState::MAV_STATE_ACTIVE));
+    assert_eq!(flying.custom_mode, GUIDED as u32, "while it takes off");
+    let ground = 0.0;
+    assert!(station.run_until(30.0, |s| ground - s.place()[2] > 6.0 - HEIGHT_M));
+    station.run_ms(2_000);
+    let height = -station.place_after(100)[2];
+    assert!((height - 6.0).abs() < 2.0 * HEIGHT_M, "over home, not over the sea: {height}");
+    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32, "when it has taken off");
+    assert_eq!(station.command(1, command, take_off(9.0)), FAILED, "in the air");
+    assert_eq!(station.command(1, ARM, one(0.0)), FAILED, "not disarmed in the air");
+}
+
+#[test]
+fn flight_guided_flies_set_points_as_they_come_and_a_place_sent_once_is_flown_to() {
+    let mut station = copter_at(5.0);
+    let target = |type_mask: u16, x, y, z, vx| {
+        MavMessage::SET_POSITION_TARGET_LOCAL_NED(SET_POSITION_TARGET_LOCAL_NED_DATA {
+            target_system: 1,
+            target_component: 1,
+            coordinate_frame: MavFrame::MAV_FRAME_LOCAL_NED,
+            type_mask: PositionTargetTypemask::from_bits_retain(type_mask),
+            x,
+            y,
+            z,
+            vx,
+            ..Default::default()
+        })
+    };
+    let [north, east, down] = station.place();
+    station.send(&target(0x0DF8, north + 12.0, east, down, 0.0));
+    let there = |s: &mut Station| (s.place()[0] - north - 12.0).abs() < 0.6;
+    assert!(station.run_until(20.0, there), "{:?}", station.place());
+    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
+    for _ in 0..30 {
+        station.send(&target(0x0DC7, 0.0, 0.0, 0.0, -2.0));
+        station.run_ms(100);
+    }
+    let [then, ..] = station.place();
+    assert!(then < north + 9.0, "it flies south: {then}");
+    station.run_ms(9_000);
+    let [first, ..] = station.place();
+    let [second, ..] = station.place_after(2_000);
+    assert!((first - second).abs() < 0.2, "it stops when nothing comes any more: {first} {second}");
+    let status = next_beat(&mut station);
+    assert_eq!((status.custom_mode, status.system_status), (GUIDED as u32, MavState::MAV_STATE_ACTIVE), "that is no failure");
+    station.command(1, SET_MODE, mode(BRAKE));
+    station.send(&target(0x0DF8, north, east, down, 0.0));
+    station.run_ms(3_000);
+    assert!((station.place()[0] - second).abs() < 0.5, "no other mode follows them");
+}
+
+#[test]
+fn flight_go_to_needs_guided_or_asks_for_it_and_brake_stops_it() {
+    let mut station = copter_at(5.0);
+    let place = |flags: f32| {
+        MavMessage::COMMAND_INT(COMMAND_INT_DATA {
+            target_system: 1,
+            target_component: 1,
+            frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT,
+            command: MavCmd::MAV_CMD_DO_REPOSITION,
+            param1: -1.0,
+            param2: flags,
+            param4: f32::NAN,
+            x: PAD.0 + (40.0 / M_PER_E7) as i32,
+            y: PAD.1,
+            z: 5.0,
+            ..Default::default()
+        })
+    };
+    let result = |m: &MavMessage| match m {
+        MavMessage::COMMAND_ACK(ack) if ack.command == MavCmd::MAV_CMD_DO_REPOSITION => Some(ack.result),
+        _ => None,
+    };
+    station.command(1, SET_MODE, mode(BRAKE));
+    assert_eq!(station.ask(&place(0.0), result), Some(DENIED));
+    assert_eq!(station.ask(&place(1.0), result), Some(ACCEPTED));
+    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
+    station.run_ms(2_000);
+    assert_eq!(station.command(1, SET_MODE, mode(BRAKE)), ACCEPTED);
+    station.run_ms(5_000);
+    let [first, ..] = station.place();
+    let [second, ..] = station.place_after(2_000);
+    assert!((first - second).abs() < 0.3 && first < 39.0, "it has stopped on its way: {first} {second}");
+    assert_eq!(next_beat(&mut station).custom_mode, BRAKE as u32);
+    // MAVProxy's and older ground stations' way: a single item.
+    station.command(1, SET_MODE, mode(GUIDED));
+    let errand = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 6.0);
+    let answer = station.ask(&MavMessage::MISSION_ITEM_INT(MISSION_ITEM_INT_DATA { current: 2, ..errand }), |m| match m {
+        MavMessage::MISSION_ACK(ack) => Some(ack.mavtype),
+        _ => None,
+    });
+    assert_eq!(answer, Some(MavMissionResult::MAV_MISSION_ACCEPTED));
+    assert!(station.run_until(30.0, |s| s.place()[0].abs() < 1.0), "back over the pad: {:?}", station.place());
+}
+
+#[test]
+fn flight_a_copters_mode_is_the_pilots_once_sticks_move_and_each_stick_mode_keeps_its_number() {
+    let mut station = copter_at(5.0);
+    for _ in 0..20 {
+        station.sticks(0, 0, 500, 0);
+        station.run_ms(50);
+    }
+    for _ in 0..40 {
+        station.sticks(700, 0, 500, 0);
+        station.run_ms(50);
+    }
+    assert_eq!(beat(&station).custom_mode, LOITER as u32, "the pilot took over");
+    assert_eq!(station.command(1, SET_MODE, mode(POSHOLD)), ACCEPTED);
+    for _ in 0..40 {
+        station.sticks(0, 0, 500, 0);
+        station.run_ms(50);
+    }
+    assert_eq!(beat(&station).custom_mode, POSHOLD as u32);
+    station.run_ms(5_000);
+    let lost = next_beat(&mut station);
+    assert_eq!(
+        (lost.custom_mode, lost.system_status),
+        (BRAKE as u32, MavState::MAV_STATE_CRITICAL),
+        "sticks that fall silent are a failsafe"
+    );
+}

@@ -1,0 +1,444 @@
+//! ArduCopter's modes and what QGroundControl's buttons send to it: offsets, Smart RTL, circle, follow, acro, landing sequence, pause, mode switch, and
+//! the streams of ArduPilot's own dialect.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use super::copter::{ARM, AUTO, BRAKE, GUIDED, LOITER, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
+use super::copter_plans::item;
+use spandrel_mavlink::dialect::*;
+use spandrel_testkit::plans::upload;
+use spandrel_testkit::station::{Station, one, p};
+
+const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
+const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
+/// A place counts as reached within, m (the autopilot's own 0.4 m and its way to rest).
+const NEAR_M: f32 = 0.7;
+/// A path flown back is kept within, m (Smart RTL's accuracy of 2 m, at which it turns to the next point, and the sway of the way back).
+const PATH_M: f32 = 3.0;
+/// It brakes at least like this, m/s2 (WPNAV_ACCEL).
+const BRAKING_M_S2: f32 = 2.5;
+const SMART_RTL: f32 = 21.0;
+const CIRCLE: f32 = 7.0;
+
+fn local(frame: MavFrame, mask: u16, [x, y, z]: [f32; 3]) -> MavMessage {
+    MavMessage::SET_POSITION_TARGET_LOCAL_NED(SET_POSITION_TARGET_LOCAL_NED_DATA {
+        target_system: 1,
+        target_component: 1,
+        coordinate_frame: frame,
+        type_mask: PositionTargetTypemask::from_bits_retain(mask),
+        x,
+        y,
+        z,
+        ..Default::default()
+    })
+}
+
+fn set_param(station: &mut Station, name: &str, value: f32, param_type: MavParamType) {
+    station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
+        target_system: 1,
+        target_component: 1,
+        param_id: name.into(),
+        param_value: value,
+        param_type,
+    }));
+    station.run_ms(5);
+}
+
+fn yaw(station: &mut Station) -> f32 {
+    station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(30.0));
+    station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap()
+}
+
+fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
+}
+
+/// QGroundControl's altitude slider: mode GUIDED, then one offset with every bit set that is not the position's.
+#[test]
+fn regress_qgroundcontrols_change_of_altitude_climbs_a_copter() {
+    for before in [GUIDED, BRAKE] {
+        let mut station = copter_at(5.0);
+        let start = station.place();
+        assert_eq!(station.command(1, SET_MODE, mode(before)), ACCEPTED);
+        assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);
+        station.send(&local(MavFrame::MAV_FRAME_LOCAL_OFFSET_NED, 0xFFF8, [0.0, 0.0, -3.0]));
+        station.run_ms(12_000);
+        let end = station.place();
+        assert!((start[2] - end[2] - 3.0).abs() < NEAR_M, "{start:?} to {end:?}: {:?}", station.texts());
+        assert!((start[0] - end[0]).hypot(start[1] - end[1]) < NEAR_M);
+        assert!(!station.said("Set-point"), "{:?}", station.texts());
+    }
+}
+
+#[test]
+fn regress_offsets_in_the_bodys_frames_count_from_the_copter_and_its_heading() {
+    for frame in [MavFrame::MAV_FRAME_BODY_NED, MavFrame::MAV_FRAME_BODY_OFFSET_NED] {
+        let mut station = copter_at(5.0);
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[90.0, 0.0, 1.0, 0.0])), ACCEPTED);
+        station.run_ms(6_000);
+        let start = station.place();
+        // Forward is east now, right is south.
+        station.send(&local(frame, 0x0DF8, [6.0, 2.0, 1.0]));
+        station.run_ms(12_000);
+        let wanted = [start[0] - 2.0, start[1] + 6.0, start[2] + 1.0];
+        assert!(distance(station.place(), wanted) < 1.0, "{frame:?}: {:?} not {wanted:?}", station.place());
+    }
+}
+
+/// QGroundControl's Return sends mode 21.
+#[test]
+fn regress_smart_rtl_flies_back_along_its_path_and_lands_where_it_took_off() {
+    let mut station = copter_at(6.0);
+    let pad = station.place();
+    let corner = [pad[0] + 20.0, pad[1], pad[2] - 2.0];
+    let end = [pad[0] + 20.0, pad[1] + 20.0, pad[2] - 2.0];
+    // The path as flown: with its corner rounded and its stops overshot.
+    let mut path = Vec::new();
+    for place in [corner, end] {
+        station.send(&local(MavFrame::MAV_FRAME_LOCAL_NED, 0x0DF8, place));
+        let there = |s: &mut Station| {
+            path.push(s.place());
+            distance(s.place(), place) < 1.0
+        };
+        assert!(station.run_until(40.0, there), "{:?}", station.place());
+    }
+    assert_eq!(station.command(1, SET_MODE, mode(SMART_RTL)), ACCEPTED);
+    assert_eq!(next_beat(&mut station).custom_mode, SMART_RTL as u32);
+    let mut nearest = f32::INFINITY;
+    let mut path_back = Vec::new();
+    let landed = station.run_until(120.0, |s| {
+        let here = s.place();
+        nearest = nearest.min(distance(here, corner));
+        path_back.push(here);
+        s.last(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.landed_state) } else { None })
+            == Some(MavLandedState::MAV_LANDED_STATE_ON_GROUND)
+    });
+    assert!(landed, "{:?} {:?}", station.place(), station.texts());
+    let off =
+        |here: &[f32; 3]| path.iter().map(|there| (here[0] - there[0]).hypot(here[1] - there[1])).fold(f32::INFINITY, f32::min);
+    let farthest_off = path_back.iter().map(off).fold(0.0, f32::max);
+    assert!(nearest < PATH_M && farthest_off < PATH_M, "corner {nearest} m, path {farthest_off} m");
+    let here = station.place();
+    assert!((here[0] - pad[0]).hypot(here[1] - pad[1]) < 1.0, "{here:?} not over {pad:?}");
+}
+
+#[test]
+fn regress_copters_modes_are_listed_with_its_names_numbers_and_order() {
+    let mut station = copter();
+    station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(435.0));
+    let modes = station.all(|m| match m {
+        MavMessage::AVAILABLE_MODES(m) => {
+            Some((m.custom_mode, m.mode_name.to_str().unwrap().to_owned(), m.standard_mode as u32, m.properties))
+        }
+        _ => None,
+    });
+    let expected = [
+        (27, "AUTO RTL"),
+        (3, "AUTO"),
+        (1, "ACRO"),
+        (0, "STABILIZE"),
+        (2, "ALT_HOLD"),
+        (7, "CIRCLE"),
+        (5, "LOITER"),
+        (4, "GUIDED"),
+        (9, "LAND"),
+        (6, "RTL"),
+        (16, "POSHOLD"),
+        (17, "BRAKE"),
+        (21, "SMARTRTL"),
+        (23, "FOLLOW"),
+    ];
+    let expected = expected.map(|(number, name)| (number, name.to_owned(), 0, MavModeProperty::empty()));
+    assert_eq!(modes, expected);
+}
+
+#[test]
+fn regress_circle_flies_around_a_point_ahead() {
+    let mut station = copter_at(5.0);
+    let (start, heading) = (station.place(), yaw(&mut station));
+    set_param(&mut station, "CIRCLE_RADIUS", 600.0, MavParamType::MAV_PARAM_TYPE_REAL32);
+    assert_eq!(station.command(1, SET_MODE, mode(CIRCLE)), ACCEPTED);
+    let middle = [start[0] + 6.0 * heading.cos(), start[1] + 6.0 * heading.sin()];
+    station.run_ms(6_000);
+    let bearing = |s: &Station| (s.place()[1] - middle[1]).atan2(s.place()[0] - middle[0]);
+    let before = bearing(&station);
+    for _ in 0..40 {
+        station.run_ms(100);
+        let radius = (station.place()[0] - middle[0]).hypot(station.place()[1] - middle[1]);
+        assert!((radius - 6.0).abs() < NEAR_M, "{radius}");
+    }
+    let turned = (bearing(&station) - before).rem_euclid(std::f32::consts::TAU).to_degrees();
+    // CIRCLE_RATE 20 deg/s, clockwise.
+    assert!((turned - 80.0).abs() < 15.0, "{turned} deg in 4 s");
+    assert_eq!(next_beat(&mut station).custom_mode, CIRCLE as u32);
+}
+
+#[test]
+fn regress_loiter_without_sticks_stays_and_shows_loiter() {
+    let mut station = copter_at(5.0);
+    for (command, p) in [(MavCmd::MAV_CMD_NAV_LOITER_UNLIM, [0.0; 7]), (SET_MODE, mode(LOITER))] {
+        // Sticks of the round before have lapsed (3 s).
+        station.run_ms(4_000);
+        assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);
+        let start = station.place_after(100);
+        assert_eq!(station.command(1, command, p), ACCEPTED);
+        station.run_ms(8_000);
+        let beat = next_beat(&mut station);
+        assert_eq!((beat.custom_mode, beat.system_status), (LOITER as u32, MavState::MAV_STATE_ACTIVE), "{:?}", station.texts());
+        assert!(distance(start, station.place_after(100)) < NEAR_M);
+        // Centered sticks change nothing.
+        for _ in 0..60 {
+            station.sticks(0, 0, 500, 0);
+            station.run_ms(50);
+        }
+        assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32);
+        assert!(distance(start, station.place_after(100)) < NEAR_M);
+    }
+}
+
+#[test]
+fn regress_thrust_of_an_attitude_is_a_copters_climb_rate() {
+    let mut station = copter_at(5.0);
+    let level = |thrust: f32| {
+        MavMessage::SET_ATTITUDE_TARGET(SET_ATTITUDE_TARGET_DATA {
+            target_system: 1,
+            target_component: 1,
+            q: [1.0, 0.0, 0.0, 0.0],
+            type_mask: AttitudeTargetTypemask::from_bits_retain(7),
+            thrust,
+            ..Default::default()
+        })
+    };
+    set_param(&mut station, "WPNAV_SPEED_UP", 250.0, MavParamType::MAV_PARAM_TYPE_REAL32);
+    // 0.5 keeps the height; 0.7 is 0.4 of WPNAV_SPEED_UP; 0.25 half of WPNAV_SPEED_DN (150 cm/s).
+    for (thrust, climb) in [(0.5, 0.0), (0.7, 1.0), (0.25, -0.75)] {
+        for _ in 0..60 {
+            station.send(&level(thrust));
+            station.run_ms(50);
+        }
+        let vz = station.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vz) } else { None }).unwrap();
+        assert!((-vz - climb).abs() < 0.2, "thrust {thrust}: climbs {} m/s, not {climb}", -vz);
+    }
+}
+
+#[test]
+fn regress_condition_yaw_turns_at_its_rate_and_in_its_direction() {
+    let mut station = copter_at(5.0);
+    let point = |s: &mut Station, angle: f32| {
+        assert_eq!(s.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[angle, 0.0, 0.0, 0.0])), ACCEPTED);
+        s.run_ms(8_000);
+    };
+    point(&mut station, 0.0);
+    // Counter-clockwise to 90 degrees is 270 degrees the long way, at 30 deg/s.
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[90.0, 30.0, -1.0, 0.0])), ACCEPTED);
+    station.run_ms(4_000);
+    let on_the_way = yaw(&mut station).to_degrees();
+    assert!((-130.0..=-90.0).contains(&on_the_way), "{on_the_way} deg after 4 s");
+    station.run_ms(9_000);
+    let there = yaw(&mut station).to_degrees();
+    assert!((there - 90.0).abs() < 3.0, "{there} deg");
+    point(&mut station, 0.0);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[90.0, 10.0, 1.0, 0.0])), ACCEPTED);
+    station.run_ms(4_000);
+    let slow = yaw(&mut station).to_degrees();
+    assert!((28.0..=44.0).contains(&slow), "{slow} deg after 4 s at 10 deg/s");
+}
+
+#[test]
+fn regress_pause_holds_a_guided_copter_and_continue_flies_on() {
+    let mut station = copter_at(5.0);
+    let start = station.place();
+    let target = [start[0] + 30.0, start[1], start[2]];
+    station.send(&local(MavFrame::MAV_FRAME_LOCAL_NED, 0x0DF8, target));
+    station.run_ms(4_000);
+    let pause = MavCmd::MAV_CMD_DO_PAUSE_CONTINUE;
+    let (from, speed) = (station.place(), station.speed());
+    assert_eq!(station.command(1, pause, one(0.0)), ACCEPTED);
+    station.run_ms(4_000);
+    let [first, second] = [station.place(), station.place_after(3_000)];
+    assert!(distance(first, second) < 0.4 && distance(second, target) > 2.0, "{first:?} {second:?}");
+    let stopping_m = speed * speed / (2.0 * BRAKING_M_S2);
+    assert!(first[0] - from[0] < stopping_m, "paused at {from:?}, {speed} m/s: {first:?}");
+    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
+    assert_eq!(station.command(1, pause, one(1.0)), ACCEPTED);
+    assert!(station.run_until(20.0, |s| distance(s.place(), target) < 1.0), "{:?}", station.place());
+    assert_eq!(station.command(1, SET_MODE, mode(BRAKE)), ACCEPTED);
+    assert_eq!(station.command(1, pause, one(0.0)), FAILED, "no other mode is paused");
+}
+
+/// From take-off through a delay until a time of day; the drill's day begins on a whole minute.
+#[test]
+fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_sequence() {
+    let mut station = copter_at(5.0);
+    station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(2.0));
+    let unix_s =
+        station.last(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None }).unwrap();
+    let then = (unix_s + 25) % 86_400;
+    let clock = |mut item: MISSION_ITEM_INT_DATA| {
+        item.param1 = -1.0;
+        [item.param2, item.param3, item.param4] = [then / 3_600, then % 3_600 / 60, then % 60].map(|part| part as f32);
+        item
+    };
+    let plan = [
+        item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0),
+        item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, 4.0, 6.0),
+        clock(item(2, MavCmd::MAV_CMD_NAV_DELAY, 0.0, 0.0)),
+        item(3, MavCmd::MAV_CMD_NAV_WAYPOINT, 24.0, 6.0),
+        item(4, MavCmd::MAV_CMD_NAV_WAYPOINT, 60.0, 6.0),
+        item(5, MavCmd::MAV_CMD_DO_LAND_START, 0.0, 0.0),
+        item(6, MavCmd::MAV_CMD_NAV_WAYPOINT, 10.0, 6.0),
+        item(7, MavCmd::MAV_CMD_NAV_LAND, 10.0, 0.0),
+    ];
+    assert_eq!(station.command(1, SET_MODE, mode(27.0)), FAILED, "no landing sequence yet");
+    assert_eq!(upload(&mut station, &plan), MavMissionResult::MAV_MISSION_ACCEPTED);
+    assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
+    let home = station.place_after(100)[0];
+    station.run_ms(20_000);
+    assert!((station.place()[0] - home - 4.0).abs() < 1.5, "it waits: {:?}", station.place());
+    assert!(station.run_until(12.0, |s| s.place()[0] > home + 8.0), "its time has come: {:?}", station.place());
+    let pause = MavCmd::MAV_CMD_DO_PAUSE_CONTINUE;
+    assert_eq!(station.command(1, pause, one(0.0)), ACCEPTED);
+    station.run_ms(4_000);
+    assert!(distance(station.place(), station.place_after(2_000)) < 0.4, "paused");
+    station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(42.0));
+    let state = station.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
+    assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
+    assert_eq!(next_beat(&mut station).custom_mode, AUTO as u32);
+    assert_eq!(station.command(1, pause, one(1.0)), ACCEPTED);
+    assert!(station.run_until(20.0, |s| s.place()[0] > home + 30.0), "resumed: {:?}", station.place());
+    assert_eq!(station.command(1, SET_MODE, mode(27.0)), ACCEPTED);
+    assert_eq!(next_beat(&mut station).custom_mode, 27);
+    assert!(station.run_until(60.0, |s| s.said("Landing detected")), "{:?} {:?}", station.place(), station.texts());
+    assert!((station.place()[0] - home - 10.0).abs() < 1.5, "{:?}", station.place());
+}
+
+#[test]
+fn regress_acro_turns_at_the_sticks_rate_and_levels_when_they_are_released() {
+    let mut station = copter_at(15.0);
+    station.sticks(0, 0, 500, 0);
+    station.run_ms(20);
+    assert_eq!(station.command(1, SET_MODE, mode(1.0)), ACCEPTED);
+    let roll = |s: &mut Station| {
+        s.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(30.0));
+        s.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.roll.to_degrees()) } else { None }).unwrap()
+    };
+    for _ in 0..10 {
+        station.sticks(0, 300, 500, 0);
+        station.run_ms(40);
+    }
+    let leaned = roll(&mut station);
+    assert!((8.0..=40.0).contains(&leaned), "{leaned} deg after 0.4 s");
+    for _ in 0..100 {
+        station.sticks(0, 0, 520, 0);
+        station.run_ms(40);
+    }
+    let level = roll(&mut station);
+    assert!(level.abs() < 4.0, "{level} deg once released");
+    assert_eq!(next_beat(&mut station).custom_mode, 1);
+}
+
+#[test]
+fn regress_follow_keeps_its_offset_from_another_vehicle() {
+    let mut station = copter_at(5.0);
+    assert_eq!(station.command(1, SET_MODE, mode(23.0)), FAILED);
+    station.run_ms(5);
+    assert!(station.said("FOLL_ENABLE"), "{:?}", station.texts());
+    set_param(&mut station, "FOLL_ENABLE", 1.0, MavParamType::MAV_PARAM_TYPE_INT8);
+    set_param(&mut station, "FOLL_OFS_X", -8.0, MavParamType::MAV_PARAM_TYPE_REAL32);
+    set_param(&mut station, "FOLL_OFS_Z", -4.0, MavParamType::MAV_PARAM_TYPE_REAL32);
+    let home = station.place_after(100);
+    station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
+    let alt =
+        station.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt - g.relative_alt) } else { None }).unwrap();
+    assert_eq!(station.command(1, SET_MODE, mode(23.0)), ACCEPTED);
+    // A walker 1.5 m/s to the east on the ground, from 10 m north of the pad; a degree of longitude is 0.6858 of one of latitude here.
+    let east_m_per_e7 = M_PER_E7 * 0.6858;
+    let mut east = 0.0;
+    for k in 0..120 {
+        east = 0.3 * f64::from(k);
+        station.speak_as(42, 1);
+        station.send(&MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
+            lat: PAD.0 + (10.0 / M_PER_E7) as i32,
+            lon: PAD.1 + (east / east_m_per_e7) as i32,
+            alt,
+            vy: 150,
+            hdg: 9_000,
+            ..Default::default()
+        }));
+        station.run_ms(200);
+    }
+    station.speak_as(255, 190);
+    let here = station.place();
+    // 8 m south of the walker and 4 m above.
+    let (n, e) = (here[0] - home[0] - 2.0, f64::from(here[1] - home[1]) - east);
+    assert!(n.abs() < 1.5 && e.abs() < 2.5, "{n} m north, {e} m east of its place");
+    assert_eq!(next_beat(&mut station).custom_mode, 23);
+}
+
+#[test]
+fn regress_a_copter_shows_16_channels_without_sticks_and_its_mode_switch_acts() {
+    let mut station = copter();
+    let channels = |s: &mut Station| {
+        s.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(65.0));
+        s.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.clone()) } else { None }).expect("RC_CHANNELS")
+    };
+    let idle = channels(&mut station);
+    let raw = [idle.chan1_raw, idle.chan2_raw, idle.chan3_raw, idle.chan4_raw, idle.chan5_raw, idle.chan16_raw];
+    assert_eq!((idle.chancount, raw), (16, [1500, 1500, 1000, 1500, 1800, 1500]));
+    set_param(&mut station, "FLTMODE1", 2.0, MavParamType::MAV_PARAM_TYPE_INT8);
+    set_param(&mut station, "FLTMODE4", 16.0, MavParamType::MAV_PARAM_TYPE_INT8);
+    for (chan5_raw, number) in [(1_100, 2), (1_550, 16), (1_100, 2)] {
+        station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+            chan1_raw: 1500,
+            chan2_raw: 1500,
+            chan3_raw: 1500,
+            chan4_raw: 1500,
+            chan5_raw,
+            chan10_raw: 1700,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        }));
+        assert_eq!(next_beat(&mut station).custom_mode, number, "channel 5 at {chan5_raw}");
+        let shown = channels(&mut station);
+        assert_eq!((shown.chan5_raw, shown.chan10_raw), (chan5_raw, 1700));
+    }
+}
+
+#[test]
+fn regress_a_copter_streams_what_ardupilots_dialect_has_and_says_that_it_is_a_multicopter() {
+    let mut station = copter();
+    use MavDataStream as D;
+    let groups = [
+        (D::MAV_DATA_STREAM_EXTENDED_STATUS, vec![125, 152]),
+        (D::MAV_DATA_STREAM_EXTRA1, vec![164]),
+        (D::MAV_DATA_STREAM_EXTRA3, vec![163, 168, 193]),
+    ];
+    for (group, ids) in groups {
+        station.heard.clear();
+        station.send(&MavMessage::REQUEST_DATA_STREAM(REQUEST_DATA_STREAM_DATA {
+            req_message_rate: 5,
+            target_system: 1,
+            target_component: 1,
+            req_stream_id: group,
+            start_stop: 1,
+        }));
+        station.run_ms(1_000);
+        for id in ids {
+            let count = station.heard.iter().filter(|frame| frame.message_id == id).count();
+            assert!((4..=6).contains(&count), "message {id}: {count} in 1 s");
+        }
+    }
+    station.heard.clear();
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(193.0)), ACCEPTED);
+    let report = station.heard.iter().find(|frame| frame.message_id == 193).expect("EKF_STATUS_REPORT").payload(26);
+    // Flags of a healthy ArduCopter, recorded: 831.
+    assert_eq!(u16::from_le_bytes([report[20], report[21]]), 831);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(245.0)), ACCEPTED);
+    let vtol = station.last(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.vtol_state) } else { None });
+    assert_eq!(vtol, Some(MavVtolState::MAV_VTOL_STATE_MC));
+    let mut px4 = Station::new("drill-hover", 7);
+    px4.run_ms(1_000);
+    assert_eq!(px4.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(193.0)), MavResult::MAV_RESULT_DENIED);
+    assert_eq!(px4.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, p(&[193.0, 1e5])), FAILED);
+    assert_eq!(px4.command(1, ARM, one(0.0)), ACCEPTED);
+}

@@ -1,0 +1,391 @@
+//! What an instructor breaks, and what the vehicle makes of it.
+
+use spandrel_mavlink::dialect::*;
+use spandrel_model::site::gates::Gates;
+use spandrel_model::site::traffic::CREW_TRUCK;
+use spandrel_model::site::{Site, Surface};
+use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
+use spandrel_testkit::shipped::scenario;
+use spandrel_testkit::station::{Station, p};
+
+const OFF: f32 = 1.0;
+const OK: f32 = 0.0;
+const COMPASS: f32 = 2.0;
+const GNSS: f32 = 4.0;
+const BATTERY: f32 = 100.0;
+const MOTOR: f32 = 101.0;
+const STICKS: f32 = 104.0;
+const HOLD: u32 = 4 << 16 | 3 << 24;
+/// Wind that is set and what telemetry says of it; turbulence comes on top, m/s.
+const WIND_TOLERANCE_M_S: f64 = 2.5;
+
+fn set(station: &mut Station, name: &str, value: f32, kind: MavParamType) {
+    assert!(station.set(name, value, kind).is_some(), "{name}");
+}
+
+fn set_whole(station: &mut Station, name: &str, value: i32) {
+    set(station, name, f32::from_bits(value.cast_unsigned()), MavParamType::MAV_PARAM_TYPE_INT32);
+}
+
+fn set_real(station: &mut Station, name: &str, value: f32) {
+    set(station, name, value, MavParamType::MAV_PARAM_TYPE_REAL32);
+}
+
+/// ArduPilot writes whole numbers as floating-point ones, the others bit by bit.
+fn allow_failures(station: &mut Station, flavour: &Flavour) {
+    let one = if flavour.name == ardupilot::FLAVOUR.name { 1.0 } else { f32::from_bits(1) };
+    set(station, "SYS_FAILURE_EN", one, MavParamType::MAV_PARAM_TYPE_INT32);
+}
+
+fn inject(station: &mut Station, unit: f32, kind: f32, instance: f32) -> MavResult {
+    station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, [unit, kind, instance, 0.0, 0.0, 0.0, 0.0])
+}
+
+fn said(station: &Station, what: &str) -> bool {
+    !station
+        .all(
+            |m| {
+                if let MavMessage::STATUSTEXT(t) = m {
+                    t.text.to_str().ok().filter(|t| t.contains(what)).map(|_| ())
+                } else {
+                    None
+                }
+            },
+        )
+        .is_empty()
+}
+
+/// Holding by itself at some height, with failures allowed.
+fn holding() -> Station {
+    let mut station = Station::airborne("drill-hover", 7);
+    set_whole(&mut station, "SYS_FAILURE_EN", 1);
+    let hold = [1.0, 4.0, 3.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, hold), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(2_000);
+    station
+}
+
+#[test]
+fn wire_failures_are_injected_only_where_they_are_allowed_and_only_such_as_there_are() {
+    let mut station = Station::airborne("drill-hover", 7);
+    assert_eq!(inject(&mut station, GNSS, OFF, 0.0), MavResult::MAV_RESULT_DENIED);
+    set_whole(&mut station, "SYS_FAILURE_EN", 1);
+    assert_eq!(inject(&mut station, GNSS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    for (unit, kind, instance) in
+        [(8.0, OFF, 0.0), (GNSS, 99.0, 0.0), (MOTOR, OFF, 9.0), (f32::NAN, OFF, 0.0), (BATTERY, 3.0, 0.0)]
+    {
+        assert_eq!(inject(&mut station, unit, kind, instance), MavResult::MAV_RESULT_UNSUPPORTED, "{unit} {kind} {instance}");
+    }
+}
+
+#[test]
+fn flight_a_receiver_that_hears_nothing_is_told_and_so_is_its_return() {
+    let mut station = holding();
+    let seen = |s: &Station| {
+        let healthy = s.last(|m| match m {
+            MavMessage::SYS_STATUS(s) => {
+                Some(s.onboard_control_sensors_health.contains(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_GPS))
+            }
+            _ => None,
+        });
+        let fix = s.last(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some(g.fix_type as u8) } else { None });
+        (healthy, fix)
+    };
+    assert_eq!(inject(&mut station, GNSS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(10.0, |s| matches!(seen(s), (Some(false), Some(0 | 1)))), "{:?}", seen(&station));
+    station.heard.clear();
+    assert_eq!(inject(&mut station, GNSS, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(30.0, |s| seen(s) == (Some(true), Some(3))), "{:?}", seen(&station));
+}
+
+/// The estimate follows a jump of the fixes or refuses it; either way the vehicle stays in the air and whole.
+#[test]
+fn flight_a_jump_of_the_fixes_does_not_bring_it_down() {
+    const WRONG: f32 = 4.0;
+    let mut station = holding();
+    let before = station.sim.truth().rigid.position_m;
+    assert_eq!(inject(&mut station, GNSS, WRONG, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(15_000);
+    let now = station.sim.truth().rigid;
+    assert!((now.position_m.down() - before.down()).abs() < 3.0, "{:?}", now.position_m);
+    assert!(now.velocity_m_s.norm() < 8.0, "{:?}", now.velocity_m_s);
+}
+
+/// Health bits of one SYS_STATUS.
+fn health(station: &Station) -> Option<MavSysStatusSensor> {
+    station.last(|m| if let MavMessage::SYS_STATUS(s) = m { Some(s.onboard_control_sensors_health) } else { None })
+}
+
+/// A missing sensor shows and forbids arming within this, s (half a second of silence, and SYS_STATUS twice a second).
+const MISSED_WITHIN_S: f64 = 2.0;
+
+#[test]
+fn wire_a_compass_or_barometer_that_is_gone_shows_and_forbids_arming_until_it_is_back() {
+    use MavSysStatusSensor as S;
+    const BAROMETER: f32 = 3.0;
+    let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    for (unit, name, bit) in [
+        (COMPASS, "Compass", S::MAV_SYS_STATUS_SENSOR_3D_MAG),
+        (BAROMETER, "Barometer", S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE),
+    ] {
+        let mut station = Station::new("drill-hover", 7);
+        station.run_ms(4_000);
+        set_whole(&mut station, "SYS_FAILURE_EN", 1);
+        station.run_ms(600);
+        assert!(health(&station).unwrap().contains(bit | S::MAV_SYS_STATUS_PREARM_CHECK), "{name}");
+        assert_eq!(inject(&mut station, unit, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+        let gone = |s: &mut Station| health(s).is_some_and(|now| !now.intersects(bit | S::MAV_SYS_STATUS_PREARM_CHECK));
+        assert!(station.run_until(MISSED_WITHIN_S, gone), "{name}");
+        assert!(said(&station, &format!("{name} lost")));
+        let refused = station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm);
+        assert_eq!(refused, MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "{name}");
+        assert!(said(&station, &format!("{name} missing")));
+        assert_eq!(inject(&mut station, unit, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+        let back = |s: &mut Station| health(s).is_some_and(|now| now.contains(bit | S::MAV_SYS_STATUS_PREARM_CHECK));
+        assert!(station.run_until(MISSED_WITHIN_S, back), "{name}");
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
+    }
+}
+
+/// Without a compass the gyroscopes keep the heading well enough to hold and land.
+#[test]
+fn flight_a_compass_lost_in_the_air_is_told_and_the_hold_goes_on() {
+    let mut station = holding();
+    let before = station.sim.truth().rigid.position_m;
+    assert_eq!(inject(&mut station, COMPASS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(MISSED_WITHIN_S, |s| said(s, "Compass lost")));
+    station.run_ms(20_000);
+    let now = station.sim.truth().rigid.position_m;
+    assert!((now - before).norm() < 3.0, "{before:?} to {now:?}");
+}
+
+/// Stuck, then whole again, on the ground: announced in the flavour's words, forbidden to arm, and back.
+#[test]
+fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
+    use MavSysStatusSensor as S;
+    const STUCK: f32 = 2.0;
+    const BAROMETER: f32 = 3.0;
+    // s: two seconds of the same value, and SYS_STATUS twice a second.
+    const WITHIN_S: f64 = 4.0;
+    let arm = p(&[1.0]);
+    for (flavour, unit, bit, words) in [
+        (&px4::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "BARO #0 failed: STALE!"),
+        (&px4::FLAVOUR, COMPASS, S::MAV_SYS_STATUS_SENSOR_3D_MAG, "MAG #0 failed: STALE!"),
+        (&px4::FLAVOUR, GNSS, S::MAV_SYS_STATUS_SENSOR_GPS, "GPS #0 failed: STALE!"),
+        (&ardupilot::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Baro 1 not healthy"),
+        (&ardupilot::FLAVOUR, COMPASS, S::MAV_SYS_STATUS_SENSOR_3D_MAG, "Compass 1 not healthy"),
+        (&ardupilot::FLAVOUR, GNSS, S::MAV_SYS_STATUS_SENSOR_GPS, "GPS Glitch or Compass error"),
+        (&generic::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Barometer stuck: not used"),
+    ] {
+        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        // ArduPilot's streams start when they are asked for.
+        station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, p(&[1.0, 500_000.0]));
+        station.run_ms(4_000);
+        allow_failures(&mut station, flavour);
+        station.run_ms(600);
+        assert!(health(&station).unwrap().contains(bit), "{words}");
+        assert_eq!(inject(&mut station, unit, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+        station.heard.clear();
+        let gone = |s: &mut Station| health(s).is_some_and(|now| !now.intersects(bit)) && said(s, words);
+        assert!(station.run_until(WITHIN_S, gone), "{words}: {:?}", station.texts());
+        assert_ne!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED, "{words}");
+        assert_eq!(inject(&mut station, unit, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+        assert!(station.run_until(WITHIN_S, |s| health(s).is_some_and(|now| now.contains(bit))), "{words}");
+    }
+}
+
+/// The flow of issue 16: reposition to 12 m, and the barometer sticks on the way.
+#[test]
+fn regress_a_barometer_stuck_on_the_way_up_is_announced_and_the_height_is_reached() {
+    const STUCK: f32 = 2.0;
+    const BAROMETER: f32 = 3.0;
+    // m: the receiver's height alone is left.
+    const HEIGHT_M: f64 = 2.5;
+    let mut station = holding();
+    let before = station.sim.truth().rigid.position_m.enu();
+    let altitude = station.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt as f32 * 1e-3) } else { None });
+    let up = p(&[-1.0, 1.0, 0.0, f32::NAN, f32::NAN, f32::NAN, altitude.unwrap() + 7.0]);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPOSITION, up), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(1_500);
+    assert_eq!(inject(&mut station, BAROMETER, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    station.heard.clear();
+    assert!(station.run_until(4.0, |s| said(s, "BARO #0 failed: STALE!")), "{:?}", station.texts());
+    for _ in 0..60 {
+        station.run_ms(1_000);
+        let climbed = station.sim.truth().rigid.position_m.enu().up() - before.up();
+        assert!(climbed < 7.0 + HEIGHT_M, "{climbed} m instead of 7");
+    }
+    let climbed = station.sim.truth().rigid.position_m.enu().up() - before.up();
+    assert!((climbed - 7.0).abs() < HEIGHT_M, "{climbed} m instead of 7");
+}
+
+/// One rotor less: it cannot be held level, turns, and says so before it has fallen.
+#[test]
+fn flight_a_motor_that_stops_shows_in_attitude_and_heading_and_is_told() {
+    let mut station = holding();
+    let level = |s: &Station| s.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap();
+    let before = level(&station);
+    assert!(before.roll.hypot(before.pitch) < 0.2 && !said(&station, "Attitude lost"), "{before:?}");
+    assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
+    let (mut tilt, mut turn) = (0.0f32, 0.0f32);
+    let told = station.run_until(2.0, |s| {
+        let now = level(s);
+        (tilt, turn) = (tilt.max(now.roll.abs().max(now.pitch.abs())), turn.max(now.yawspeed.abs()));
+        said(s, "Attitude lost: motor or propeller failure?")
+    });
+    assert!(told && tilt > 0.7 && turn > 0.5, "told {told}, tilted {tilt} rad, turned at {turn} rad/s");
+    let obeys = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION;
+    assert!(station.run_until(1.0, |s| health(s).is_some_and(|health| !health.contains(obeys))));
+}
+
+#[test]
+fn flight_with_a_motor_gone_it_falls() {
+    let mut station = holding();
+    let before = station.sim.truth().rigid.position_m.down();
+    assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(
+        station.run_until(8.0, |s| s.sim.truth().rigid.position_m.down() - before > 4.0),
+        "a quadrotor on three rotors comes down"
+    );
+}
+
+#[test]
+fn flight_without_manual_control_the_failsafe_holds_and_with_it_flies_on() {
+    let mut station = Station::airborne("drill-hover", 7);
+    set_whole(&mut station, "SYS_FAILURE_EN", 1);
+    assert_eq!(inject(&mut station, STICKS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    for _ in 0..50 {
+        station.sticks(500, 0, 500, 0);
+        station.run_ms(40);
+    }
+    assert_eq!(station.mode(), Some(HOLD));
+    assert_eq!(inject(&mut station, STICKS, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    for _ in 0..50 {
+        station.sticks(0, 0, 500, 0);
+        station.run_ms(40);
+    }
+    assert_eq!(station.mode(), Some(3 << 16));
+}
+
+#[test]
+fn wire_a_failing_battery_is_told() {
+    let mut station = holding();
+    assert_eq!(inject(&mut station, BATTERY, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert!(station.run_until(5.0, |s| said(s, "Low battery")));
+    station.run_ms(600);
+    let left = station.last(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.battery_remaining) } else { None });
+    assert!(left.unwrap() <= 5, "{left:?}");
+}
+
+/// A cell that gives nothing is shown, the pack's voltage falls by it, and it comes back.
+#[test]
+fn wire_a_failing_cell_is_shown_and_missed() {
+    let mut station = holding();
+    let cells = |s: &Station| s.last(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.voltages) } else { None }).unwrap();
+    let pack = |s: &Station| {
+        s.last(|m| if let MavMessage::SYS_STATUS(b) = m { Some(f32::from(b.voltage_battery)) } else { None }).unwrap()
+    };
+    station.run_ms(1_000);
+    let (whole, before) = (cells(&station), pack(&station));
+    assert_eq!(whole.iter().filter(|mv| **mv != u16::MAX).count(), 3, "three cells");
+    assert_eq!(inject(&mut station, BATTERY, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(1_000);
+    assert_eq!((cells(&station)[1], cells(&station)[0] > 3_000), (0, true), "{:?}", cells(&station));
+    assert!((pack(&station) / before - 2.0 / 3.0).abs() < 0.05, "{} of {before} mV", pack(&station));
+    assert_eq!(inject(&mut station, BATTERY, OFF, 4.0), MavResult::MAV_RESULT_DENIED);
+    assert_eq!(inject(&mut station, BATTERY, OK, 2.0), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(1_000);
+    assert!(cells(&station)[1] > 3_000);
+}
+
+#[test]
+fn flight_the_wind_that_an_instructor_sets_blows() {
+    let mut station = holding();
+    set_real(&mut station, "SIM_WIND_DIR", 270.0);
+    set_real(&mut station, "SIM_WIND_SPD", 8.0);
+    station.run_ms(10_000);
+    let mean = (0..50).map(|_| {
+        station.run_ms(200);
+        f64::from(station.last(|m| if let MavMessage::WIND_COV(w) = m { Some(w.wind_y) } else { None }).unwrap())
+    });
+    let east = mean.sum::<f64>() / 50.0;
+    assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "a west wind blows to the east at {east} m/s");
+}
+
+#[test]
+fn wire_closed_bridges_run_empty_and_telemetry_alone_tells_it() {
+    let mut station = Station::new("two-bridges", 7);
+    let codes = |s: &Station| -> Vec<i32> {
+        let said = s.heard.iter().filter_map(|frame| frame.message.as_ref());
+        said.filter_map(|m| {
+            if let MavMessage::NAMED_VALUE_INT(v) = m { (v.name.to_str() == Ok("traffic")).then_some(v.value) } else { None }
+        })
+        .collect()
+    };
+    station.run_ms(11_000);
+    assert!(codes(&station).is_empty(), "what was never touched is not spoken of");
+    assert!(station.sim.site().traffic().gates().are_untouched());
+    for (open, wait_ms) in [(0, 90_000), (1, 90_000)] {
+        set_whole(&mut station, "SIM_TRAFFIC", open);
+        station.run_ms(wait_ms);
+        let heard = Gates::from_codes(codes(&station));
+        assert_eq!(station.sim.site().traffic().gates(), &heard);
+        // Who knows scenario, seed and telemetry sees the same cars.
+        let theirs = Site::build(&scenario("two-bridges"), 7).with_gates(heard);
+        let now = station.sim.now();
+        let (here, there) = (station.sim.site().traffic().solids(now), theirs.traffic().solids(now));
+        assert_eq!(here, there);
+        let driving = here.iter().filter(|(object, surface, _)| *surface == Surface::Vehicle && *object != CREW_TRUCK).count();
+        assert_eq!(driving > 0, open == 1, "{driving} parts of vehicles after 90 s");
+    }
+}
+
+#[test]
+fn exact_closing_the_bridges_at_the_same_tick_gives_the_same_bits() {
+    let flown = || {
+        let mut station = Station::new("two-bridges", 7);
+        station.run_ms(3_000);
+        set_whole(&mut station, "SIM_TRAFFIC", 0);
+        station.run_ms(5_000);
+        (station.sim.digest(), station.sim.site().traffic().gates().clone())
+    };
+    assert_eq!(flown(), flown());
+}
+
+#[test]
+fn wire_a_bad_radio_loses_its_share_and_is_late() {
+    let mut station = Station::new("drill-hover", 7);
+    station.run_ms(1_000);
+    let frames = |s: &mut Station| {
+        s.heard.clear();
+        s.run_ms(5_000);
+        s.heard.iter().filter(|f| f.message_id == 30).count() as f64
+    };
+    let good = frames(&mut station);
+    set_real(&mut station, "SIM_LINK_LOSS", 50.0);
+    let share = frames(&mut station) / good;
+    assert!((0.35..0.65).contains(&share), "{share}");
+    // The way back to a good radio leads over the bad one.
+    let healed = (0..100).any(|_| station.set("SIM_LINK_LOSS", 0.0, MavParamType::MAV_PARAM_TYPE_REAL32).is_some());
+    assert!(healed);
+    station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
+        param_value: f32::from_bits(150),
+        target_system: 1,
+        target_component: 1,
+        param_id: "SIM_LINK_DELAY".into(),
+        param_type: MavParamType::MAV_PARAM_TYPE_INT32,
+    }));
+    station.run_ms(5);
+    let asked_at = station.sim.now();
+    station.heard.clear();
+    station.send(&MavMessage::TIMESYNC(TIMESYNC_DATA { ts1: 77, ..Default::default() }));
+    while station
+        .last(|m| if let MavMessage::TIMESYNC(t) = m { (t.tc1 != 0 && t.ts1 == 77).then_some(()) } else { None })
+        .is_none()
+    {
+        station.run_ms(1);
+        assert!((station.sim.now() - asked_at).ms() < 1_000, "it comes late, but it comes");
+    }
+    let there_and_back = (station.sim.now() - asked_at).ms();
+    assert!((300..=305).contains(&there_and_back), "{there_and_back} ms");
+}

@@ -1,0 +1,266 @@
+//! Files over a link that loses 30 %, is 200 ms late, exchanges and doubles datagrams, both ways: read, in bursts, and written.
+
+use super::impaired::{Client, LIMIT_S, PATIENCE_MS};
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::ftp::{ACK, DATA_MAX, NAK, Opcode, Packet, Refusal, checksum};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::files::job::{Action, CHECKSUM_SLICE, Done, FileError};
+use spandrel_sitl::endpoint::params::{face, metadata};
+use spandrel_testkit::station::{GCS, Station};
+use std::collections::BTreeMap;
+
+/// A client that asks again before an answer can be back: its repetitions arrive behind its next questions.
+const HASTE_MS: i64 = 350;
+/// A burst is over when nothing of it has come for this long, ms.
+const SILENCE_MS: i64 = 700;
+const SHIPPED: &str = "/etc/extras/parameter.json.xz";
+
+/// Files in memory, by path.
+#[derive(Default)]
+pub(super) struct Disk(BTreeMap<String, Vec<u8>>);
+
+impl Disk {
+    pub(super) fn work(&mut self, action: &Action) -> Result<Done, FileError> {
+        match action {
+            Action::Create(path) => {
+                self.0.insert(path.as_str().to_owned(), Vec::new());
+                Ok(Done::Nothing)
+            }
+            Action::Size(path) => self.file(path.as_str()).map(|file| Done::Size(file.len() as u32)),
+            Action::Read(path, offset, most) => {
+                let file = self.file(path.as_str())?;
+                Ok(Done::Bytes(file.iter().skip(*offset as usize).take(*most as usize).copied().collect()))
+            }
+            Action::Write(path, offset, bytes) => {
+                let file = self.0.get_mut(path.as_str()).ok_or(FileError::NotFound)?;
+                let (from, to) = (*offset as usize, *offset as usize + bytes.len());
+                file.resize(file.len().max(to), 0);
+                file[from..to].copy_from_slice(bytes);
+                Ok(Done::Nothing)
+            }
+            Action::Checksum { path, from, sum } => {
+                let file = self.file(path.as_str())?;
+                let slice: Vec<u8> = file.iter().skip(*from as usize).take(CHECKSUM_SLICE as usize).copied().collect();
+                Ok(Done::Checksum { sum: checksum(*sum, &slice), bytes: slice.len() as u32 })
+            }
+            _ => Err(FileError::Other),
+        }
+    }
+
+    fn file(&self, path: &str) -> Result<&Vec<u8>, FileError> {
+        self.0.get(path).ok_or(FileError::NotFound)
+    }
+}
+
+/// An FTP client that asks again without limit.
+struct Ftp {
+    client: Client,
+    sequence: u16,
+    patience_ms: i64,
+}
+
+fn of(message: &MavMessage) -> Option<Packet> {
+    if let MavMessage::FILE_TRANSFER_PROTOCOL(f) = message { Some(Packet::read(&f.payload)) } else { None }
+}
+
+impl Ftp {
+    fn new(seed: u64, patience_ms: i64) -> Self {
+        let mut client = Client::new(seed);
+        client.station.sim.serve_files();
+        Self { client, sequence: 0, patience_ms }
+    }
+
+    fn request(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> (u16, MavMessage) {
+        let mut field = [0; DATA_MAX];
+        field[..data.len()].copy_from_slice(data);
+        let reads = matches!(opcode, Opcode::ReadFile | Opcode::BurstReadFile);
+        let size = if reads { DATA_MAX as u8 } else { data.len() as u8 };
+        let blank = Packet::read(&[0; 251]);
+        let packet = Packet { sequence: self.sequence, session, opcode: opcode as u8, size, offset, data: field, ..blank };
+        let expected = self.sequence.wrapping_add(1);
+        self.sequence = self.sequence.wrapping_add(2);
+        let payload = packet.write();
+        let message = FILE_TRANSFER_PROTOCOL_DATA { target_network: 0, target_system: 1, target_component: 1, payload };
+        (expected, MavMessage::FILE_TRANSFER_PROTOCOL(message))
+    }
+
+    fn ask(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> Packet {
+        let (expected, message) = self.request(opcode, session, offset, data);
+        let answer = self.client.ask_every(self.patience_ms, &message, |m| of(m).filter(|p| p.sequence == expected));
+        assert_eq!(answer.request, opcode as u8);
+        answer
+    }
+
+    fn open(&mut self, path: &str) -> (u8, usize) {
+        let open = self.ask(Opcode::OpenFileRo, 0, 0, path.as_bytes());
+        assert_eq!(open.opcode, ACK);
+        (open.session, u32::from_le_bytes(open.data[..4].try_into().unwrap()) as usize)
+    }
+
+    /// Bursts from the first byte that is missing, until none is.
+    fn read_in_bursts(&mut self, path: &str) -> (Vec<u8>, usize) {
+        let (session, size) = self.open(path);
+        let mut parts: BTreeMap<usize, Vec<u8>> = BTreeMap::new();
+        let mut bursts = 0;
+        let begin = self.client.station.sim.now();
+        loop {
+            let whole = parts.iter().fold(0, |end, (at, part)| if *at == end { end + part.len() } else { end });
+            if whole == size {
+                break;
+            }
+            assert!((self.client.station.sim.now() - begin).s() < LIMIT_S, "{whole} of {size} bytes");
+            self.burst(session, whole, &mut parts);
+            bursts += 1;
+        }
+        assert_eq!(self.ask(Opcode::TerminateSession, session, 0, &[]).opcode, ACK);
+        (parts.into_values().flatten().collect(), bursts)
+    }
+
+    /// Asks for one burst and takes what comes of it.
+    fn burst(&mut self, session: u8, from: usize, parts: &mut BTreeMap<usize, Vec<u8>>) {
+        let (_, message) = self.request(Opcode::BurstReadFile, session, from as u32, &[]);
+        self.client.send(&message);
+        let mut silent_since = self.client.station.sim.now();
+        while self.client.station.sim.now() - silent_since < SimTime::from_ms(SILENCE_MS) {
+            let heard: Vec<Packet> = self.client.tick().iter().filter_map(of).collect();
+            for packet in heard.iter().filter(|p| p.request == Opcode::BurstReadFile as u8 && p.session == session) {
+                silent_since = self.client.station.sim.now();
+                match packet.opcode {
+                    ACK => drop(parts.insert(packet.offset as usize, packet.sized().unwrap().to_vec())),
+                    NAK => assert_eq!(packet.data[0], Refusal::EndOfFile as u8),
+                    other => panic!("opcode {other}"),
+                }
+            }
+        }
+    }
+
+    fn write(&mut self, path: &str, content: &[u8]) {
+        let created = self.ask(Opcode::CreateFile, 0, 0, path.as_bytes());
+        assert_eq!(created.opcode, ACK);
+        for (k, piece) in content.chunks(DATA_MAX).enumerate() {
+            let written = self.ask(Opcode::WriteFile, created.session, (k * DATA_MAX) as u32, piece);
+            assert_eq!(written.opcode, ACK, "piece {k}: {:?}", written.sized());
+        }
+        let ended = self.ask(Opcode::TerminateSession, created.session, 0, &[]);
+        assert_eq!(ended.opcode, ACK, "{:?}", ended.sized());
+        let sum = self.ask(Opcode::CalcFileCrc32, 0, 0, path.as_bytes());
+        assert_eq!(sum.sized(), Some(checksum(0, content).to_le_bytes().as_slice()));
+    }
+}
+
+fn content(length: usize) -> Vec<u8> {
+    (0..length).map(|k| (k * k % 251) as u8).collect()
+}
+
+#[test]
+fn wire_a_file_comes_whole_over_a_bad_link() {
+    let mut ftp = Ftp::new(3, PATIENCE_MS);
+    let (session, size) = ftp.open(SHIPPED);
+    let mut file: Vec<u8> = Vec::new();
+    while file.len() < size {
+        let part = ftp.ask(Opcode::ReadFile, session, file.len() as u32, &[]);
+        let piece = part.sized().unwrap();
+        assert!(!piece.is_empty() && part.offset == file.len() as u32);
+        file.extend(piece);
+    }
+    assert_eq!(file, metadata::files(&face::PX4).parameter.bytes.to_vec());
+    assert_eq!(ftp.ask(Opcode::TerminateSession, session, 0, &[]).opcode, ACK);
+}
+
+#[test]
+fn wire_a_file_comes_whole_in_bursts_over_a_bad_link() {
+    let mut ftp = Ftp::new(4, PATIENCE_MS);
+    let long = content(100_000);
+    ftp.client.disk.0.insert("survey.bin".into(), long.clone());
+    let (file, bursts) = ftp.read_in_bursts("/survey.bin");
+    assert!(file == long, "{} of {} bytes", file.len(), long.len());
+    // 100 kB are four bursts where nothing is lost.
+    assert!(bursts > 4, "{bursts}: the link is bad");
+    let (shipped, _) = ftp.read_in_bursts(SHIPPED);
+    assert!(shipped == metadata::files(&face::PX4).parameter.bytes.to_vec());
+}
+
+/// Also by a client that repeats its questions before they can have been answered.
+#[test]
+fn wire_a_file_goes_up_whole_over_a_bad_link() {
+    for (seed, patience_ms) in [(6, PATIENCE_MS), (7, HASTE_MS), (8, HASTE_MS), (9, HASTE_MS)] {
+        let mut ftp = Ftp::new(seed, patience_ms);
+        for (path, length) in [("/first.bin", 9_000), ("/second.bin", 1_000), ("/first.bin", 3_000)] {
+            let content = content(length);
+            ftp.write(path, &content);
+            assert!(ftp.client.disk.0[&path[1..]] == content, "{path} from seed {seed}");
+        }
+    }
+}
+
+/// So long that its checksum takes more than the jobs that the ticks have saved up.
+fn long_file() -> Vec<u8> {
+    content(200 * CHECKSUM_SLICE as usize + 5)
+}
+
+/// The FTP answers of a second if the shell lets so much time pass at once, and the most jobs between two ticks.
+fn answers_of_a_second(at_once_ms: i64) -> (Vec<Packet>, usize) {
+    let mut station = Station::new("drill-hover", 7);
+    station.run_ms(100);
+    let sim = &mut station.sim;
+    sim.serve_files();
+    let mut disk = Disk::default();
+    disk.0.insert("long".into(), long_file());
+    let mut encoder = Encoder::new(255, 190);
+    let mut request = |opcode: Opcode, sequence: u16, path: &[u8]| {
+        let mut data = [0; DATA_MAX];
+        data[..path.len()].copy_from_slice(path);
+        let packet = Packet { sequence, opcode: opcode as u8, size: path.len() as u8, data, ..Packet::read(&[0; 251]) };
+        let payload = packet.write();
+        encoder.encode(&MavMessage::FILE_TRANSFER_PROTOCOL(FILE_TRANSFER_PROTOCOL_DATA {
+            target_network: 0,
+            target_system: 1,
+            target_component: 1,
+            payload,
+        }))
+    };
+    sim.handle_datagram(GCS, &request(Opcode::CalcFileCrc32, 1, b"/long"));
+    (2..60).for_each(|k| sim.handle_datagram(GCS, &request(Opcode::OpenFileRo, 7 * k, b"/none")));
+    let (begin, mut heard, mut most): (SimTime, Vec<Packet>, usize) = (sim.now(), Vec::new(), 0);
+    while sim.now() - begin < SimTime::from_ms(1_000) {
+        let until = sim.now() + SimTime::from_ms(at_once_ms);
+        let (mut tick, mut jobs) = (sim.now(), 0);
+        loop {
+            sim.handle_timeout(until);
+            if !sim.has_file_job() {
+                break;
+            }
+            jobs = if sim.now() == tick { jobs } else { 0 };
+            tick = sim.now();
+            while let Some(job) = sim.poll_file_job() {
+                let outcome = disk.work(&job.action);
+                sim.file_job_done(job.ticket, outcome);
+                jobs += 1;
+            }
+            most = most.max(jobs);
+        }
+        while let Some(transmit) = sim.poll_transmit() {
+            let frames = Decoder::new().datagram(&transmit.bytes);
+            heard.extend(frames.iter().filter_map(|frame| frame.message.as_ref().and_then(of)));
+        }
+    }
+    let checked = heard.iter().any(|packet| packet.request == Opcode::CalcFileCrc32 as u8);
+    assert!(checked, "the checksum is there within a second");
+    (heard, most)
+}
+
+/// CreateFile, TruncateFile to 256 MiB and CalcFileCRC32 held the vehicle up for 28 s. A tick waits for few and small jobs, and the answers
+/// come in the same order however much time the shell lets pass at once.
+#[test]
+fn regress_work_on_files_is_done_in_slices_between_the_ticks() {
+    let (one, most) = answers_of_a_second(1);
+    assert!((1..=40).contains(&most), "{most} jobs between two ticks");
+    let last = one.last().map(|packet| packet.request);
+    assert_eq!(last, Some(Opcode::CalcFileCrc32 as u8), "what others ask for is done between the slices");
+    let sum = checksum(0, &long_file());
+    assert_eq!(one.last().and_then(|packet| packet.sized().map(<[u8]>::to_vec)), Some(sum.to_le_bytes().to_vec()));
+    for at_once_ms in [7, 50] {
+        assert!(answers_of_a_second(at_once_ms).0 == one, "{at_once_ms} ms at once");
+    }
+}

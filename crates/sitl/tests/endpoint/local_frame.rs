@@ -1,0 +1,123 @@
+//! MAVLink's local frame: its origin is where the estimator was initialized, and every message that uses it agrees.
+
+use spandrel_mavlink::dialect::*;
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_sitl::endpoint::flavour;
+use spandrel_testkit::shipped::scenario;
+use spandrel_testkit::station::{Station, p};
+
+/// How far an estimate at rest moves after the origin was set, m: three sigma of the white noise of GNSS heights (0.48 m), averaged over
+/// the first eight fixes.
+const SETTLES_M: f32 = 0.5;
+/// Degrees E7, millimetres and single-precision metres agree to this, m.
+const ROUNDING_M: f64 = 0.03;
+/// How far off a height is held, by the vehicle's own estimate, m.
+const HELD_M: f32 = 0.5;
+
+fn place(latitude: i32, longitude: i32, altitude: i32) -> Geo {
+    Geo {
+        latitude_deg: f64::from(latitude) * 1e-7,
+        longitude_deg: f64::from(longitude) * 1e-7,
+        altitude_m: f64::from(altitude) * 1e-3,
+    }
+}
+
+/// A message that is requested by number.
+fn requested<T>(station: &mut Station, number: u32, pick: impl Fn(&MavMessage) -> Option<T>) -> T {
+    let result = station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[number as f32]));
+    assert_eq!(result, MavResult::MAV_RESULT_ACCEPTED);
+    station.last(pick).unwrap()
+}
+
+fn local(station: &mut Station) -> [f32; 3] {
+    requested(station, 32, |m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.x, p.y, p.z]) } else { None })
+}
+
+/// The plane that GPS_GLOBAL_ORIGIN names.
+fn plane(station: &mut Station) -> LocalPlane {
+    let origin = requested(station, 49, |m| match m {
+        MavMessage::GPS_GLOBAL_ORIGIN(o) => Some(place(o.latitude, o.longitude, o.altitude)),
+        _ => None,
+    });
+    LocalPlane::new(origin)
+}
+
+fn off(plane: &LocalPlane, geo: Geo, local: [f32; 3]) -> f64 {
+    let local: Vec3<Ned> = Vec3::new(f64::from(local[0]), f64::from(local[1]), f64::from(local[2]));
+    (plane.enu_from_geo(geo).ned() - local).norm()
+}
+
+#[test]
+fn regress_local_position_is_zero_on_the_pad_and_agrees_with_origin_and_home() {
+    for flavour in [&flavour::px4::FLAVOUR, &flavour::ardupilot::FLAVOUR] {
+        for seed in 1..=5 {
+            let mut station = Station::speaking(flavour, "two-bridges", seed);
+            station.run_ms(5_000);
+            let at = local(&mut station);
+            let far = at.iter().map(|c| c.abs()).fold(0.0, f32::max);
+            assert!(far < SETTLES_M, "{}, seed {seed}: {at:?}", flavour.name);
+            let plane = plane(&mut station);
+            let here = requested(&mut station, 33, |m| match m {
+                MavMessage::GLOBAL_POSITION_INT(g) => Some(place(g.lat, g.lon, g.alt)),
+                _ => None,
+            });
+            let at = local(&mut station);
+            assert!(off(&plane, here, at) < ROUNDING_M, "{here:?} {at:?}");
+            let (home, home_local) = requested(&mut station, 242, |m| match m {
+                MavMessage::HOME_POSITION(h) => Some((place(h.latitude, h.longitude, h.altitude), [h.x, h.y, h.z])),
+                _ => None,
+            });
+            assert!(off(&plane, home, home_local) < ROUNDING_M, "{home:?} {home_local:?}");
+            assert!(home_local.iter().all(|c| c.abs() < SETTLES_M), "{home_local:?}");
+            let odometry =
+                requested(&mut station, 331, |m| if let MavMessage::ODOMETRY(o) = m { Some([o.x, o.y, o.z]) } else { None });
+            let at = local(&mut station);
+            let apart = (0..3).map(|k| (odometry[k] - at[k]).abs()).fold(0.0, f32::max);
+            assert!(f64::from(apart) < ROUNDING_M, "{odometry:?} {at:?}");
+            let altitude = requested(&mut station, 141, |m| match m {
+                MavMessage::ALTITUDE(a) => Some(a.altitude_local),
+                _ => None,
+            });
+            assert!(f64::from((altitude + at[2]).abs()) < ROUNDING_M, "{altitude} {at:?}");
+        }
+    }
+}
+
+#[test]
+fn regress_a_local_set_point_counts_from_the_pad() {
+    let mut station = Station::of(scenario("two-bridges"), "phantom2", 7);
+    station.run_ms(3_000);
+    let pad = station.sim.truth().rigid.position_m;
+    let (north, east, down) = (2.0, 1.0, -6.0);
+    let target = MavMessage::SET_POSITION_TARGET_LOCAL_NED(SET_POSITION_TARGET_LOCAL_NED_DATA {
+        x: north,
+        y: east,
+        z: down,
+        coordinate_frame: MavFrame::MAV_FRAME_LOCAL_NED,
+        type_mask: PositionTargetTypemask::from_bits_retain(0b1101_1111_1000),
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    });
+    station.send(&target);
+    station.run_ms(5);
+    let mode = station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 6.0]));
+    let arm = station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, p(&[1.0]));
+    assert_eq!([mode, arm], [MavResult::MAV_RESULT_ACCEPTED; 2]);
+    for _ in 0..300 {
+        station.send(&target);
+        station.run_ms(50);
+    }
+    let at = station.place();
+    let held = (at[0] - north).hypot(at[1] - east).hypot(at[2] - down);
+    assert!(held < HELD_M, "{at:?}: {held} m off");
+    let told = station.last(|m| match m {
+        MavMessage::POSITION_TARGET_LOCAL_NED(t) => Some([t.x, t.y, t.z]),
+        _ => None,
+    });
+    assert_eq!(told.map(|t| t.map(|c| (c * 100.0).round() / 100.0)), Some([north, east, down]));
+    let moved = station.sim.truth().rigid.position_m - pad;
+    // Beside the estimate the truth: GNSS drifts by a metre or two.
+    assert!(moved.horizontal_norm() < 5.0 && (-8.0..-4.0).contains(&moved.down()), "{moved:?}");
+}

@@ -1,0 +1,34 @@
+//! The program as a user meets it: processes, sockets, files, exit codes.
+
+mod aftermath;
+mod afterwards;
+mod answers;
+mod camera;
+mod camera_settings;
+mod circles;
+mod copter;
+mod copter_modes;
+mod copter_pilots;
+mod copter_plans;
+mod failures;
+mod fence;
+mod flavours;
+mod honest;
+mod impaired;
+mod impaired_files;
+mod items;
+mod landed_states;
+mod lasting;
+mod local_frame;
+mod manual;
+mod mount;
+mod network;
+mod offboard;
+mod parameters;
+mod payload;
+mod plans;
+mod px4_setup;
+mod ranges;
+mod signing;
+mod simple_clients;
+mod vehicle;

@@ -1,0 +1,381 @@
+//! Sticks by either message, who holds them, and how long a client may be silent.
+
+use spandrel_mavlink::codec::Decoder;
+use spandrel_mavlink::dialect::*;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_testkit::station::{GCS, Station};
+
+const HOLD: u32 = 4 << 16 | 3 << 24;
+const POSITION: u32 = 3 << 16;
+/// A held place is kept within this, m (gusts, and the estimate's wandering).
+const DRIFT_M: f32 = 0.7;
+
+fn channels(station: &mut Station, pitch: u16, throttle: u16) {
+    station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+        chan1_raw: 1500,
+        chan2_raw: pitch,
+        chan3_raw: throttle,
+        chan4_raw: 1500,
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    }));
+}
+
+#[test]
+fn wire_overridden_channels_fly_like_sticks_and_pitch_is_a_transmitters() {
+    let mut station = Station::airborne("drill-hover", 7);
+    // The first sender keeps the sticks until it has let go of them.
+    station.run_ms(600);
+    for _ in 0..150 {
+        channels(&mut station, 1200, 1500);
+        station.run_ms(20);
+    }
+    let (v, yaw) = (
+        station.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy]) } else { None }).unwrap(),
+        station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap(),
+    );
+    let forward = v[0] * yaw.cos() + v[1] * yaw.sin();
+    assert!(forward > 2.0, "a pitch channel below its middle flies forward: {forward}");
+}
+
+/// Channels 1 to 4 as each link hears them echoed after `send`.
+fn echoes(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(LinkId, [u16; 4])> {
+    let mut out = Vec::new();
+    for _ in 0..4 {
+        send(station);
+        station.sim.handle_timeout(station.sim.now() + SimTime::from_ms(20));
+        while let Some(transmit) = station.sim.poll_transmit() {
+            for frame in Decoder::new().datagram(&transmit.bytes) {
+                if let Some(MavMessage::RC_CHANNELS(c)) = frame.message {
+                    out.push((transmit.link, [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw]));
+                }
+            }
+        }
+    }
+    // The last of each link.
+    out.into_iter().rev().take(3).collect()
+}
+
+#[test]
+fn wire_the_echo_of_the_sticks_is_what_was_sent_and_a_sidecars_is_forward_positive() {
+    const SDK: LinkId = LinkId(5);
+    const SIDECAR: LinkId = LinkId(6);
+    for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
+        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        station.sim.open_link(SDK, LinkKind::Sdk, false);
+        station.sim.open_link(SIDECAR, LinkKind::Payload, false);
+        station.run_ms(1_000);
+        if flavour.asks_first {
+            let rate = [65.0, 20_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+            assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, rate), MavResult::MAV_RESULT_ACCEPTED);
+        }
+        let wait = |station: &mut Station, sent: fn(&mut Station), [others, sidecar]: [[u16; 4]; 2]| {
+            let heard = echoes(station, sent);
+            assert!(heard.contains(&(GCS, others)) && heard.contains(&(SIDECAR, sidecar)), "{}: {heard:?}", flavour.name);
+            assert!(flavour.asks_first || heard.contains(&(SDK, others)), "{}: {heard:?}", flavour.name);
+        };
+        wait(&mut station, |s| channels(s, 1300, 1600), [[1500, 1300, 1600, 1500], [1500, 1700, 1600, 1500]]);
+        // Beyond the full deflection it is flown as one.
+        wait(&mut station, |s| channels(s, 900, 2100), [[1500, 900, 2100, 1500], [1500, 2000, 2000, 1500]]);
+        let sticks = |s: &mut Station| s.sticks(400, 200, 750, -1000);
+        wait(&mut station, sticks, [[1600, 1300, 1750, 1000], [1600, 1700, 1750, 1000]]);
+        let again = [65.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, again), MavResult::MAV_RESULT_ACCEPTED);
+        let asked = station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan2_raw) } else { None });
+        assert_eq!(asked, Some(1300), "{}: asked for by the ground station", flavour.name);
+    }
+}
+
+/// What the record of a session is made of: the monitor's link carries the stick samples themselves, also of one control tick, and of
+/// those who do not have the sticks.
+#[test]
+fn wire_a_sidecar_hears_every_sample_of_the_sticks_as_it_was_sent() {
+    let sidecar = LinkId(6);
+    let mut station = Station::new("drill-hover", 7);
+    station.sim.open_link(sidecar, LinkKind::Payload, false);
+    let beat = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
+    station.sim.handle_datagram(sidecar, &spandrel_mavlink::codec::Encoder::new(1, 191).encode(&beat));
+    station.run_ms(10);
+    let (mut sent, mut heard) = (Vec::new(), Vec::new());
+    for at in 0..60 {
+        for k in 0..at % 4 {
+            let sample = (255 - u8::from(k == 2), 10 * at + k);
+            station.speak_as(sample.0, 190);
+            station.sticks(sample.1, 0, 500, 0);
+            sent.push(sample);
+        }
+        station.sim.handle_timeout(station.sim.now() + SimTime::from_ms(i64::from(1 + 7 * (at % 3))));
+        while let Some(transmit) = station.sim.poll_transmit() {
+            let frames = Decoder::new().datagram(&transmit.bytes).into_iter().filter(|_| transmit.link == sidecar);
+            heard.extend(frames.filter_map(|frame| match frame.message {
+                Some(MavMessage::MANUAL_CONTROL(sticks)) => Some((frame.system_id, sticks.x)),
+                _ => None,
+            }));
+        }
+    }
+    assert!(sent.len() > 80);
+    assert_eq!(heard, sent);
+}
+
+/// A throttle from -1000 to 1000 shows by its first negative value, and is remembered of its sender alone.
+#[test]
+fn wire_a_sender_that_has_sent_a_negative_throttle_has_its_middle_at_zero() {
+    let mut station = Station::new("drill-hover", 7);
+    let up = |station: &mut Station, z: i16| {
+        station.sticks(0, 0, z, 0);
+        station.run_ms(40);
+        station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan3_raw) } else { None }).unwrap()
+    };
+    for (z, us) in [(500, 1500), (0, 1000), (1000, 2000), (-2000, 1500), (500, 1500)] {
+        assert_eq!(up(&mut station, z), us, "{z}");
+    }
+    let told = |s: &Station| texts(s).iter().filter(|text| text.ends_with("throttle is -1000 to 1000")).count();
+    assert_eq!(told(&station), 0);
+    for (z, us) in [(-1, 1500), (-1000, 1000), (0, 1500), (500, 1750), (1000, 2000), (i16::MAX, 1500), (-500, 1250)] {
+        assert_eq!(up(&mut station, z), us, "{z}");
+    }
+    assert_eq!(told(&station), 1, "once: {:?}", texts(&station));
+    station.run_ms(600);
+    station.speak_as(254, 190);
+    assert_eq!(up(&mut station, 0), 1000, "another sender's middle is at 500");
+}
+
+#[test]
+fn wire_released_channels_are_no_sticks() {
+    let mut station = Station::new("drill-hover", 7);
+    station.run_ms(1_000);
+    station.heard.clear();
+    for value in [0, u16::MAX] {
+        station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+            chan1_raw: value,
+            chan2_raw: value,
+            chan3_raw: value,
+            chan4_raw: value,
+            target_system: 1,
+            target_component: 1,
+            ..Default::default()
+        }));
+        station.run_ms(100);
+    }
+    assert!(station.all(|m| matches!(m, MavMessage::RC_CHANNELS(_)).then_some(())).is_empty());
+}
+
+/// Silence of a hand-flown vehicle's client until the failsafe, s, at a pace.
+fn patience_s(pace: f64, lockstep: bool) -> f64 {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.sim.set_pace(pace);
+    if lockstep {
+        station.sim.open_link(LinkId(9), LinkKind::Payload, true);
+    }
+    station.sticks(0, 0, 500, 0);
+    station.run_ms(1);
+    assert_eq!(station.mode(), Some(POSITION));
+    let silent_since = station.sim.now();
+    let lost = |s: &Station| {
+        s.last(|m| match m {
+            MavMessage::STATUSTEXT(t) => t.text.to_str().ok().filter(|t| t.contains("manual control lost")).map(|_| ()),
+            _ => None,
+        })
+        .is_some()
+    };
+    while !lost(&station) {
+        station.run_ms(20);
+        answer_lockstep(&mut station);
+        assert!((station.sim.now() - silent_since).s() < 60.0);
+    }
+    station.run_ms(20);
+    (station.sim.now() - silent_since).s()
+}
+
+/// The peer in step answers at once, so that time goes on.
+fn answer_lockstep(station: &mut Station) {
+    if station.sim.waiting() {
+        let now = station.sim.now().ns();
+        let answer = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 1, ts1: now, ..Default::default() });
+        let bytes = spandrel_mavlink::codec::Encoder::new(1, 191).encode(&answer);
+        station.sim.handle_datagram(LinkId(9), &bytes);
+    }
+}
+
+#[test]
+fn wire_without_lockstep_the_limits_of_clients_grow_with_the_speed_and_that_is_told() {
+    // COM_RC_LOSS_T is 0.5 s; the failsafe looks every 50 ms.
+    for (pace, lockstep, expected_s) in [(1.0, false, 0.5), (8.0, false, 4.0), (8.0, true, 0.5), (0.5, false, 0.5)] {
+        let s = patience_s(pace, lockstep);
+        assert!((expected_s..expected_s + 0.15).contains(&s), "pace {pace}, lockstep {lockstep}: {s} s for {expected_s} s");
+    }
+    let mut station = Station::new("drill-hover", 7);
+    station.sim.set_pace(8.0);
+    station.run_ms(10);
+    let told = station.last(|m| match m {
+        MavMessage::NAMED_VALUE_FLOAT(v) if v.name.to_str() == Ok("pace") => Some(v.value),
+        _ => None,
+    });
+    assert_eq!(told, Some(8.0), "every log says it");
+    let text = station.last(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None });
+    assert_eq!(text.as_deref(), Some("Time limits of clients are 8 times as long"));
+}
+
+#[test]
+fn wire_a_lost_hand_stops_the_flight_and_a_returning_one_takes_it_up_again() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.run_ms(1_700);
+    assert_eq!(station.mode(), Some(HOLD));
+    for _ in 0..60 {
+        station.sticks(0, 0, 500, 0);
+        station.run_ms(20);
+    }
+    assert_eq!(station.mode(), Some(POSITION));
+    // The link itself goes; another station sees what becomes of the flight, and takes the sticks.
+    station.sim.open_link(OTHER, LinkKind::GroundStation, false);
+    station.sim.close_link(GCS);
+    station.heard.clear();
+    station.run_ms(2_000);
+    assert_eq!(station.mode(), Some(HOLD));
+    assert!(station.said("manual control lost"), "{:?}", station.texts());
+    let [north, east, down] = station.place();
+    let later = station.place_after(3_000);
+    assert!((later[0] - north).hypot(later[1] - east) < DRIFT_M && (later[2] - down).abs() < DRIFT_M, "it stands: {later:?}");
+    for _ in 0..60 {
+        rival(&mut station, 0);
+        station.run_ms(20);
+    }
+    assert_eq!(station.mode(), Some(POSITION));
+    assert!(station.said("Failsafe cleared"), "{:?}", station.texts());
+}
+
+/// As the parameter says: land (3), return (2), and warn alone (0).
+#[test]
+fn wire_the_failsafe_of_a_lost_hand_is_the_one_that_was_chosen() {
+    const LAND: u32 = 4 << 16 | 6 << 24;
+    const RETURN: u32 = 4 << 16 | 5 << 24;
+    for (choice, mode) in [(3, LAND), (2, RETURN), (1, HOLD)] {
+        let mut station = Station::airborne("drill-hover", 7);
+        set(&mut station, "NAV_RCL_ACT", choice);
+        station.sticks(0, 0, 500, 0);
+        station.run_ms(100);
+        assert_eq!(station.mode(), Some(POSITION));
+        // It holds first, for as long as COM_FAIL_ACT_T says.
+        station.run_ms(2_000);
+        assert_eq!(station.mode(), Some(HOLD), "choice {choice}");
+        station.run_ms(5_000);
+        assert_eq!(station.mode(), Some(mode), "choice {choice}");
+    }
+}
+
+const OTHER: LinkId = LinkId(5);
+
+fn texts(station: &Station) -> Vec<String> {
+    station.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
+}
+
+/// A second ground station with the same ids, on a link of its own, pulls to the right.
+fn rival(station: &mut Station, y: i16) {
+    let sticks = MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() };
+    let frame = spandrel_mavlink::codec::Encoder::new(255, 190).encode(&MavMessage::MANUAL_CONTROL(sticks));
+    station.sim.handle_datagram(OTHER, &frame);
+}
+
+fn set(station: &mut Station, name: &str, value: i32) {
+    station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
+        param_value: f32::from_bits(value.cast_unsigned()),
+        target_system: 1,
+        target_component: 1,
+        param_id: name.into(),
+        param_type: MavParamType::MAV_PARAM_TYPE_INT32,
+    }));
+    station.run_ms(2);
+}
+
+fn roll_echo(station: &Station) -> u16 {
+    station.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan1_raw) } else { None }).unwrap()
+}
+
+#[test]
+fn wire_the_first_keeps_the_sticks_until_he_is_silent_and_the_other_is_told() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.sim.open_link(OTHER, LinkKind::GroundStation, false);
+    for _ in 0..100 {
+        station.sticks(0, 0, 500, 0);
+        rival(&mut station, 1000);
+        station.run_ms(20);
+    }
+    assert_eq!(roll_echo(&station), 1500);
+    let ignored = texts(&station).iter().filter(|text| text.contains("ignored")).count();
+    assert_eq!(ignored, 2, "once on each of the two links: {:?}", texts(&station));
+    for _ in 0..40 {
+        rival(&mut station, 1000);
+        station.run_ms(20);
+    }
+    assert_eq!(roll_echo(&station), 2000, "the first has fallen silent");
+    assert!(texts(&station).iter().any(|text| text.contains("now has them")), "{:?}", texts(&station));
+}
+
+#[test]
+fn wire_by_parameter_whoever_moves_the_sticks_last_has_them() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.sim.open_link(OTHER, LinkKind::GroundStation, false);
+    set(&mut station, "SPAN_STICKS", 1);
+    for y in [0, 1000] {
+        for _ in 0..5 {
+            station.sticks(0, 0, 500, 0);
+            rival(&mut station, y);
+            station.run_ms(20);
+        }
+        assert_eq!(roll_echo(&station), if y == 0 { 1500 } else { 2000 }, "centred sticks take nothing");
+    }
+}
+
+#[test]
+fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
+    let mut station = Station::airborne("drill-hover", 7);
+    station.run_ms(600);
+    channels(&mut station, 1300, 1500);
+    station.run_ms(20);
+    channels(&mut station, u16::MAX, 1600);
+    station.run_ms(20);
+    let echo = |s: &Station| s.last(|m| if let MavMessage::RC_CHANNELS(c) = m { Some((c.chan2_raw, c.chan3_raw)) } else { None });
+    station.run_ms(20);
+    assert_eq!(echo(&station), Some((1300, 1600)));
+    channels(&mut station, 2500, 65_534);
+    station.run_ms(40);
+    assert_eq!(echo(&station), Some((1300, 1600)), "pulses that no transmitter sends change nothing");
+    station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    }));
+    station.run_ms(20);
+    station.heard.clear();
+    station.run_ms(100);
+    assert_eq!(echo(&station), None, "let go: there are no sticks to echo");
+}
+
+#[test]
+fn wire_buttons_do_what_their_parameters_say_once_a_press() {
+    let mut station = Station::airborne("drill-hover", 7);
+    set(&mut station, "BTN3_FUNCTION", 11);
+    set(&mut station, "BTN9_FUNCTION", 10);
+    let press = |station: &mut Station, buttons: u16, s: i16| {
+        let extensions = 1;
+        let sticks = MANUAL_CONTROL_DATA { z: 500, buttons, target: 1, enabled_extensions: extensions, s, ..Default::default() };
+        station.send(&MavMessage::MANUAL_CONTROL(sticks));
+        station.run_ms(40);
+    };
+    station.heard.clear();
+    for buttons in [0, 1 << 3, 1 << 3, 1 << 3 | 1 << 9, 1 << 9, 0] {
+        press(&mut station, buttons, 0);
+    }
+    let pictures = station.all(|m| matches!(m, MavMessage::CAMERA_IMAGE_CAPTURED(_)).then_some(())).len();
+    assert_eq!(pictures, 1);
+    for _ in 0..25 {
+        press(&mut station, 0, -900);
+    }
+    assert_eq!(station.last(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
+    let pitch =
+        station.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2].asin()) } else { None });
+    assert!(pitch.unwrap() < -0.5, "the gimbal's axis points down: {pitch:?}");
+}

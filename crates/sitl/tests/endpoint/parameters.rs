@@ -1,0 +1,344 @@
+//! Parameters: the names that QGroundControl's setup pages and the autopilots' own test suites use are there, described, and act.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use super::copter::{ARM, AUTO, SET_MODE, copter, copter_at, mode, next_beat};
+use spandrel_mavlink::dialect::*;
+use spandrel_sitl::autopilot::operator_rules::{Exceptions, Heading, MissionNeeds, OffboardLoss, Response, ReturnPlaces};
+use spandrel_sitl::autopilot::{LinkLoss, Mode, OperatorRules, Tuning};
+use spandrel_sitl::endpoint::params::face::{COPTER, Face, PX4};
+use spandrel_sitl::endpoint::params::{Pack, Params, Value, metadata};
+use spandrel_testkit::plans::{item, upload};
+use spandrel_testkit::station::{Station, one, p};
+use std::io::Cursor;
+
+const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
+const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
+/// Share of the names that must be there (issue 16).
+const LEAST_SHARE: f64 = 0.9;
+
+const QGROUNDCONTROL_PX4: &str = include_str!("names/qgroundcontrol-px4.tsv");
+const QGROUNDCONTROL_COPTER: &str = include_str!("names/qgroundcontrol-copter.tsv");
+const SUITE_PX4: &str = include_str!("names/suite-px4.tsv");
+const SUITE_COPTER: &str = include_str!("names/suite-copter.tsv");
+
+fn params(face: &'static Face) -> Params {
+    Params::new(1, Pack::SMALL, face)
+}
+
+/// Names of a list with what the autopilot's own description of each has.
+fn names(list: &str) -> Vec<(&str, &str)> {
+    list.lines().filter(|line| !line.starts_with('#')).filter_map(|line| line.split_once('\t')).collect()
+}
+
+/// What a ground station is told of the parameters.
+fn described(face: &Face) -> Vec<serde_json::Value> {
+    let mut text = Vec::new();
+    lzma_rs::xz_decompress(&mut Cursor::new(&metadata::files(face).parameter.bytes), &mut text).unwrap();
+    let file: serde_json::Value = serde_json::from_slice(&text).unwrap();
+    file["parameters"].as_array().unwrap().clone()
+}
+
+#[test]
+fn regress_every_parameter_of_qgroundcontrols_setup_pages_is_there_with_texts_units_and_enums() {
+    for (face, list) in [(&PX4, QGROUNDCONTROL_PX4), (&COPTER, QGROUNDCONTROL_COPTER)] {
+        let (own, all) = (params(face), described(face));
+        let mut wrong = Vec::new();
+        for (name, parts) in names(list) {
+            let Some(row) = all.iter().find(|row| row["name"] == name).filter(|_| own.find(name).is_some()) else {
+                wrong.push(format!("{name} is missing"));
+                continue;
+            };
+            let lists = |key: &str| row[key].as_array().is_some_and(|list| !list.is_empty());
+            let text = |key: &str| row[key].as_str().is_some_and(|text| !text.is_empty());
+            // A mask of one's own may be described by its values, and the other way round.
+            let worded = lists("values") || lists("bitmask");
+            let kept = !parts.contains("enum") && !parts.contains("bits") || worded;
+            if !(text("shortDesc") && text("longDesc") && kept && (!parts.contains("unit") || text("units"))) {
+                wrong.push(format!("{name} lacks text, unit or enum: {row}"));
+            }
+        }
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+}
+
+#[test]
+fn regress_flight_mode_slots_have_words_for_their_value() {
+    for (face, prefix) in [(&PX4, "COM_FLTMODE"), (&COPTER, "FLTMODE")] {
+        let (own, all) = (params(face), described(face));
+        for slot in 1..=6 {
+            let name = format!("{prefix}{slot}");
+            let row = all.iter().find(|row| row["name"] == name.as_str()).unwrap();
+            let Some((_, _, Value::Int(value))) = own.find(&name) else { panic!("{name} is no whole number") };
+            let worded = row["values"].as_array().unwrap().iter().any(|entry| entry["value"] == value);
+            assert!(worded, "{name} = {value} has no words: {row}");
+        }
+    }
+}
+
+#[test]
+fn regress_nine_in_ten_names_of_the_setup_pages_and_the_suites_are_there() {
+    for (face, lists) in [(&PX4, [QGROUNDCONTROL_PX4, SUITE_PX4]), (&COPTER, [QGROUNDCONTROL_COPTER, SUITE_COPTER])] {
+        let own = params(face);
+        let mut all: Vec<&str> = lists.iter().flat_map(|list| names(list)).map(|(name, _)| name).collect();
+        all.sort_unstable();
+        all.dedup();
+        let missing: Vec<&&str> = all.iter().filter(|name| own.find(name).is_none()).collect();
+        let share = 1.0 - missing.len() as f64 / all.len() as f64;
+        println!("flavor {}: {} of {} names, {:.1} %", face.number, all.len() - missing.len(), all.len(), 100.0 * share);
+        assert!(share >= LEAST_SHARE, "flavor {}: {share}, without {missing:?}", face.number);
+        let suite = names(lists[1]);
+        let known = suite.iter().filter(|(name, _)| own.find(name).is_some()).count();
+        println!("flavor {}: suite alone {known} of {}", face.number, suite.len());
+        assert!(known as f64 >= LEAST_SHARE * suite.len() as f64, "flavor {}: {known} of {}", face.number, suite.len());
+    }
+}
+
+/// The tuning after a parameter was set.
+fn tuned(face: &'static Face, name: &str, value: f64) -> Tuning {
+    let mut own = params(face);
+    let kind = own.find(name).unwrap_or_else(|| panic!("{name}")).2;
+    let value = match kind {
+        Value::Int(_) => Value::Int(value as i32),
+        Value::Real(_) => Value::Real(value as f32),
+    };
+    assert_eq!(own.set_value(name, value), Ok(()), "{name}");
+    let mut tuning = Tuning::default();
+    own.apply(&mut tuning);
+    tuning
+}
+
+#[test]
+fn exact_untouched_parameters_leave_the_rules_as_the_autopilot_has_them() {
+    let mut tuning = Tuning::default();
+    params(&PX4).apply(&mut tuning);
+    let mut expected = OperatorRules::default();
+    // What travels as 32 bits.
+    expected.responses.battery_emergency_pct = 100.0 * f64::from(0.05f32);
+    expected.responses.takeover_share = tuning.rules.responses.takeover_share;
+    assert!((tuning.rules.responses.takeover_share - 0.3).abs() < 1e-6);
+    assert_eq!(tuning.rules, expected);
+}
+
+type Check = fn(&Tuning) -> bool;
+
+#[test]
+fn exact_px4s_parameters_set_what_they_name() {
+    let checks: [(&str, f64, Check); 23] = [
+        ("COM_RCL_EXCEPT", 5.0, |t| {
+            t.rules.responses.manual_loss_except == Exceptions { mission: true, hold: false, offboard: true, manual: false }
+        }),
+        ("COM_DLL_EXCEPT", 2.0, |t| t.rules.responses.data_link_loss_except.hold),
+        ("COM_OBL_RC_ACT", 4.0, |t| t.rules.responses.offboard_loss == OffboardLoss::Fixed(Response::Land)),
+        ("COM_ACT_FAIL_ACT", 3.0, |t| t.rules.responses.motor_failure == Response::Return),
+        ("COM_LOW_BAT_ACT", 3.0, |t| t.rules.responses.battery == [None, Some(Response::Return), Some(Response::Land)]),
+        ("COM_FAIL_ACT_T", 2.0, |t| t.failsafe_delay_s == 2.0),
+        ("COM_RC_OVERRIDE", 2.0, |t| !t.stick_takeover && t.rules.responses.takeover_offboard),
+        ("COM_RC_STICK_OV", 50.0, |t| t.rules.responses.takeover_share == 0.5),
+        ("COM_ARM_MIS_REQ", 1.0, |t| t.rules.responses.arm_needs_mission),
+        ("COM_ARM_BAT_MIN", 0.5, |t| t.rules.responses.arm_charge_pct == 50.0),
+        ("COM_POSCTL_NAVL", 1.0, |t| t.rules.responses.blind_lands),
+        ("NAV_RCL_ACT", 5.0, |t| t.manual_loss == LinkLoss::Terminate),
+        ("RTL_TYPE", 1.0, |t| t.rules.homeward.places == ReturnPlaces { home: false, rally: true, mission_landing: true }),
+        ("RTL_LAND_DELAY", 12.0, |t| t.rules.homeward.wait_s == 12.0),
+        ("RTL_DESCEND_ALT", 7.0, |t| t.rules.homeward.wait_height_m == Some(7.0)),
+        ("RTL_CONE_ANG", 45.0, |t| (t.rules.homeward.cone_slope - 1.0).abs() < 1e-9),
+        ("MPC_ACC_HOR", 2.0, |t| t.rules.envelope.acceleration_m_s2 == 2.0),
+        ("MPC_VEL_MANUAL", 3.0, |t| t.rules.envelope.manual_m_s == 3.0),
+        ("MPC_MAN_Y_MAX", 90.0, |t| (t.rules.envelope.manual_yaw_rad_s - 90f64.to_radians()).abs() < 1e-12),
+        ("MPC_YAW_MODE", 5.0, |t| t.rules.heading == Heading::Fixed),
+        ("MPC_Z_V_AUTO_UP", 1.0, |t| t.climb_m_s == 1.0),
+        ("MIS_TKO_LAND_REQ", 4.0, |t| t.rules.mission_needs == MissionNeeds::BothOrNeither),
+        ("MIS_TAKEOFF_ALT", 100.0, |t| t.takeoff_height_m == 100.0),
+    ];
+    for (name, value, holds) in checks {
+        assert!(!holds(&Tuning::default()), "{name}: the check holds before");
+        assert!(holds(&tuned(&PX4, name, value)), "{name} = {value}");
+    }
+}
+
+#[test]
+fn exact_copters_parameters_set_what_they_name() {
+    let checks: [(&str, f64, Check); 24] = [
+        ("FS_OPTIONS", 1.0, |t| t.rules.responses.manual_loss_except.mission && !t.rules.responses.data_link_loss_except.manual),
+        ("FS_OPTIONS", 18.0, |t| {
+            t.rules.responses.data_link_loss_except.mission && t.rules.responses.data_link_loss_except.manual
+        }),
+        ("BATT_FS_LOW_ACT", 2.0, |t| t.rules.responses.battery[0] == Some(Response::Return)),
+        ("BATT_FS_CRT_ACT", 5.0, |t| t.rules.responses.battery[1] == Some(Response::Terminate)),
+        ("BATT_LOW_VOLT", 10.5, |t| t.rules.responses.battery_low_v == [10.5, 0.0]),
+        ("BATT_ARM_VOLT", 11.0, |t| t.rules.responses.arm_voltage_v == 11.0),
+        ("FS_EKF_ACTION", 1.0, |t| t.rules.responses.blind_lands),
+        ("FS_CRASH_CHECK", 0.0, |t| !t.rules.responses.crash_check),
+        ("RTL_SPEED", 250.0, |t| t.rules.homeward.speed_m_s == Some(2.5)),
+        ("RTL_ALT_FINAL", 300.0, |t| t.rules.homeward.final_height_m == 3.0),
+        ("RTL_LOIT_TIME", 2_000.0, |t| t.rules.homeward.wait_s == 2.0),
+        ("RTL_CLIMB_MIN", 400.0, |t| t.rules.homeward.climb_min_m == 4.0),
+        ("RTL_CONE_SLOPE", 3.0, |t| t.rules.homeward.cone_slope == 3.0),
+        ("RALLY_INCL_HOME", 0.0, |t| !t.rules.homeward.places.home),
+        ("WP_YAW_BEHAVIOR", 0.0, |t| t.rules.heading == Heading::Fixed),
+        ("MIS_RESTART", 1.0, |t| t.rules.mission_restarts),
+        ("CIRCLE_RADIUS", 1_200.0, |t| t.rules.orbit_radius_m == 12.0),
+        ("FENCE_TYPE", 8.0, |t| !t.rules.fence.areas && t.rules.fence.floor_m == Some(-10.0)),
+        ("LAND_SPEED_HIGH", 100.0, |t| t.rules.envelope.landing_m_s == 1.0),
+        ("LAND_ALT_LOW", 800.0, |t| t.land_slow_below_m == 8.0),
+        ("LOIT_SPEED", 300.0, |t| t.rules.envelope.manual_m_s == 3.0),
+        ("PILOT_SPEED_UP", 100.0, |t| t.rules.envelope.manual_up_m_s == 1.0 && t.rules.envelope.manual_down_m_s == 1.0),
+        ("WPNAV_ACCEL", 150.0, |t| t.rules.envelope.acceleration_m_s2 == 1.5),
+        ("ANGLE_MAX", 2_000.0, |t| (t.rules.envelope.manual_tilt_rad - 20f64.to_radians()).abs() < 1e-9),
+    ];
+    for (name, value, holds) in checks {
+        let mut before = Tuning::default();
+        params(&COPTER).apply(&mut before);
+        assert!(!holds(&before), "{name}: the check holds before");
+        assert!(holds(&tuned(&COPTER, name, value)), "{name} = {value}");
+    }
+    assert_eq!(tuned(&COPTER, "MAV_GCS_SYSID", 42.0).rules, tuned(&COPTER, "SYSID_MYGCS", 42.0).rules);
+}
+
+fn set(station: &mut Station, name: &str, value: f32) {
+    let kind = MavParamType::MAV_PARAM_TYPE_REAL32;
+    let set =
+        PARAM_SET_DATA { param_value: value, target_system: 1, target_component: 1, param_id: name.into(), param_type: kind };
+    let told = station.ask(&MavMessage::PARAM_SET(set), |m| match m {
+        MavMessage::PARAM_VALUE(v) if v.param_id.to_str() == Ok(name) => Some(v.param_value),
+        _ => None,
+    });
+    assert_eq!(told, Some(value), "{name}");
+}
+
+fn value(station: &mut Station, name: &str) -> f32 {
+    let read = PARAM_REQUEST_READ_DATA { param_index: -1, target_system: 1, target_component: 1, param_id: name.into() };
+    station
+        .ask(
+            &MavMessage::PARAM_REQUEST_READ(read),
+            |m| if let MavMessage::PARAM_VALUE(v) = m { Some(v.param_value) } else { None },
+        )
+        .unwrap_or_else(|| panic!("{name}"))
+}
+
+fn pulses(us: [u16; 4]) -> MavMessage {
+    MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
+        chan1_raw: us[0],
+        chan2_raw: us[1],
+        chan3_raw: us[2],
+        chan4_raw: us[3],
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    })
+}
+
+const LOITER: f32 = 5.0;
+const LOITER_NUMBER: u32 = 5;
+const BRAKE_NUMBER: u32 = 17;
+
+#[test]
+fn wire_sticks_count_from_the_ground_station_that_sysid_mygcs_names_only() {
+    let mut station = copter_at(6.0);
+    station.send(&pulses([1_500; 4]));
+    station.run_ms(50);
+    assert_eq!(station.command(1, SET_MODE, mode(LOITER)), ACCEPTED);
+    set(&mut station, "SYSID_MYGCS", 42.0);
+    for _ in 0..20 {
+        station.send(&pulses([1_500, 1_300, 1_500, 1_500]));
+        station.run_ms(100);
+    }
+    assert!(station.speed() < 0.5, "sticks of system 255 were obeyed: {} m/s", station.speed());
+    station.speak_as(42, 190);
+    // The other one counts as their holder for a while.
+    for _ in 0..45 {
+        station.send(&pulses([1_500, 1_300, 1_500, 1_500]));
+        station.run_ms(100);
+    }
+    assert!(station.speed() > 1.0, "sticks of system 42: {} m/s", station.speed());
+}
+
+#[test]
+fn wire_a_throttle_pulse_below_fs_thr_value_is_a_lost_transmitter() {
+    let mut station = copter_at(6.0);
+    station.send(&pulses([1_500; 4]));
+    station.run_ms(50);
+    assert_eq!(station.command(1, SET_MODE, mode(LOITER)), ACCEPTED);
+    for (throttle, number) in [(1_500, LOITER_NUMBER), (950, BRAKE_NUMBER)] {
+        for _ in 0..50 {
+            station.send(&pulses([1_500, 1_500, throttle, 1_500]));
+            station.run_ms(100);
+        }
+        assert_eq!(next_beat(&mut station).custom_mode, number, "throttle {throttle} us: {:?}", station.texts());
+        station.send(&pulses([1_500; 4]));
+        station.run_ms(50);
+    }
+}
+
+#[test]
+fn wire_auto_options_allow_arming_in_auto_and_mis_total_counts_the_mission() {
+    let mut station = copter();
+    assert_eq!(value(&mut station, "MIS_TOTAL"), 0.0);
+    let items = [
+        item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0),
+        item(1, MavCmd::MAV_CMD_NAV_TAKEOFF, 0.0, 5.0),
+        item(2, MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH, 0.0, 0.0),
+    ];
+    assert_eq!(upload(&mut station, &items), MavMissionResult::MAV_MISSION_ACCEPTED);
+    assert_eq!(value(&mut station, "MIS_TOTAL"), 3.0);
+    assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
+    assert_eq!(station.command(1, ARM, one(1.0)), FAILED, "not without the option");
+    // Arming alone: it waits for the throttle.
+    set(&mut station, "AUTO_OPTIONS", 1.0);
+    assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
+    let ground = station.place_after(100)[2];
+    station.run_ms(4_000);
+    assert!((ground - station.place()[2]).abs() < 0.2, "took off without raised throttle");
+    // With the other bit it takes off.
+    set(&mut station, "AUTO_OPTIONS", 3.0);
+    assert!(station.run_until(15.0, |s| ground - s.place()[2] > 2.0), "no take-off: {:?}", station.texts());
+}
+
+#[test]
+fn flight_com_act_fail_act_terminates_on_a_failed_motor() {
+    const MOTOR: f32 = 101.0;
+    const OFF: f32 = 1.0;
+    for terminate in [false, true] {
+        let mut station = Station::airborne("drill-hover", 7);
+        let whole = |value: i32| f32::from_bits(value.cast_unsigned());
+        for (name, value) in [("SYS_FAILURE_EN", 1), ("COM_ACT_FAIL_ACT", if terminate { 4 } else { 0 })] {
+            let kind = MavParamType::MAV_PARAM_TYPE_INT32;
+            let set = PARAM_SET_DATA {
+                param_value: whole(value),
+                target_system: 1,
+                target_component: 1,
+                param_id: name.into(),
+                param_type: kind,
+            };
+            station.send(&MavMessage::PARAM_SET(set));
+        }
+        station.run_ms(20);
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, p(&[MOTOR, OFF, 1.0])), ACCEPTED);
+        station.run_until(3.0, |s| s.said("Disarmed: motor failure"));
+        assert!(station.said("Attitude lost"), "{:?}", station.texts());
+        assert_eq!(station.said("Disarmed: motor failure"), terminate, "{:?}", station.texts());
+    }
+}
+
+#[test]
+fn exact_modes_that_a_lost_link_never_stops() {
+    for mode in [Mode::Land, Mode::Return] {
+        assert!(Exceptions::default().cover(mode), "{mode:?}");
+    }
+    assert!(!Exceptions::default().cover(Mode::Mission) && Exceptions::from_bits(1).cover(Mode::Mission));
+}
+
+#[test]
+fn regress_the_height_reference_takes_every_value_and_says_that_it_is_not_used() {
+    const INT: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
+    const REAL: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
+    for (face, name, codes) in [(&PX4, "EKF2_HGT_REF", [0, 1, 2, 3]), (&COPTER, "EK3_SRC1_POSZ", [1, 2, 3, 6])] {
+        let (mut own, all) = (params(face), described(face));
+        let row = all.iter().find(|row| row["name"] == name).unwrap();
+        assert!(row["longDesc"].as_str().unwrap().contains("No effect on this vehicle"), "{row}");
+        for code in codes {
+            let (wire, kind) = if face.cast { (code as f32, REAL) } else { (Value::Int(code).to_wire(), INT) };
+            assert_eq!(own.set(name, wire, kind), Ok(()), "{name} {code}");
+        }
+    }
+}

@@ -1,0 +1,295 @@
+//! Plans: uploaded whole and in pieces, given back, flown.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+
+use spandrel_mavlink::dialect::*;
+use spandrel_testkit::plans::{ACCEPTED, PLAN, asked, count, home_north, item, origin, ready, result, upload};
+use spandrel_testkit::station::Station;
+
+const NAN: f32 = f32::NAN;
+
+#[test]
+fn wire_a_mission_is_uploaded_given_back_and_flown_to_its_end() {
+    let mut station = ready(7);
+    let north = home_north(&station);
+    let items = [
+        item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, north, 6.0),
+        item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 12.0, 8.0),
+        MISSION_ITEM_INT_DATA {
+            param2: 0.0,
+            param3: 1.0,
+            frame: MavFrame::MAV_FRAME_MISSION,
+            ..item(2, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, north, 0.0)
+        },
+        MISSION_ITEM_INT_DATA {
+            param1: -40.0,
+            param3: NAN,
+            frame: MavFrame::MAV_FRAME_MISSION,
+            ..item(3, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, north, 0.0)
+        },
+        item(4, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 4.0, 8.0),
+        item(5, MavCmd::MAV_CMD_NAV_LAND, north, 0.0),
+    ];
+    assert_eq!(upload(&mut station, &items), ACCEPTED);
+    for (seq, sent) in items.iter().enumerate() {
+        let request = MISSION_REQUEST_INT_DATA { seq: seq as u16, target_system: 1, target_component: 1, ..Default::default() };
+        let got = station.ask(&MavMessage::MISSION_REQUEST_INT(request), |m| match m {
+            MavMessage::MISSION_ITEM_INT(item) => Some((item.seq, item.command, item.x, item.y, item.z.to_bits(), item.param1)),
+            _ => None,
+        });
+        assert_eq!(got, Some((sent.seq, sent.command, sent.x, sent.y, sent.z.to_bits(), sent.param1)));
+    }
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
+    let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
+    let mut furthest = north;
+    let ended = station.run_until(90.0, |s| {
+        furthest = furthest.max(home_north(s));
+        s.heard
+            .iter()
+            .any(|f| matches!(&f.message, Some(MavMessage::STATUSTEXT(t)) if t.text.to_str() == Ok("Disarmed by landing")))
+    });
+    assert!(ended, "it lands and stops its motors by itself, at {:?}", station.place());
+    let reached = station.all(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { Some(r.seq) } else { None });
+    assert_eq!(reached, [0, 1, 2, 3, 4, 5]);
+    assert!((furthest - north - 12.0).abs() < 2.5, "12 m north, within the radius of acceptance: {}", furthest - north);
+    assert!((home_north(&station) - north).abs() < 1.0, "it lands where it was told to");
+    let status = MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+        command: MavCmd::MAV_CMD_REQUEST_MESSAGE,
+        param1: 262.0,
+        target_system: 1,
+        target_component: 100,
+        ..Default::default()
+    });
+    let taken = station.ask(&status, |m| if let MavMessage::CAMERA_CAPTURE_STATUS(c) = m { Some(c.image_count) } else { None });
+    assert_eq!(taken, Some(1), "the picture of item 2 was taken");
+    let pitch = station.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2]) } else { None });
+    assert!(pitch.is_none_or(|p| p < -0.6), "the gimbal of item 3 looks down: {pitch:?}");
+}
+
+#[test]
+fn wire_lost_doubled_and_exchanged_items_are_asked_for_until_the_plan_is_whole() {
+    let mut station = ready(7);
+    let items: Vec<_> = (0..4).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0 * f64::from(k), 6.0)).collect();
+    let send = |s: &mut Station, k: usize| {
+        s.ask(&MavMessage::MISSION_ITEM_INT(items[k].clone()), |m| asked(m).map(Ok).or(result(m).map(Err)))
+    };
+    assert_eq!(station.ask(&count(4, PLAN), asked), Some(0));
+    assert_eq!(station.ask(&count(4, PLAN), asked), Some(0), "the first request was lost: the count comes again");
+    assert_eq!(send(&mut station, 0), Some(Ok(1)));
+    assert_eq!(send(&mut station, 0), None, "doubled: the next one is asked for already");
+    assert_eq!(send(&mut station, 2), None, "out of turn");
+    // Nothing comes: the vehicle asks again by itself.
+    station.heard.clear();
+    station.run_ms(2_000);
+    let asked_again = station.all(asked);
+    assert!(asked_again.starts_with(&[1, 1, 1]), "{asked_again:?}");
+    // Datagrams were exchanged: an earlier item may be what the client waits for, but the missing one stays requested.
+    assert!(asked_again.iter().rev().take(2).any(|seq| *seq == 1), "{asked_again:?}");
+    assert_eq!(send(&mut station, 1), Some(Ok(2)));
+    assert_eq!(send(&mut station, 2), Some(Ok(3)));
+    assert_eq!(send(&mut station, 3), Some(Err(ACCEPTED)));
+    assert_eq!(send(&mut station, 3), Some(Err(ACCEPTED)), "the acknowledgement was lost: it comes again");
+    assert_eq!(send(&mut station, 1), None, "delayed: an error would undo the acknowledgement");
+    let stranger = MavMessage::MISSION_ITEM_INT(item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, 99.0, 6.0));
+    assert_eq!(station.ask(&stranger, result), Some(MavMissionResult::MAV_MISSION_ERROR), "no upload runs any more");
+    let list = MISSION_REQUEST_LIST_DATA { target_system: 1, target_component: 1, mission_type: PLAN };
+    let counted = station.ask(&MavMessage::MISSION_REQUEST_LIST(list), |m| {
+        if let MavMessage::MISSION_COUNT(c) = m { Some(c.count) } else { None }
+    });
+    assert_eq!(counted, Some(4));
+}
+
+#[test]
+fn wire_an_upload_that_stalls_is_given_up_and_a_second_station_waits_its_turn() {
+    let mut station = ready(7);
+    assert_eq!(station.ask(&count(2, PLAN), asked), Some(0));
+    station.speak_as(254, 190);
+    assert_eq!(station.ask(&count(1, PLAN), result), Some(MavMissionResult::MAV_MISSION_DENIED));
+    station.heard.clear();
+    station.run_ms(11_000);
+    assert_eq!(station.last(result), Some(MavMissionResult::MAV_MISSION_OPERATION_CANCELLED));
+    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0), "its turn now");
+}
+
+#[test]
+fn wire_clearing_empties_the_plan_and_stops_nobody_else() {
+    let mut station = ready(7);
+    let fence = MISSION_ITEM_INT_DATA {
+        mission_type: MavMissionType::MAV_MISSION_TYPE_FENCE,
+        param1: 40.0,
+        ..item(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, 0.0, 0.0)
+    };
+    assert_eq!(upload(&mut station, &[fence]), ACCEPTED);
+    assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 5.0)]), ACCEPTED);
+    let clear = |mission_type| {
+        MavMessage::MISSION_CLEAR_ALL(MISSION_CLEAR_ALL_DATA { target_system: 1, target_component: 1, mission_type })
+    };
+    assert_eq!(station.ask(&clear(PLAN), result), Some(ACCEPTED));
+    let mut counted = |mission_type| {
+        let list = MISSION_REQUEST_LIST_DATA { target_system: 1, target_component: 1, mission_type };
+        station.ask(&MavMessage::MISSION_REQUEST_LIST(list), |m| {
+            if let MavMessage::MISSION_COUNT(c) = m { Some(c.count) } else { None }
+        })
+    };
+    assert_eq!((counted(PLAN), counted(MavMissionType::MAV_MISSION_TYPE_FENCE)), (Some(0), Some(1)));
+    assert_eq!(station.ask(&clear(MavMissionType::MAV_MISSION_TYPE_ALL), result), Some(ACCEPTED));
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
+}
+
+#[test]
+fn wire_items_that_cannot_be_flown_are_refused_by_the_parameter_that_is_wrong() {
+    use MavMissionResult as R;
+    let mut station = ready(7);
+    let waypoint = || item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 5.0);
+    for (wrong, expected) in [
+        (MISSION_ITEM_INT_DATA { x: 910_000_000, ..waypoint() }, R::MAV_MISSION_INVALID_PARAM5_X),
+        (MISSION_ITEM_INT_DATA { x: 0, ..waypoint() }, R::MAV_MISSION_INVALID_PARAM6_Y),
+        (MISSION_ITEM_INT_DATA { z: NAN, ..waypoint() }, R::MAV_MISSION_INVALID_PARAM7),
+        (MISSION_ITEM_INT_DATA { param1: -5.0, ..waypoint() }, R::MAV_MISSION_INVALID_PARAM1),
+        (MISSION_ITEM_INT_DATA { frame: MavFrame::MAV_FRAME_LOCAL_ENU, ..waypoint() }, R::MAV_MISSION_UNSUPPORTED_FRAME),
+        (
+            MISSION_ITEM_INT_DATA { z: f32::INFINITY, ..item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, 0.0, 0.0) },
+            R::MAV_MISSION_INVALID_PARAM7,
+        ),
+        (
+            MISSION_ITEM_INT_DATA { x: 910_000_000, ..item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, 0.0, 5.0) },
+            R::MAV_MISSION_INVALID_PARAM5_X,
+        ),
+        (
+            MISSION_ITEM_INT_DATA { y: 1_810_000_000, ..item(0, MavCmd::MAV_CMD_NAV_LAND, 0.0, 0.0) },
+            R::MAV_MISSION_INVALID_PARAM6_Y,
+        ),
+        (MISSION_ITEM_INT_DATA { param1: 7.0, ..item(0, MavCmd::MAV_CMD_DO_JUMP, 0.0, 0.0) }, R::MAV_MISSION_INVALID_PARAM1),
+        (item(0, MavCmd::MAV_CMD_DO_PARACHUTE, 0.0, 0.0), R::MAV_MISSION_UNSUPPORTED),
+    ] {
+        assert_eq!(upload(&mut station, std::slice::from_ref(&wrong)), expected, "{wrong:?}");
+    }
+    assert_eq!(station.ask(&count(60_000, PLAN), result), Some(R::MAV_MISSION_NO_SPACE));
+}
+
+#[test]
+fn wire_the_current_item_is_set_by_message_and_by_command() {
+    let mut station = ready(7);
+    let items: Vec<_> = (0..3).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0, 6.0)).collect();
+    upload(&mut station, &items);
+    let set = |seq| MavMessage::MISSION_SET_CURRENT(MISSION_SET_CURRENT_DATA { seq, target_system: 1, target_component: 1 });
+    let current = |m: &MavMessage| if let MavMessage::MISSION_CURRENT(c) = m { Some((c.seq, c.total)) } else { None };
+    assert_eq!(station.ask(&set(2), current), Some((2, 3)));
+    assert_eq!(station.ask(&set(77), result), Some(MavMissionResult::MAV_MISSION_INVALID_SEQUENCE));
+    let one = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, one), MavResult::MAV_RESULT_ACCEPTED);
+    assert_eq!(station.last(current), Some((1, 3)), "said with the answer, not with the next of the stream");
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, [9.0; 7]), MavResult::MAV_RESULT_DENIED);
+}
+
+#[test]
+fn wire_heights_over_home_follow_a_home_that_is_set_anew() {
+    let mut station = Station::airborne("drill-hover", 7);
+    let north = home_north(&station);
+    let amsl = MISSION_ITEM_INT_DATA {
+        frame: MavFrame::MAV_FRAME_GLOBAL,
+        ..item(
+            1,
+            MavCmd::MAV_CMD_NAV_LOITER_UNLIM,
+            north,
+            spandrel_testkit::shipped::scenario("drill-hover").origin.altitude_m as f32 + 7.0,
+        )
+    };
+    upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_LOITER_UNLIM, north, 5.0), amsl]);
+    let set_home = MavMessage::COMMAND_INT(COMMAND_INT_DATA {
+        command: MavCmd::MAV_CMD_DO_SET_HOME,
+        x: origin().0,
+        y: origin().1,
+        z: spandrel_testkit::shipped::scenario("drill-hover").origin.altitude_m as f32 + 6.0,
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    });
+    let answer = station.ask(&set_home, |m| if let MavMessage::COMMAND_ACK(a) = m { Some(a.result) } else { None });
+    assert_eq!(answer, Some(MavResult::MAV_RESULT_ACCEPTED));
+    // Home 6 m above the origin: the first item lies 11 m above it, the second 7 m whatever home is.
+    for (seq, up) in [(0.0, 11.0), (1.0, 7.0)] {
+        station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, [seq, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [-1.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
+        station.run_ms(10_000);
+        assert!((-station.place()[2] - up).abs() < 0.4, "item {seq}: {} m up for {up} m", -station.place()[2]);
+    }
+}
+
+#[test]
+fn wire_older_and_partial_forms_are_taken_or_refused_but_always_answered() {
+    use MavMissionResult as R;
+    let mut station = ready(7);
+    let origin = spandrel_testkit::shipped::scenario("drill-hover").origin;
+    let old = MavMessage::MISSION_ITEM(MISSION_ITEM_DATA {
+        param4: NAN,
+        x: origin.latitude_deg as f32,
+        y: origin.longitude_deg as f32,
+        z: 5.0,
+        command: MavCmd::MAV_CMD_NAV_WAYPOINT,
+        target_system: 1,
+        target_component: 1,
+        frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT,
+        ..Default::default()
+    });
+    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0));
+    assert_eq!(station.ask(&old, result), Some(ACCEPTED), "an item in floating degrees");
+    let part = MISSION_WRITE_PARTIAL_LIST_DATA { target_system: 1, target_component: 1, ..Default::default() };
+    let asked_first = station.ask(&MavMessage::MISSION_WRITE_PARTIAL_LIST(part), asked);
+    assert_eq!(asked_first, Some(0), "the one item that there is");
+    let part = MISSION_REQUEST_PARTIAL_LIST_DATA { target_system: 1, target_component: 1, ..Default::default() };
+    assert_eq!(station.ask(&MavMessage::MISSION_REQUEST_PARTIAL_LIST(part), result), Some(R::MAV_MISSION_UNSUPPORTED));
+    // A plan of a type that MAVLink does not know: MISSION_REQUEST_LIST, type 9.
+    station.heard.clear();
+    station.send_payload(43, &[1, 1, 9]);
+    station.run_ms(1);
+    let refused = station.heard.iter().find(|f| f.message_id == 47).map(|f| f.payload(4));
+    assert_eq!(refused.as_deref(), Some(&[255, 190, R::MAV_MISSION_UNSUPPORTED as u8, 9][..]));
+    // An item with a command that nobody knows ends its upload.
+    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0));
+    let mut unknown = [0u8; 38];
+    unknown[30..32].copy_from_slice(&31_998u16.to_le_bytes());
+    (unknown[32], unknown[33], unknown[34]) = (1, 1, 3);
+    station.heard.clear();
+    station.send_payload(73, &unknown);
+    station.run_ms(1);
+    assert_eq!(station.last(result), Some(R::MAV_MISSION_UNSUPPORTED));
+    assert_eq!(station.last(asked), None);
+}
+
+/// A station that comes later sees by the id that the plan is not its own, and one that has it need not fetch it.
+#[test]
+fn wire_each_plan_has_an_id_that_changes_with_it() {
+    let mut station = ready(7);
+    let id_in_ack = |s: &Station| s.last(|m| if let MavMessage::MISSION_ACK(a) = m { Some(a.opaque_id) } else { None }).unwrap();
+    let mut ids = Vec::new();
+    for height in [6.0, 7.0, 6.0] {
+        assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0, height)]), ACCEPTED);
+        ids.push(id_in_ack(&station));
+    }
+    assert!(ids[0] != 0 && ids[0] != ids[1] && ids[0] == ids[2], "{ids:?}");
+    station.run_ms(1_100);
+    let told = station.last(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some((c.mission_id, c.fence_id)) } else { None });
+    assert_eq!(told, Some((ids[2], 0)));
+    let list = MavMessage::MISSION_REQUEST_LIST(MISSION_REQUEST_LIST_DATA {
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    });
+    let counted = station.ask(&list, |m| if let MavMessage::MISSION_COUNT(c) = m { Some(c.opaque_id) } else { None });
+    assert_eq!(counted, Some(ids[2]));
+}
+
+#[test]
+fn wire_five_hundred_items_go_up_and_come_back() {
+    let mut station = ready(7);
+    let items: Vec<_> = (0..500).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, f64::from(k), 6.0)).collect();
+    assert_eq!(upload(&mut station, &items), ACCEPTED);
+    for sent in items.iter().step_by(97) {
+        let request = MISSION_REQUEST_INT_DATA { seq: sent.seq, target_system: 1, target_component: 1, ..Default::default() };
+        let got = station.ask(&MavMessage::MISSION_REQUEST_INT(request), |m| {
+            if let MavMessage::MISSION_ITEM_INT(i) = m { Some(i.x) } else { None }
+        });
+        assert_eq!(got, Some(sent.x));
+    }
+}

@@ -1,0 +1,335 @@
+//! What simple clients rely on: whose heartbeat comes first, clocks that start with the autopilot, the older request for items of a plan, and
+//! places that are left open.
+#![allow(deprecated, reason = "simple clients know nothing else")]
+
+use super::copter::{ARM, AUTO, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode};
+use super::copter_plans::item;
+use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::dialect::*;
+use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_testkit::plans::{ready, upload};
+use spandrel_testkit::shipped::scenario;
+use spandrel_testkit::station::{GCS, Station, one, p};
+
+const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
+/// A peer in lockstep, and a sidecar.
+const PEER: LinkId = LinkId(9);
+const SIDECAR: LinkId = LinkId(10);
+/// A place counts as kept within this, m: the mission's own acceptance radius and the way to rest.
+const KEPT_M: f64 = 1.5;
+
+/// Senders of heartbeats in the order of their arrival.
+fn beats(station: &mut Station, ms: i64) -> Vec<u8> {
+    station.heard.clear();
+    station.run_ms(ms);
+    let beat = |m: &Option<MavMessage>| matches!(m, Some(MavMessage::HEARTBEAT(_)));
+    station.heard.iter().filter(|frame| beat(&frame.message)).map(|frame| frame.component_id).collect()
+}
+
+#[test]
+fn regress_the_first_and_the_last_heartbeat_of_every_datagram_are_the_autopilots() {
+    let mut station = Station::new("drill-hover", 7);
+    let until = station.sim.now() + SimTime::from_ms(20_000);
+    let (mut autopilot, mut camera) = (0, 0);
+    station.sim.handle_timeout(until);
+    while let Some(transmit) = station.sim.poll_transmit() {
+        let frames = Decoder::new().datagram(&transmit.bytes);
+        let of: Vec<u8> = frames
+            .iter()
+            .filter(|frame| matches!(frame.message, Some(MavMessage::HEARTBEAT(_))))
+            .map(|frame| frame.component_id)
+            .collect();
+        assert!(of.first().is_none_or(|first| *first == 1) && of.last().is_none_or(|last| *last == 1), "{of:?}");
+        autopilot += of.iter().filter(|component| **component == 1).count();
+        camera += of.iter().filter(|component| **component == 100).count();
+    }
+    // From 0 s to 20 s: one each second, one after each of the camera's, which are 4 s apart.
+    assert_eq!((autopilot, camera), (27, 6));
+}
+
+#[test]
+fn regress_the_camera_beats_once_a_second_where_it_is_used_and_not_at_all_where_it_is_off() {
+    let mut station = ready(7);
+    station.command(100, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(259.0));
+    let used = beats(&mut station, 10_000);
+    assert_eq!(used.iter().filter(|component| **component == 100).count(), 10, "{used:?}");
+    assert_eq!((used[0], used.len()), (1, 20), "the autopilot's comes first: {used:?}");
+    let set = |value: i32| {
+        MavMessage::PARAM_SET(PARAM_SET_DATA {
+            param_value: f32::from_bits(value.cast_unsigned()),
+            target_system: 1,
+            target_component: 1,
+            param_id: "SPAN_CAMERA".into(),
+            param_type: MavParamType::MAV_PARAM_TYPE_INT32,
+        })
+    };
+    station.send(&set(0));
+    station.run_ms(20);
+    assert_eq!(beats(&mut station, 5_000), [1; 5]);
+    assert_eq!(
+        station.command(1, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, p(&[0.0, 0.0, 1.0])),
+        ACCEPTED,
+        "it takes pictures all the same"
+    );
+    station.send(&set(1));
+    station.run_ms(20);
+    assert!(beats(&mut station, 5_000).contains(&100));
+    let mut silent = Station::new("drill-hover", 7);
+    silent.sim.silence_camera();
+    assert!(!beats(&mut silent, 10_000).contains(&100));
+}
+
+fn boot_ms(station: &Station) -> u32 {
+    station.last(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.time_boot_ms) } else { None }).unwrap()
+}
+
+#[test]
+fn regress_the_boot_clock_starts_again_with_the_autopilot_and_the_truths_goes_on() {
+    let mut station = ready(7);
+    station.sim.open_link(SIDECAR, LinkKind::Payload, false);
+    station.run_ms(10_000);
+    assert!(boot_ms(&station) > 12_000);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, one(1.0)), ACCEPTED);
+    station.heard.clear();
+    let rebooted = station.sim.now();
+    let until = rebooted + SimTime::from_ms(3_000);
+    station.sim.handle_timeout(until);
+    let (mut theirs, mut ours, mut truth) = (Vec::new(), Vec::new(), 0);
+    while let Some(transmit) = station.sim.poll_transmit() {
+        for message in Decoder::new().datagram(&transmit.bytes).into_iter().filter_map(|frame| frame.message) {
+            match message {
+                MavMessage::ATTITUDE(a) if transmit.link == GCS => theirs.push(a.time_boot_ms),
+                MavMessage::ATTITUDE(a) => ours.push(a.time_boot_ms),
+                MavMessage::HIL_STATE_QUATERNION(h) => truth = h.time_usec,
+                _ => {}
+            }
+        }
+    }
+    assert!(theirs.len() > 100 && theirs[0] < 1_000 && *theirs.last().unwrap() < 3_100, "{:?}", theirs.last());
+    assert!(ours.iter().all(|ms| i64::from(*ms) >= rebooted.ms()), "the sidecar's clock is the simulation's");
+    assert!(truth >= 1_000 * rebooted.ms().cast_unsigned());
+}
+
+#[test]
+fn regress_gps_raw_tells_the_height_over_the_ellipsoid() {
+    let station = ready(7);
+    let (alt, ellipsoid) = station
+        .last(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some((g.alt, g.alt_ellipsoid)) } else { None })
+        .expect("GPS_RAW_INT is streamed");
+    // The simulator's sea level is the ellipsoid.
+    assert_eq!(alt, ellipsoid);
+    assert!(alt > 400_000, "{alt} mm");
+}
+
+/// What is asked for of an upload: the item's number, and whether by the older message.
+fn question(m: &MavMessage) -> Option<(u16, bool)> {
+    match m {
+        MavMessage::MISSION_REQUEST(r) => Some((r.seq, true)),
+        MavMessage::MISSION_REQUEST_INT(r) => Some((r.seq, false)),
+        _ => None,
+    }
+}
+
+fn counting(count: u16) -> MavMessage {
+    MavMessage::MISSION_COUNT(MISSION_COUNT_DATA { count, target_system: 1, target_component: 1, ..Default::default() })
+}
+
+/// In the older form, as a client sends it that knows no other.
+fn older(item: &MISSION_ITEM_INT_DATA) -> MavMessage {
+    MavMessage::MISSION_ITEM(MISSION_ITEM_DATA {
+        x: (f64::from(item.x) * 1e-7) as f32,
+        y: (f64::from(item.y) * 1e-7) as f32,
+        z: item.z,
+        seq: item.seq,
+        command: item.command,
+        frame: item.frame,
+        autocontinue: 1,
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    })
+}
+
+#[test]
+fn regress_a_copter_asks_for_items_by_the_older_request() {
+    let mut station = copter();
+    let home = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0);
+    let there = item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, 10.0, 5.0);
+    assert_eq!(station.ask(&counting(2), question), Some((0, true)));
+    assert_eq!(station.ask(&older(&home), question), Some((1, true)));
+    let done = station.ask(&older(&there), |m| if let MavMessage::MISSION_ACK(a) = m { Some(a.mavtype) } else { None });
+    assert_eq!(done, Some(MavMissionResult::MAV_MISSION_ACCEPTED));
+}
+
+#[test]
+fn regress_an_uploader_that_knows_one_request_only_is_asked_by_it() {
+    let mut station = ready(7);
+    let items = [0, 1, 2].map(|seq| item(seq, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0 * f64::from(seq), 5.0));
+    // One that waits for the older request alone.
+    assert_eq!(station.ask(&counting(3), question), Some((0, false)));
+    station.heard.clear();
+    assert!(station.run_until(3.0, |s| s.last(question) == Some((0, true))), "the other form is tried");
+    assert_eq!(station.ask(&older(&items[0]), question), Some((1, true)), "and kept, once it is answered");
+    assert_eq!(station.ask(&older(&items[1]), question), Some((2, true)));
+    // One that refuses a form is asked in the other at once.
+    assert_eq!(station.ask(&counting(3), question), Some((0, false)));
+    let refusal = MavMessage::MISSION_ACK(MISSION_ACK_DATA {
+        mavtype: MavMissionResult::MAV_MISSION_UNSUPPORTED,
+        target_system: 1,
+        target_component: 1,
+        ..Default::default()
+    });
+    assert_eq!(station.ask(&refusal, question), Some((0, true)));
+    assert_eq!(station.ask(&refusal, question), Some((0, false)));
+}
+
+/// Where the vehicle is, m north of the pad and over the sea, by GLOBAL_POSITION_INT.
+fn place(station: &mut Station) -> (f64, f64) {
+    station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
+    station
+        .last(|m| match m {
+            MavMessage::GLOBAL_POSITION_INT(g) => Some((f64::from(g.lat - PAD.0) * M_PER_E7, f64::from(g.alt) * 1e-3)),
+            _ => None,
+        })
+        .unwrap()
+}
+
+#[test]
+fn regress_zero_in_a_copters_item_is_where_it_is_then() {
+    let mut station = copter();
+    let (_, pad_m) = place(&mut station);
+    let open = |seq, command, z| MISSION_ITEM_INT_DATA { x: 0, y: 0, ..item(seq, command, 0.0, z) };
+    let wait = |seq| MISSION_ITEM_INT_DATA { param1: 3.0, x: 0, y: 0, ..item(seq, MavCmd::MAV_CMD_NAV_LOITER_TIME, 0.0, 0.0) };
+    let items = [
+        item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0),
+        item(1, MavCmd::MAV_CMD_NAV_TAKEOFF, 0.0, 5.0),
+        item(2, MavCmd::MAV_CMD_NAV_WAYPOINT, 12.0, 5.0),
+        open(3, MavCmd::MAV_CMD_NAV_WAYPOINT, 9.0),
+        wait(4),
+        open(5, MavCmd::MAV_CMD_DO_SET_HOME, 0.0),
+        item(6, MavCmd::MAV_CMD_NAV_WAYPOINT, 20.0, 0.0),
+        wait(7),
+    ];
+    assert_eq!(upload(&mut station, &items), MavMissionResult::MAV_MISSION_ACCEPTED);
+    assert_eq!(station.command(1, SET_MODE, mode(4.0)), ACCEPTED);
+    assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
+    assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), ACCEPTED);
+    let reached = |s: &Station, seq: u16| {
+        s.last(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { (r.seq >= seq).then_some(()) } else { None }).is_some()
+    };
+    assert!(station.run_until(120.0, |s| reached(s, 4)), "{:?}", station.texts());
+    let (north, up) = place(&mut station);
+    assert!(
+        (north - 12.0).abs() < KEPT_M && (up - pad_m - 9.0).abs() < KEPT_M,
+        "straight up: {north} m north, {} m up",
+        up - pad_m
+    );
+    assert!(station.run_until(120.0, |s| reached(s, 7)), "{:?}", station.texts());
+    let (north, up) = place(&mut station);
+    assert!(
+        (north - 20.0).abs() < KEPT_M && (up - pad_m - 9.0).abs() < KEPT_M,
+        "at its height: {north} m north, {} m up",
+        up - pad_m
+    );
+    let home = station.last(|m| if let MavMessage::HOME_POSITION(h) = m { Some(f64::from(h.altitude) * 1e-3) } else { None });
+    assert!(home.is_none_or(|home| (home - pad_m - 9.0).abs() < KEPT_M), "home is where item 5 was passed: {home:?}");
+}
+
+#[test]
+fn regress_home_at_zero_is_where_a_copter_is_and_nowhere_for_px4() {
+    let mut station = copter_at(6.0);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_HOME, [0.0; 7]), ACCEPTED);
+    station.run_ms(100);
+    station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
+    let up =
+        station.last(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f64::from(g.relative_alt) * 1e-3) } else { None });
+    assert!(up.is_some_and(|up| up.abs() < KEPT_M), "home is where it hovers: {up:?} m over it");
+    assert_eq!(ready(7).command(1, MavCmd::MAV_CMD_DO_SET_HOME, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
+}
+
+/// An answer to a question of lockstep, with the peer's clock in it.
+fn answer(clock: i64, token: i64) -> Vec<u8> {
+    let sync = TIMESYNC_DATA { tc1: clock, ts1: token, ..Default::default() };
+    Encoder::new(7, 191).encode(&MavMessage::TIMESYNC(sync))
+}
+
+#[test]
+fn regress_lockstep_begins_with_a_peers_first_answer() {
+    let mut sim = Station::new("drill-hover", 7).sim;
+    sim.open_link(PEER, LinkKind::Sdk, true);
+    let heard = |sim: &mut spandrel_sitl::sim::Sim| -> Vec<MavMessage> {
+        let sent = std::iter::from_fn(|| sim.poll_transmit()).filter(|t| t.link == PEER);
+        sent.flat_map(|t| Decoder::new().datagram(&t.bytes)).filter_map(|frame| frame.message).collect()
+    };
+    sim.handle_timeout(SimTime::from_ms(1_000));
+    assert_eq!((sim.now(), sim.first_answer()), (SimTime::from_ms(20), Some(false)), "time stands, nobody has spoken");
+    heard(&mut sim);
+    sim.knock();
+    let knocked = heard(&mut sim);
+    let beats = knocked.iter().filter(|m| matches!(m, MavMessage::HEARTBEAT(_))).count();
+    let asks = knocked.iter().filter(|m| matches!(m, MavMessage::TIMESYNC(t) if t.ts1 == 20_000_000)).count();
+    assert!(beats > 0 && asks == 1, "it is found, and asked again: {knocked:?}");
+    sim.go_without_first_answers();
+    assert!(sim.serves_in_real_time() && !sim.waiting());
+    sim.handle_timeout(SimTime::from_ms(1_000));
+    assert_eq!(sim.now(), SimTime::from_ms(1_000), "served without waiting");
+    assert!(heard(&mut sim).iter().any(|m| matches!(m, MavMessage::ATTITUDE(_))));
+    sim.handle_datagram(PEER, &answer(5, 900_000_000));
+    sim.handle_timeout(SimTime::from_ms(5_000));
+    assert_eq!(
+        (sim.now(), sim.waiting(), sim.serves_in_real_time()),
+        (SimTime::from_ms(1_020), true, false),
+        "in step from now on"
+    );
+    sim.handle_datagram(PEER, &answer(6, 1_020_000_000));
+    sim.handle_timeout(SimTime::from_ms(5_000));
+    assert_eq!(sim.now(), SimTime::from_ms(1_040));
+    assert_eq!(sim.first_answer(), None, "an answer that is owed now is no first one");
+}
+
+#[test]
+fn regress_the_digest_holds_what_acts_and_no_clock_of_a_client() {
+    let fly = |clock: u32, north: f32| {
+        let mut station = Station::new("drill-hover", 7);
+        station.sim.open_link(PEER, LinkKind::Sdk, true);
+        let mut encoder = Encoder::new(7, 191);
+        for k in 0..100 {
+            station.sim.handle_timeout(SimTime::from_ms(10_000));
+            let token = station.sim.now().ns();
+            if k % (2 + i64::from(clock) % 3) == 0 {
+                // Questions of the client's own, and its numbers with them.
+                let ask = TIMESYNC_DATA { tc1: 0, ts1: i64::from(clock) + k, ..Default::default() };
+                station.sim.handle_datagram(PEER, &encoder.encode(&MavMessage::TIMESYNC(ask)));
+            }
+            let target = SET_POSITION_TARGET_LOCAL_NED_DATA {
+                time_boot_ms: clock + k as u32,
+                x: north,
+                z: -5.0,
+                coordinate_frame: MavFrame::MAV_FRAME_LOCAL_NED,
+                type_mask: PositionTargetTypemask::from_bits_retain(0b1101_1111_1000),
+                target_system: 1,
+                target_component: 1,
+                ..Default::default()
+            };
+            station.sim.handle_datagram(PEER, &encoder.encode(&MavMessage::SET_POSITION_TARGET_LOCAL_NED(target)));
+            station.sim.handle_datagram(PEER, &answer(i64::from(clock) + k, token));
+            while station.sim.poll_transmit().is_some() {}
+        }
+        assert!(station.sim.now() >= SimTime::from_ms(1_980));
+        station.sim.digest()
+    };
+    assert_eq!(fly(1_000, 3.0), fly(900_001, 3.0), "another clock, the same flight");
+    assert_ne!(fly(1_000, 3.0), fly(1_000, 4.0), "another set-point");
+}
+
+#[test]
+fn exact_the_pad_of_these_tests_is_the_drills() {
+    let job = scenario("drill-hover");
+    let plane = LocalPlane::new(job.origin);
+    let pad = Geo { latitude_deg: f64::from(PAD.0) * 1e-7, longitude_deg: f64::from(PAD.1) * 1e-7, ..job.origin };
+    let off = plane.enu_from_geo(pad) - job.ground_team.pad_m;
+    assert!(off.ned().horizontal_norm() < KEPT_M, "{off:?}");
+}

@@ -1,0 +1,274 @@
+//! Free flight against closed forms.
+
+use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
+use spandrel_model::math::{self, GRAVITY_M_S2};
+use spandrel_model::scenario::BatteryModel;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_sitl::physics::{AIR_DENSITY_KG_M3, Actuators, Air, Load, MAX_ROTORS, Model, OpenSky, State};
+use spandrel_testkit::aircraft::quad;
+
+const DT: SimTime = SimTime::from_ms(1);
+
+/// The aircraft as a body without rotors, drag and damping.
+fn bare() -> Vehicle {
+    let mut vehicle = quad();
+    vehicle.rotors.clear();
+    vehicle.drag.area_m2 = [0.0; 3];
+    vehicle.drag.angular_n_m_s = [0.0; 3];
+    vehicle
+}
+
+fn start() -> State {
+    State::at_rest(Vec3::new(0.0, 0.0, -1000.0), 0.0)
+}
+
+fn run(model: &Model, state: &mut State, actuators: &Actuators, air: &Air, dt: SimTime, steps: i64) {
+    for k in 0..steps {
+        let now = SimTime::from_ns(dt.ns() * k);
+        model.advance(state, actuators, air, &OpenSky, Load::default(), now, dt);
+    }
+}
+
+fn coasting() -> Actuators {
+    Actuators::default()
+}
+
+#[test]
+fn exact_free_fall_is_half_g_t_squared() {
+    // Relative; rounding of 2 000 additions.
+    const TOLERANCE: f64 = 1e-12;
+    let mut state = State::at_rest(Vec3::zero(), 0.0);
+    run(&Model::new(&bare(), BatteryModel::Paper), &mut state, &coasting(), &Air::STILL, DT, 2000);
+    let fallen = state.rigid.position_m.down();
+    let expected = 0.5 * GRAVITY_M_S2 * 4.0;
+    assert!((fallen / expected - 1.0).abs() < TOLERANCE, "{fallen}");
+    assert!((state.rigid.velocity_m_s.down() / (2.0 * GRAVITY_M_S2) - 1.0).abs() < TOLERANCE);
+    assert!(state.specific_force_m_s2.norm() < 1e-9, "an accelerometer in free fall feels nothing");
+}
+
+#[test]
+fn exact_terminal_speed_follows_from_drag() {
+    // Relative.
+    const TOLERANCE: f64 = 1e-6;
+    let mut vehicle = bare();
+    vehicle.drag.area_m2 = [0.05; 3];
+    let mut state = start();
+    run(&Model::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &Air::STILL, DT, 60_000);
+    let expected = (2.0 * vehicle.mass_kg * GRAVITY_M_S2 / (AIR_DENSITY_KG_M3 * 0.05)).sqrt();
+    assert!((state.rigid.velocity_m_s.down() / expected - 1.0).abs() < TOLERANCE);
+}
+
+#[test]
+fn exact_fall_with_drag_follows_the_hyperbolic_tangent() {
+    // m/s; Runge-Kutta at 1 ms.
+    const TOLERANCE: f64 = 1e-9;
+    let mut vehicle = bare();
+    vehicle.drag.area_m2 = [0.05; 3];
+    let mut state = start();
+    run(&Model::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &Air::STILL, DT, 1500);
+    let top = (2.0 * vehicle.mass_kg * GRAVITY_M_S2 / (AIR_DENSITY_KG_M3 * 0.05)).sqrt();
+    let expected = top * math::tanh(GRAVITY_M_S2 * 1.5 / top);
+    assert!((state.rigid.velocity_m_s.down() - expected).abs() < TOLERANCE);
+}
+
+#[test]
+fn exact_hover_thrust_balances_weight() {
+    // Share of the weight; m/s and rad/s after one second.
+    const TOLERANCE: f64 = 1e-12;
+    let model = Model::new(&quad(), BatteryModel::Paper);
+    let mut state = start();
+    let lift: f64 =
+        (0..4).map(|i| -model.rotor_wrench(i, Vec3::zero(), model.hover_rotor_rad_s(), 0.0, 1.0).force_n.down()).sum();
+    assert!((lift / (1.3 * GRAVITY_M_S2) - 1.0).abs() < TOLERANCE, "{lift} N");
+    let speed = (1.3 * GRAVITY_M_S2 / 4.0 / 1.0e-5).sqrt();
+    state.rigid.rotor_rad_s = [speed; MAX_ROTORS];
+    let actuators = Actuators { motors: [model.hover_command(); MAX_ROTORS], armed: true };
+    run(&model, &mut state, &actuators, &Air::STILL, DT, 1000);
+    assert!(state.rigid.velocity_m_s.norm() < TOLERANCE, "{:?}", state.rigid.velocity_m_s);
+    assert!(state.rigid.rates_rad_s.norm() < TOLERANCE);
+}
+
+#[test]
+fn exact_motor_step_reaches_its_share_at_the_time_constant() {
+    // Relative; the exponential is exact.
+    const TOLERANCE: f64 = 1e-12;
+    let model = Model::new(&quad(), BatteryModel::Paper);
+    let mut state = start();
+    run(&model, &mut state, &Actuators { motors: [1.0; MAX_ROTORS], armed: true }, &Air::STILL, DT, 30);
+    let expected = 1000.0 * (1.0 - math::exp(-1.0));
+    assert!((state.rigid.rotor_rad_s[0] / expected - 1.0).abs() < TOLERANCE);
+}
+
+/// The brick of NESC check case 02 (NASA TM-2015-218675): inertia in slug ft², rates in deg/s.
+fn brick() -> (Model, State) {
+    const KG_M2_PER_SLUG_FT2: f64 = 1.355_817_948_331_400_4;
+    let mut vehicle = bare();
+    vehicle.inertia_kg_m2 = [0.001_894_22, 0.006_211_019, 0.007_194_665].map(|i| i * KG_M2_PER_SLUG_FT2);
+    let mut model = Model::new(&vehicle, BatteryModel::Paper);
+    model.gravity_scale = 0.0;
+    let mut state = start();
+    state.rigid.rates_rad_s = Vec3::new(10f64.to_radians(), 20f64.to_radians(), 30f64.to_radians());
+    (model, state)
+}
+
+#[test]
+fn val_tumbling_brick_matches_the_nesc_case_02_figures() {
+    // deg/s, against simulator 04 of the check case.
+    const TOLERANCE: f64 = 1e-8;
+    let (model, mut state) = brick();
+    let published = [
+        [-2.418_902_222, -23.552_569_520, 28.128_592_630],
+        [-5.422_734_680, 22.715_930_576, 28.608_281_747],
+        [12.618_390_776, -17.397_474_762, 31.119_588_887],
+    ];
+    for expected in published {
+        run(&model, &mut state, &coasting(), &Air::STILL, DT, 10_000);
+        let rates = state.rigid.rates_rad_s.array().map(f64::to_degrees);
+        for (got, wanted) in rates.iter().zip(expected) {
+            assert!((got - wanted).abs() < TOLERANCE, "{rates:?} against {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn exact_tumbling_keeps_energy_and_angular_momentum() {
+    // Relative over 30 s.
+    const TOLERANCE: f64 = 1e-12;
+    const KG_M2_PER_SLUG_FT2: f64 = 1.355_817_948_331_400_4;
+    let inertia = [0.001_894_22, 0.006_211_019, 0.007_194_665].map(|i| i * KG_M2_PER_SLUG_FT2);
+    let (model, mut state) = brick();
+    let measure = |s: &State| {
+        let w = s.rigid.rates_rad_s.array();
+        let energy: f64 = (0..3).map(|k| 0.5 * inertia[k] * w[k] * w[k]).sum();
+        let body = Vec3::<Frd>::new(inertia[0] * w[0], inertia[1] * w[1], inertia[2] * w[2]);
+        (energy, s.rigid.attitude * body)
+    };
+    let (energy, momentum) = measure(&state);
+    run(&model, &mut state, &coasting(), &Air::STILL, DT, 30_000);
+    let (energy_after, momentum_after) = measure(&state);
+    assert!((energy_after / energy - 1.0).abs() < TOLERANCE, "{}", energy_after / energy - 1.0);
+    let lost = (momentum_after - momentum).norm() / momentum.norm();
+    assert!(lost < TOLERANCE, "{lost}: {momentum_after:?} {momentum:?}");
+}
+
+#[test]
+fn exact_the_integrator_is_of_fourth_order() {
+    let model = Model::new(&quad(), BatteryModel::Paper);
+    let air = Air { velocity_m_s: Vec3::new(3.0, -2.0, 0.5), ..Air::STILL };
+    let motors = [0.62, 0.58, 0.60, 0.61, 0.0, 0.0, 0.0, 0.0];
+    let end = |per_second: i64| {
+        let mut state = start();
+        state.rigid.rotor_rad_s = [500.0; MAX_ROTORS];
+        let dt = SimTime::from_ns(1_000_000_000 / per_second);
+        run(&model, &mut state, &Actuators { motors, armed: true }, &air, dt, 2 * per_second);
+        state.rigid.position_m
+    };
+    // Rates whose periods are whole nanoseconds.
+    let reference = end(3200);
+    let (coarse, fine) = ((end(100) - reference).norm(), (end(200) - reference).norm());
+    let order = math::ln(coarse / fine) / math::ln(2.0);
+    assert!((3.9..=4.3).contains(&order), "order {order}: {coarse} {fine}");
+}
+
+#[test]
+fn exact_wind_pushes_a_free_body_where_it_blows() {
+    let mut vehicle = bare();
+    vehicle.drag.area_m2 = [0.05; 3];
+    let mut state = start();
+    let air = Air { velocity_m_s: Vec3::new(5.0, 0.0, 0.0), ..Air::STILL };
+    run(&Model::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &air, DT, 100);
+    assert!(state.rigid.velocity_m_s.north() > 0.0, "air that moves north pushes north");
+}
+
+#[test]
+fn exact_only_the_speed_through_the_air_counts() {
+    // m/s.
+    const TOLERANCE: f64 = 1e-12;
+    let model = Model::new(&quad(), BatteryModel::Paper);
+    let drift = Vec3::<Ned>::new(4.0, -3.0, 1.0);
+    let actuators = Actuators { motors: [0.6; MAX_ROTORS], armed: true };
+    let mut still = start();
+    run(&model, &mut still, &actuators, &Air::STILL, DT, 500);
+    let mut carried = start();
+    carried.rigid.velocity_m_s = drift;
+    run(&model, &mut carried, &actuators, &Air { velocity_m_s: drift, ..Air::STILL }, DT, 500);
+    let difference = carried.rigid.velocity_m_s - drift - still.rigid.velocity_m_s;
+    assert!(difference.norm() < TOLERANCE, "{difference:?}");
+}
+
+#[test]
+fn exact_no_heading_is_preferred() {
+    // m.
+    const TOLERANCE: f64 = 1e-9;
+    let model = Model::new(&quad(), BatteryModel::Paper);
+    let actuators = Actuators { motors: [0.62, 0.58, 0.60, 0.61, 0.0, 0.0, 0.0, 0.0], armed: true };
+    let fly = |yaw: f64| {
+        let mut state = start();
+        state.rigid.attitude = Rotation::from_euler(0.0, 0.0, yaw);
+        run(&model, &mut state, &actuators, &Air::STILL, DT, 1000);
+        Rotation::<Ned, Frd>::assume(Rotation::from_euler(0.0, 0.0, yaw).inverse().raw())
+            * (state.rigid.position_m - start().rigid.position_m)
+    };
+    assert!((fly(0.0) - fly(2.1)).norm() < TOLERANCE);
+}
+
+#[test]
+fn exact_one_rotor_pulls_and_turns_as_force_times_arm() {
+    // N and N m; a few roundings.
+    const TOLERANCE: f64 = 1e-14;
+    let vehicle = quad();
+    let model = Model::new(&vehicle, BatteryModel::Paper);
+    let wrench = model.rotor_wrench(0, Vec3::zero(), 500.0, 0.0, 1.0);
+    let thrust = 1.0e-5 * 500.0 * 500.0;
+    let arm = vehicle.rotors[0].position_m;
+    assert!((wrench.force_n - Vec3::new(0.0, 0.0, -thrust)).norm() < TOLERANCE);
+    let expected = Vec3::new(-arm.right() * thrust, arm.forward() * thrust, 1.6e-7 * 500.0 * 500.0);
+    assert!((wrench.torque_n_m - expected).norm() < TOLERANCE);
+}
+
+#[test]
+fn exact_the_paper_battery_is_empty_after_its_endurance() {
+    // %; rounding of 1.5 million subtractions.
+    const TOLERANCE: f64 = 1e-7;
+    let mut vehicle = bare();
+    vehicle.battery.paper_endurance_s = 15.0;
+    let model = Model::new(&vehicle, BatteryModel::Paper);
+    let mut state = start();
+    let load = Load { airborne: true, lamp_on: false };
+    for k in 0..7500 {
+        model.advance(&mut state, &coasting(), &Air::STILL, &OpenSky, load, SimTime::from_ms(k), DT);
+    }
+    assert!((state.battery.remaining_pct() - 50.0).abs() < TOLERANCE);
+}
+
+#[test]
+fn exact_the_physical_battery_obeys_ohm_and_counts_its_charge() {
+    // V, A: rounding. Share of the charge: the current changes a little over the second.
+    const ROUNDING: f64 = 1e-9;
+    let vehicle = quad();
+    let model = Model::new(&vehicle, BatteryModel::Physical);
+    let mut state = start();
+    state.rigid.rotor_rad_s = [600.0; MAX_ROTORS];
+    state.rigid.rotor_rad_s[4..].fill(0.0);
+    let b = &vehicle.battery;
+    let power = 4.0 * 1.6e-7 * 600.0 * 600.0 * 600.0 / 0.5 + b.avionics_w + b.lamp_w;
+    let mut drawn_as = 0.0;
+    let load = Load { airborne: true, lamp_on: true };
+    // Commands that keep the rotors turning as they do.
+    for k in 0..1000 {
+        let top = 1000.0 * state.battery.speed_factor;
+        let actuators = Actuators { motors: [(600.0 - 100.0) / (top - 100.0); MAX_ROTORS], armed: true };
+        model.advance(&mut state, &actuators, &Air::STILL, &OpenSky, load, SimTime::from_ms(k), DT);
+        let (v, i) = (state.battery.voltage_v, state.battery.current_a);
+        drawn_as += i * DT.s();
+        assert!((state.rigid.rotor_rad_s[0] - 600.0).abs() < ROUNDING);
+        assert!((v * i - power).abs() < 1e-6 * power, "{v} V, {i} A, {power} W");
+        // Between the two topmost points of the curve.
+        let before = state.battery.charge + i * DT.s() / (b.capacity_ah * 3600.0);
+        let open = 3.0 * (4.1 + (4.2 - 4.1) * (before - 0.9) * 10.0);
+        assert!((open - i * b.internal_resistance_ohm - v).abs() < ROUNDING, "{open} V open, {v} V");
+        assert!((state.battery.speed_factor - v / (3.0 * 4.2)).abs() < ROUNDING);
+    }
+    assert!((1.0 - state.battery.charge - drawn_as / (b.capacity_ah * 3600.0)).abs() < ROUNDING);
+}

@@ -1,0 +1,6 @@
+//! Physics against closed forms.
+
+mod contact;
+mod free_flight;
+mod movers;
+mod on_bridges;

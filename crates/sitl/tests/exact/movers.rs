@@ -1,0 +1,34 @@
+//! Traffic at its fastest against what the contact look-ahead trusts.
+
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::traffic::TrafficPlan;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::physics::FASTEST_OBJECT_M_S;
+
+/// The paper's job with the fastest cars that a file may ask for.
+fn fastest_legal() -> Scenario {
+    let text = spandrel_model::shipped::TWO_BRIDGES;
+    let with = |speed: &str| {
+        let text = text.replacen("car_speed_m_s = 13.4", &format!("car_speed_m_s = {speed}"), 1);
+        spandrel_model::scenario::read("fast.toml", &text, &|_| Err("none".into()))
+    };
+    let refused = with("1e6").unwrap_err().to_string();
+    let most = refused.split(" to ").nth(1).and_then(|rest| rest.split(')').next()).unwrap_or_else(|| panic!("{refused}"));
+    with(&format!("{:.1}", most.parse::<f64>().unwrap())).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+#[test]
+fn prop_nothing_at_a_site_moves_faster_than_contact_looks_ahead_for() {
+    let scenario = fastest_legal();
+    let lanes: Vec<_> = scenario.bridges.iter().enumerate().flat_map(|(k, bridge)| bridge.lanes(k)).collect();
+    let mut fastest: f64 = 0.0;
+    for seed in 0..200 {
+        let plan = TrafficPlan::new(&lanes, &scenario.traffic, &scenario.ground_team, seed);
+        let times = (0..20).map(SimTime::from_ms).map(|t| SimTime::from_ns(500 * t.ns()));
+        for (mover, at) in times.flat_map(|at| plan.movers().iter().map(move |mover| (mover, at))) {
+            fastest = plan.place(mover, at).map_or(0.0, |placed| placed.velocity_m_s.norm()).max(fastest);
+        }
+    }
+    assert!(fastest > scenario.traffic.car_speed_m_s, "{fastest} m/s: no lane is faster than the mean");
+    assert!(fastest <= FASTEST_OBJECT_M_S, "{fastest} m/s, trusted up to {FASTEST_OBJECT_M_S} m/s");
+}

@@ -1,0 +1,181 @@
+//! Arming, take-off, landing, return, missions and external set-points.
+
+use spandrel_model::frames::Vec3;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::autopilot::{Landed, MissionStep, Mode, OffboardSetpoint, Outcome, Request, Sticks};
+use spandrel_testkit::bench::{Bench, VEHICLES};
+use spandrel_testkit::shipped::vehicle;
+
+/// m: the receiver's error plus the control's.
+const NEAR_M: f64 = 1.5;
+
+#[test]
+fn flight_every_aircraft_is_armable_within_two_seconds() {
+    for name in VEHICLES {
+        let mut bench = Bench::new(&vehicle(name), 1);
+        let reasons = bench.autopilot.arming_reasons(bench.now);
+        assert!(!reasons.is_empty(), "{name} could be armed before it knows anything");
+        bench.run(2.0, |_| ());
+        let reasons = bench.autopilot.status().arming_reasons.clone();
+        assert!(reasons.is_empty(), "{name}: {reasons:?}");
+    }
+}
+
+#[test]
+fn flight_arming_is_refused_with_every_reason_named() {
+    let mut bench = Bench::new(&vehicle("phantom2"), 1);
+    bench.jammed = true;
+    bench.run(2.0, |_| ());
+    bench.sticks = Some(Sticks { forward: 0.5, ..Sticks::default() });
+    bench.run(0.1, |_| ());
+    let outcome = bench.autopilot.request(Request::Arm { force: false }, bench.now);
+    let Outcome::TemporarilyRejected(why) = outcome else { panic!("{outcome:?}") };
+    assert!(why.contains("No GNSS fix") && why.contains("Sticks not centred"), "{why}");
+    bench.ask(Request::Arm { force: true });
+    assert!(bench.autopilot.status().armed);
+}
+
+#[test]
+fn flight_takes_off_holds_and_lands_where_it_was() {
+    // m: the barometer's offset and the GNSS's share in the height.
+    const HEIGHT_M: f64 = 0.8;
+    for name in VEHICLES {
+        let mut bench = Bench::airborne(&vehicle(name), 1, 5.0);
+        let mut worst: f64 = 0.0;
+        bench.run(20.0, |b| worst = worst.max(b.position().horizontal_norm()));
+        assert!(worst < NEAR_M, "{name}: strayed {worst} m");
+        assert!((bench.position().down() + 5.0).abs() < HEIGHT_M, "{name}: {:?}", bench.position());
+        bench.ask(Request::Land);
+        let mut impact: f64 = 0.0;
+        bench.run(20.0, |b| impact = impact.max(b.state.contact.impact_m_s));
+        let status = bench.autopilot.status().clone();
+        assert!(!status.armed && status.landed == Landed::OnGround, "{name}: {status:?} {:?}", bench.position());
+        // m/s: gentler than a step off a kerb.
+        assert!(impact < 1.2, "{name}: hit the ground with {impact} m/s");
+    }
+}
+
+#[test]
+fn flight_takes_off_and_lands_by_the_sticks() {
+    for name in VEHICLES {
+        let mut bench = Bench::new(&vehicle(name), 2);
+        bench.sticks = Some(Sticks::default());
+        bench.run(2.0, |_| ());
+        bench.ask(Request::SetMode(Mode::Position));
+        bench.ask(Request::Arm { force: false });
+        bench.run(2.0, |_| ());
+        assert_eq!(bench.autopilot.status().landed, Landed::OnGround, "{name} left the ground unasked");
+        bench.sticks = Some(Sticks { up: 0.5, ..Sticks::default() });
+        bench.run(3.0, |_| ());
+        assert_eq!(bench.autopilot.status().landed, Landed::InAir, "{name}");
+        bench.sticks = Some(Sticks::default());
+        bench.run(5.0, |_| ());
+        assert!(bench.autopilot.status().armed && bench.position().down() < -1.0, "{name}: {:?}", bench.position());
+        bench.sticks = Some(Sticks { up: -0.5, ..Sticks::default() });
+        bench.run(20.0, |_| ());
+        assert!(!bench.autopilot.status().armed, "{name}: {:?}", bench.autopilot.status());
+        let texts: Vec<String> = bench.autopilot.drain_events().into_iter().map(|e| e.text).collect();
+        assert_eq!(texts, ["Armed", "Takeoff detected", "Landing detected", "Disarmed by landing"], "{name}");
+    }
+}
+
+#[test]
+fn flight_a_return_comes_home_and_lands() {
+    for name in VEHICLES {
+        let mut bench = Bench::airborne(&vehicle(name), 6, 6.0);
+        bench.autopilot.tuning.return_height_m = 12.0;
+        bench.ask(Request::GoTo { north_east_m: Some((20.0, 10.0)), up_m: None, yaw_rad: None, speed_m_s: None });
+        bench.run(15.0, |_| ());
+        assert!((bench.position() - Vec3::new(20.0, 10.0, -6.0)).norm() < NEAR_M, "{name}: {:?}", bench.position());
+        bench.ask(Request::SetMode(Mode::Return));
+        let mut top: f64 = 0.0;
+        bench.run(70.0, |b| top = top.max(-b.position().down()));
+        assert!(!bench.autopilot.status().armed, "{name}: {:?} {:?}", bench.autopilot.status(), bench.position());
+        assert!(
+            bench.position().horizontal_norm() < NEAR_M && (top - 12.0).abs() < NEAR_M,
+            "{name}: {:?}, {top}",
+            bench.position()
+        );
+    }
+}
+
+fn point(north: f64, east: f64, up: f64) -> MissionStep {
+    MissionStep::Waypoint { position_m: Vec3::new(north, east, -up), accept_m: 1.0, hold_s: 0.0, yaw_rad: None }
+}
+
+#[test]
+fn flight_a_mission_is_flown_in_order_and_ends_on_the_ground() {
+    let mut bench = Bench::new(&vehicle("phantom2"), 7);
+    bench.autopilot.set_mission(vec![
+        MissionStep::Takeoff { up_m: Some(5.0) },
+        MissionStep::Speed(Some(4.0)),
+        point(15.0, 0.0, 5.0),
+        MissionStep::Payload,
+        MissionStep::Delay(2.0),
+        point(15.0, 10.0, 8.0),
+        MissionStep::Jump { to: 2, times: 1 },
+        MissionStep::Land { position_m: Some(Vec3::new(0.0, 0.0, 0.0)) },
+    ]);
+    bench.run(2.0, |_| ());
+    bench.ask(Request::Arm { force: false });
+    bench.ask(Request::StartMission { first: None });
+    let mut reached = Vec::new();
+    let mut fastest: f64 = 0.0;
+    for _ in 0..90 {
+        bench.run(1.0, |b| fastest = fastest.max(b.state.rigid.velocity_m_s.horizontal_norm()));
+        reached.extend(bench.autopilot.drain_reached());
+    }
+    assert_eq!(reached, [0, 1, 2, 3, 4, 5, 6, 2, 3, 4, 5, 6, 7]);
+    let status = bench.autopilot.status();
+    assert!(status.mission_finished && !status.armed, "{status:?} {:?}", bench.position());
+    assert!(bench.position().horizontal_norm() < NEAR_M, "{:?}", bench.position());
+    // m/s over the mission's speed.
+    assert!(fastest < 4.4, "{fastest}");
+}
+
+#[test]
+fn flight_external_set_points_are_followed_and_their_loss_leads_to_hold() {
+    let mut bench = Bench::airborne(&vehicle("phantom2"), 8, 6.0);
+    let refused = bench.autopilot.request(Request::SetMode(Mode::Offboard), bench.now);
+    assert!(matches!(refused, Outcome::TemporarilyRejected(_)), "{refused:?}");
+    let velocity = OffboardSetpoint { velocity_m_s: [Some(2.0), Some(-1.0), Some(0.0)], ..OffboardSetpoint::default() };
+    bench.autopilot.offboard(velocity, bench.now);
+    bench.ask(Request::SetMode(Mode::Offboard));
+    for _ in 0..50 {
+        bench.autopilot.offboard(velocity, bench.now);
+        bench.run(0.1, |_| ());
+    }
+    let v = bench.state.rigid.velocity_m_s;
+    assert!((v - Vec3::new(2.0, -1.0, 0.0)).norm() < 0.3, "{v:?}");
+    bench.run(8.0, |_| ());
+    let status = bench.autopilot.status();
+    assert_eq!(status.failsafe.as_deref(), Some("external set-points lost"));
+    assert!(bench.state.rigid.velocity_m_s.norm() < 0.3, "{:?}", bench.state.rigid.velocity_m_s);
+}
+
+#[test]
+fn regress_the_same_seed_flies_the_same_bits() {
+    let fly = |seed| {
+        let mut bench = Bench::airborne(&vehicle("f450"), seed, 4.0);
+        bench.air.velocity_m_s = Vec3::new(2.0, 1.0, 0.0);
+        bench.run(5.0, |_| ());
+        (bench.position(), bench.state.rigid.rotor_rad_s, bench.autopilot.estimate().position_m)
+    };
+    assert_eq!(fly(11), fly(11));
+    assert_ne!(fly(11), fly(12));
+}
+
+#[test]
+fn regress_a_clone_in_mid_flight_goes_on_with_the_same_bits() {
+    let mut bench = Bench::airborne(&vehicle("m30"), 9, 4.0);
+    bench.ask(Request::GoTo { north_east_m: Some((8.0, 3.0)), up_m: Some(6.0), yaw_rad: Some(1.0), speed_m_s: Some(2.0) });
+    bench.run(1.0, |_| ());
+    let (state, sensors, autopilot, now) = (bench.state.clone(), bench.sensors.clone(), bench.autopilot.clone(), bench.now);
+    bench.run(4.0, |_| ());
+    let first = bench.position();
+    (bench.state, bench.sensors, bench.autopilot) = (state, sensors, autopilot);
+    bench.rewind(now);
+    bench.run(4.0, |_| ());
+    assert_eq!(bench.position(), first);
+    assert!(bench.now > now + SimTime::from_ms(3_999));
+}

@@ -1,0 +1,10 @@
+//! Closed-loop flights: physics, sensors, estimator and autopilot together, without a network.
+
+mod automatic;
+mod consistency;
+mod emergencies;
+mod manoeuvres;
+mod missions;
+mod rules;
+mod stuck;
+mod winds;

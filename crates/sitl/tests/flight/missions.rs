@@ -1,0 +1,175 @@
+//! Missions: the planned way through waypoints, take-offs, speeds.
+
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::random::RandomStream;
+use spandrel_sitl::autopilot::trajectory::{Bounds, Planned, Speeds, Trajectory, Waypoint};
+use spandrel_sitl::autopilot::{Landed, MissionStep, Mode, Request};
+use spandrel_testkit::bench::{Bench, VEHICLES};
+use spandrel_testkit::shipped::vehicle;
+
+const STEP_S: f64 = 0.0025;
+const SPEEDS: Speeds = Speeds { usual_m_s: 5.0, most_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };
+/// m/s²: along the leg and across it at once, each within its own bound of 2.
+const ACCELERATION_M_S2: f64 = 3.0;
+/// m/s³: the speed's jerk (4), the corner's (2.5), and what the speed's change adds within a corner.
+const JERK_M_S3: f64 = 10.0;
+
+fn point(north: f64, east: f64, up: f64) -> MissionStep {
+    MissionStep::Waypoint { position_m: Vec3::new(north, east, -up), accept_m: 0.0, hold_s: 0.0, yaw_rad: None }
+}
+
+fn somewhere(stream: &mut RandomStream, reach_m: f64) -> Vec3<Ned> {
+    Vec3::new(stream.range(-reach_m, reach_m), stream.range(-reach_m, reach_m), stream.range(-0.3 * reach_m, 0.3 * reach_m))
+}
+
+#[test]
+fn prop_a_planned_way_is_smooth_passes_every_waypoint_and_ends_at_rest() {
+    let mut stream = RandomStream::new(3, "ways");
+    for case in 0..200 {
+        let reach_m = [3.0, 10.0, 40.0][case % 3];
+        let accept_m = stream.range(0.5, 3.0);
+        let waypoints: Vec<Waypoint> = (0..2 + case % 7)
+            .map(|_| Waypoint { position_m: somewhere(&mut stream, reach_m), speed_m_s: Some(stream.range(1.0, 6.0)), accept_m })
+            .collect();
+        let mut way = Trajectory::join(Planned::default(), &waypoints, Bounds::within(6.0, 4.0)).expect("there are waypoints");
+        let mut nearest = vec![f64::INFINITY; waypoints.len()];
+        let mut before = way.planned();
+        for _ in 0..(400.0 / STEP_S) as usize {
+            let now = way.advance(&SPEEDS, 0.0, STEP_S);
+            let jerk = (now.acceleration_m_s2 - before.acceleration_m_s2) / STEP_S;
+            let velocity = (now.position_m - before.position_m) / STEP_S;
+            assert!(now.acceleration_m_s2.norm() < ACCELERATION_M_S2, "case {case}: {now:?}");
+            assert!(jerk.norm() < JERK_M_S3, "case {case}: jerk {}", jerk.norm());
+            // m/s: half a step's acceleration.
+            assert!((velocity - now.velocity_m_s).norm() < 0.02, "case {case}: {velocity:?} {now:?}");
+            for (least, waypoint) in nearest.iter_mut().zip(&waypoints) {
+                *least = least.min((now.position_m - waypoint.position_m).norm());
+            }
+            before = now;
+        }
+        assert!(nearest.iter().all(|m| *m < 0.5 * accept_m + 0.01), "case {case}: {nearest:?} with {accept_m}");
+        // m, m/s.
+        assert!(nearest.last().is_some_and(|m| *m < 0.02) && before.velocity_m_s.norm() < 0.02, "case {case}: {before:?}");
+    }
+}
+
+#[test]
+fn prop_a_way_that_is_joined_in_flight_goes_on_from_its_motion() {
+    let mut stream = RandomStream::new(4, "joins");
+    for _ in 0..50 {
+        let from = Planned {
+            position_m: somewhere(&mut stream, 5.0),
+            velocity_m_s: somewhere(&mut stream, 2.0),
+            acceleration_m_s2: somewhere(&mut stream, 1.0),
+        };
+        let to = Waypoint { position_m: somewhere(&mut stream, 30.0), speed_m_s: None, accept_m: 2.0 };
+        let mut way = Trajectory::join(from, &[to], Bounds::within(6.0, 4.0)).expect("a waypoint");
+        let begins = way.planned();
+        // m, m/s, m/s²: rounding.
+        assert!((begins.position_m - from.position_m).norm() < 1e-9);
+        assert!((begins.velocity_m_s - from.velocity_m_s).norm() < 1e-9);
+        assert!((begins.acceleration_m_s2 - from.acceleration_m_s2).norm() < 1e-9);
+        for _ in 0..(60.0 / STEP_S) as usize {
+            way.advance(&SPEEDS, 0.0, STEP_S);
+        }
+        assert!((way.planned().position_m - to.position_m).norm() < 0.02, "{:?} {to:?}", way.planned());
+    }
+}
+
+#[test]
+fn regress_a_straight_leg_holds_its_speed_through_waypoints() {
+    // m/s of 5: what PX4's integration test asks of a fly-through.
+    const HELD_M_S: f64 = 4.0;
+    for name in VEHICLES {
+        let mut bench = Bench::new(&vehicle(name), 3);
+        let mut steps = vec![MissionStep::Takeoff { up_m: Some(10.0) }, MissionStep::Speed(Some(5.0))];
+        steps.extend((0..5).map(|k| point(20.0 * f64::from(k), 0.0, 10.0)));
+        bench.autopilot.set_mission(steps);
+        bench.run(2.0, |_| ());
+        bench.ask(Request::Arm { force: false });
+        bench.ask(Request::StartMission { first: None });
+        let (mut slowest, mut fastest): (f64, f64) = (f64::INFINITY, 0.0);
+        bench.run(70.0, |b| {
+            // On the way to 40 and to 60 m.
+            if matches!(b.autopilot.status().mission_current, 4 | 5) {
+                let speed = b.state.rigid.velocity_m_s.horizontal_norm();
+                (slowest, fastest) = (slowest.min(speed), fastest.max(speed));
+            }
+        });
+        assert!(bench.autopilot.status().mission_finished, "{name}: {:?}", bench.position());
+        // m/s over the mission's speed: the estimate's error.
+        assert!(slowest >= HELD_M_S && fastest < 5.5, "{name}: {slowest} to {fastest} m/s");
+    }
+}
+
+#[test]
+fn regress_a_take_off_step_below_the_ground_takes_off_instead_of_tipping_over() {
+    for up_m in [-5.0, -0.5, 0.0] {
+        let mut bench = Bench::new(&vehicle("phantom2"), 5);
+        bench.autopilot.set_mission(vec![MissionStep::Takeoff { up_m: Some(up_m) }, point(10.0, 0.0, 6.0)]);
+        bench.run(2.0, |_| ());
+        bench.ask(Request::Arm { force: false });
+        bench.ask(Request::StartMission { first: None });
+        let mut tilt_deg: f64 = 0.0;
+        bench.run(40.0, |b| {
+            let (roll, pitch, _) = b.state.rigid.attitude.euler();
+            tilt_deg = tilt_deg.max(roll.abs().max(pitch.abs()).to_degrees());
+        });
+        let status = bench.autopilot.status();
+        assert!(status.mission_finished && status.landed == Landed::InAir, "{up_m}: {status:?} {:?}", bench.position());
+        // The aircraft's own tilt limit.
+        assert!(tilt_deg < 35.0, "{up_m}: tilted to {tilt_deg} deg");
+    }
+}
+
+#[test]
+fn regress_a_take_off_climbs_at_its_own_rate() {
+    // m/s.
+    const NEAR_M_S: f64 = 0.3;
+    for (own_m_s, climb_m_s, at_climb_speed, expected_m_s) in
+        [(1.0, 3.0, false, 1.0), (2.5, 3.0, false, 2.5), (1.0, 2.0, true, 2.0), (1.0, 4.0, true, 4.0)]
+    {
+        for by_mission in [false, true] {
+            let mut bench = Bench::new(&vehicle("phantom2"), 6);
+            let tuning = &mut bench.autopilot.tuning;
+            (tuning.takeoff_speed_m_s, tuning.climb_m_s) = (own_m_s, climb_m_s);
+            tuning.takeoff_at_climb_speed = at_climb_speed;
+            bench.autopilot.set_mission(vec![MissionStep::Takeoff { up_m: Some(14.0) }]);
+            bench.run(2.0, |_| ());
+            bench.ask(Request::Arm { force: false });
+            if by_mission {
+                bench.ask(Request::StartMission { first: None });
+            } else {
+                bench.ask(Request::Takeoff { height_m: Some(14.0) });
+            }
+            let mut fastest: f64 = 0.0;
+            // Below 9 m: PX4's own rate holds up to 10 m.
+            bench.run(20.0, |b| {
+                if -b.position().down() < 9.0 {
+                    fastest = fastest.max(-b.state.rigid.velocity_m_s.down());
+                }
+            });
+            assert!((fastest - expected_m_s).abs() < NEAR_M_S, "{own_m_s}, {climb_m_s}, mission {by_mission}: {fastest} m/s");
+        }
+    }
+}
+
+#[test]
+fn regress_a_mission_without_a_take_off_step_climbs_before_it_flies_away() {
+    // m: a quarter of the take-off's height.
+    const DRIFT_M: f64 = 0.6;
+    let mut bench = Bench::new(&vehicle("phantom2"), 7);
+    bench.autopilot.set_mission(vec![point(60.0, 0.0, 6.0)]);
+    bench.run(2.0, |_| ());
+    bench.ask(Request::Arm { force: false });
+    bench.ask(Request::StartMission { first: None });
+    let mut worst: f64 = 0.0;
+    bench.run(30.0, |b| {
+        if -b.position().down() < 1.5 {
+            worst = worst.max(b.position().horizontal_norm());
+        }
+    });
+    assert!(worst < DRIFT_M, "{worst} m off its place below 1.5 m");
+    let status = bench.autopilot.status();
+    assert!(status.mission_finished && status.mode == Mode::Hold, "{status:?} {:?}", bench.position());
+}

@@ -1,0 +1,136 @@
+//! Sensors that repeat their last value or contradict the others, injected in flight.
+
+use spandrel_model::frames::Vec3;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::autopilot::{Landed, Mode, Request};
+use spandrel_sitl::faults::{Kind, Unit};
+use spandrel_sitl::sensors::Readings;
+use spandrel_testkit::bench::{Bench, VEHICLES};
+use spandrel_testkit::shipped::vehicle;
+
+/// m: a vehicle that flies on without its barometer holds its height by the receiver alone, whose height drifts by 0.64 m (1 sigma).
+const HEIGHT_M: f64 = 2.5;
+/// m: the same for the place, by the receiver (0.4 m, 1 sigma) or by optical flow.
+const PLACE_M: f64 = 2.5;
+
+fn go(bench: &mut Bench, north: f64, east: f64, up: f64) {
+    bench.ask(Request::GoTo { north_east_m: Some((north, east)), up_m: Some(up), yaw_rad: None, speed_m_s: None });
+}
+
+fn said(bench: &mut Bench) -> Vec<String> {
+    bench.autopilot.drain_events().into_iter().map(|event| event.text).collect()
+}
+
+/// Flies a square with the fault from its first leg on, then lands; the largest distance from where it should be, horizontal and up, m.
+fn square(name: &str, unit: Unit, kind: Kind) -> (f64, f64, Vec<String>) {
+    let mut bench = Bench::airborne(&vehicle(name), 21, 5.0);
+    said(&mut bench);
+    let (mut flat, mut up): (f64, f64) = (0.0, 0.0);
+    for (k, (n, e, height)) in [(12.0, 0.0, 9.0), (12.0, 12.0, 9.0), (0.0, 12.0, 6.0), (0.0, 0.0, 6.0)].into_iter().enumerate() {
+        go(&mut bench, n, e, height);
+        bench.run(1.5, |_| ());
+        if k == 0 {
+            assert!(bench.faults.inject(unit, Some(kind), 0, 4));
+        }
+        bench.run(10.5, |_| ());
+        let off = bench.position() - Vec3::new(n, e, -height);
+        (flat, up) = (flat.max(off.horizontal_norm()), up.max(off.down().abs()));
+    }
+    bench.ask(Request::Land);
+    bench.run(30.0, |_| ());
+    let status = bench.autopilot.status();
+    assert!(!status.armed && status.landed == Landed::OnGround, "{name}, {unit:?} {kind:?}: {status:?} {:?}", bench.position());
+    let texts = said(&mut bench);
+    (flat, up, texts)
+}
+
+#[test]
+fn regress_a_barometer_stuck_in_a_climb_is_announced_and_the_climb_ends_where_it_should() {
+    for name in VEHICLES {
+        let mut bench = Bench::airborne(&vehicle(name), 20, 4.0);
+        said(&mut bench);
+        go(&mut bench, 0.0, 0.0, 12.0);
+        bench.run(1.5, |_| ());
+        assert!(bench.faults.inject(Unit::Barometer, Some(Kind::Stuck), 0, 4));
+        let mut highest: f64 = 0.0;
+        bench.run(60.0, |b| highest = highest.max(-b.position().down()));
+        let texts = said(&mut bench);
+        assert!((highest - 12.0).abs() < HEIGHT_M && (bench.position().down() + 12.0).abs() < HEIGHT_M, "{name}: {highest} m");
+        assert!(texts.iter().any(|text| text.contains("Barometer stuck")), "{name}: {texts:?}");
+        assert_eq!(bench.autopilot.status().mode, Mode::Hold, "{name}");
+        assert!(bench.faults.inject(Unit::Barometer, None, 0, 4));
+        bench.run(10.0, |_| ());
+        let texts = said(&mut bench);
+        assert!(texts.iter().any(|text| text.contains("Barometer is back")), "{name}: {texts:?}");
+        assert!((bench.position().down() + 12.0).abs() < HEIGHT_M, "{name}: {:?}", bench.position());
+    }
+}
+
+#[test]
+fn regress_a_stuck_sensor_is_announced_dropped_and_survived() {
+    for name in VEHICLES {
+        for (unit, text) in [(Unit::Barometer, "Barometer"), (Unit::Magnetometer, "Compass"), (Unit::Gnss, "GNSS")] {
+            let (flat, up, texts) = square(name, unit, Kind::Stuck);
+            assert!(flat < PLACE_M && up < HEIGHT_M, "{name}, {unit:?}: {flat} m off, {up} m in height");
+            assert!(texts.iter().any(|t| t.contains(&format!("{text} stuck"))), "{name}, {unit:?}: {texts:?}");
+        }
+    }
+}
+
+#[test]
+fn regress_a_sensor_that_contradicts_the_others_is_announced_dropped_and_survived() {
+    for name in VEHICLES {
+        for (unit, kind, text) in [
+            (Unit::Barometer, Kind::Wrong, "Barometer"),
+            (Unit::Barometer, Kind::Garbage, "Barometer"),
+            (Unit::Magnetometer, Kind::Wrong, "Compass"),
+            (Unit::Magnetometer, Kind::Garbage, "Compass"),
+            (Unit::Gnss, Kind::Garbage, "GNSS"),
+        ] {
+            let (flat, up, texts) = square(name, unit, kind);
+            assert!(flat < PLACE_M && up < HEIGHT_M, "{name}, {unit:?} {kind:?}: {flat} m off, {up} m in height");
+            assert!(texts.iter().any(|t| t.contains(&format!("{text} inconsistent"))), "{name}, {unit:?}: {texts:?}");
+        }
+    }
+}
+
+/// m/s at which a tampered height drifts: slow enough that no single reading is an outlier.
+const CREEP_M_S: f64 = 0.4;
+/// The creep begins once the vehicle hovers, s.
+const CREEP_FROM_S: f64 = 30.0;
+
+fn crept_m(now: SimTime) -> f64 {
+    CREEP_M_S * (now.s() - CREEP_FROM_S).max(0.0)
+}
+
+fn creeping_barometer(readings: &mut Readings, now: SimTime) {
+    readings.baro_up_m = readings.baro_up_m.map(|up| up + crept_m(now));
+}
+
+fn creeping_receiver(readings: &mut Readings, now: SimTime) {
+    if let Some(fix) = &mut readings.gnss {
+        fix.position_m -= Vec3::new(0.0, 0.0, crept_m(now));
+    }
+}
+
+/// The height that two of receiver, barometer and range finder agree on is flown, whichever of the first two creeps away.
+#[test]
+fn regress_a_height_that_creeps_away_is_not_flown() {
+    // m: the receiver's height counts as contradicted at five times its error of 0.8 m; up to there the vehicle follows.
+    const FOLLOWED_M: f64 = 4.5;
+    for name in VEHICLES {
+        for (tamper, text) in [
+            (creeping_barometer as fn(&mut Readings, SimTime), "Barometer inconsistent"),
+            (creeping_receiver, "GNSS inconsistent"),
+        ] {
+            let mut bench = Bench::airborne(&vehicle(name), 23, 8.0);
+            bench.tamper = Some(tamper);
+            let mut worst: f64 = 0.0;
+            bench.run(90.0, |b| worst = worst.max((b.position().down() + 8.0).abs()));
+            let now = (bench.position().down() + 8.0).abs();
+            let texts = said(&mut bench);
+            assert!(worst < FOLLOWED_M && now < HEIGHT_M, "{name}, {text}: {worst} m, at the end {now} m");
+            assert!(texts.iter().any(|t| t.contains(text)), "{name}: {texts:?}");
+        }
+    }
+}

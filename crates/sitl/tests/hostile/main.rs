@@ -1,0 +1,172 @@
+//! The vehicle's endpoint under fire: every message that it handles with its fields changed and the checksum mended, and bytes that are
+//! no messages at all; on the ground, flown by hand, in a mission and under external set-points, as PX4 and as ArduPilot.
+
+mod driver;
+mod mutate;
+mod planted;
+mod seeds;
+
+use driver::{Depth, Driver, Finding, STATION, Subject, Vehicle};
+use mavlink::Message;
+use spandrel_mavlink::codec::Decoder;
+use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavResult};
+use spandrel_model::random::RandomStream;
+use spandrel_sitl::endpoint::HANDLED;
+use spandrel_sitl::endpoint::flavour::ardupilot;
+use spandrel_sitl::sim::Sim;
+use station::Station;
+
+/// Datagrams of the whole run (issue: 20,000).
+const DATAGRAMS: usize = 40_000;
+/// Datagrams before the vehicle starts afresh from one of its situations, so that most of them meet a vehicle in flight.
+const VOLLEY: usize = 400;
+
+/// Commands that the vehicle knows: everything else it calls unsupported.
+fn known_commands(sim: &Sim) -> Vec<u16> {
+    let mut sim = sim.clone();
+    let mut stream = RandomStream::new(1, "commands");
+    let mut known = Vec::new();
+    for number in 0..=u16::MAX {
+        let mut payload = [0; 33];
+        payload[28..30].copy_from_slice(&number.to_le_bytes());
+        (payload[30], payload[31]) = (1, u8::from(number % 2 == 0));
+        sim.handle_datagram(STATION, &mutate::frame(76, &payload, (255, 190), &mut stream));
+        // A tick each: no link may do more than a few things in one.
+        let next = sim.poll_timeout();
+        sim.handle_timeout(next);
+        while let Some(transmit) = sim.poll_transmit() {
+            for frame in Decoder::new().datagram(&transmit.bytes) {
+                let p = frame.payload(10);
+                let unsupported = p[2] == MavResult::MAV_RESULT_UNSUPPORTED as u8;
+                if frame.message_id == 77 && p[..2] == number.to_le_bytes() && !unsupported {
+                    known.push(number);
+                }
+            }
+        }
+    }
+    known
+}
+
+/// The situations in which the vehicle is met.
+fn situations() -> Vec<Sim> {
+    let mut ground = Station::new("drill-hover", 3);
+    ground.run_ms(2_500);
+    let flown = Station::airborne("drill-hover", 3);
+    let mut mission = Station::airborne("drill-hover", 3);
+    mission.sim.handle_datagram(STATION, &{
+        let mut stream = RandomStream::new(2, "mission");
+        let messages =
+            [seeds::count(2), MavMessage::MISSION_ITEM_INT(seeds::item(0)), MavMessage::MISSION_ITEM_INT(seeds::item(1))];
+        let frames = messages.iter().map(|m| mutate::frame(m.message_id(), &mutate::payload(m), (255, 190), &mut stream));
+        frames.collect::<Vec<_>>().concat()
+    });
+    mission.command(1, MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 4.0, 0.0, 0.0, 0.0, 0.0]);
+    let mut offboard = Station::airborne("drill-hover", 3);
+    offboard.send(&seeds::good(84)[0]);
+    offboard.run_ms(1);
+    offboard.command(1, MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let mut copter = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 3);
+    copter.run_ms(2_500);
+    let mut guided = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 3);
+    guided.run_ms(2_500);
+    for (command, p) in [
+        (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (MavCmd::MAV_CMD_NAV_TAKEOFF, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0]),
+    ] {
+        assert_eq!(guided.command(1, command, p), MavResult::MAV_RESULT_ACCEPTED);
+    }
+    guided.run_ms(6_000);
+    vec![ground.sim, flown.sim, mission.sim, offboard.sim, copter.sim, guided.sim]
+}
+
+/// Shoots at one situation after the other, each volley at a fresh copy, until something is found.
+fn run(seed: u64, wrap: impl Fn(Vehicle) -> Box<dyn Subject>) -> Result<Depth, Finding> {
+    let situations = situations();
+    let mut numbers = known_commands(&situations[0]);
+    // What only one flavour knows: ArduPilot's DO_SEND_BANNER.
+    numbers.push(42_428);
+    assert!(numbers.len() > 40, "{numbers:?}");
+    let stream = RandomStream::new(seed, "endpoint under fire");
+    let mut driver = Driver { stream, numbers: &numbers, depth: Depth::default() };
+    for volley in 0..DATAGRAMS / VOLLEY {
+        let mut subject = wrap(Vehicle::new(situations[volley % situations.len()].clone()));
+        driver.shoot(subject.as_mut(), VOLLEY)?;
+    }
+    Ok(driver.depth)
+}
+
+#[test]
+fn prop_every_message_that_is_handled_has_a_good_one_to_start_from() {
+    for id in HANDLED {
+        let good = seeds::good(*id);
+        assert!(!good.is_empty(), "message {id} is handled and not fuzzed: give it a good message in seeds.rs");
+        assert!(good.iter().all(|m| m.message_id() == *id));
+    }
+    let double = HANDLED.iter().enumerate().find(|(k, id)| HANDLED[..*k].contains(id));
+    assert_eq!(double, None, "handled twice");
+}
+
+#[test]
+fn prop_no_datagram_brings_the_vehicle_down() {
+    let seed = std::env::var("SPANDREL_FUZZ_SEED").ok().and_then(|text| text.parse().ok()).unwrap_or(7);
+    let depth = run(seed, |vehicle| Box::new(vehicle)).unwrap_or_else(|found| panic!("{}: {:02x?}", found.what, found.datagram));
+    assert!(depth.datagrams >= 20_000);
+    // Shots that nothing takes in would prove nothing.
+    assert!(depth.commands_accepted.len() > 35, "{:?}", depth.commands_accepted);
+    assert!(depth.plans_accepted > 500, "{}", depth.plans_accepted);
+    assert!(depth.parameters_told > 1_000 && depth.refusals > 5_000, "{} {}", depth.parameters_told, depth.refusals);
+    assert!(depth.file_data > 50, "{}", depth.file_data);
+    assert!(depth.modes.len() >= 6, "{:x?}", depth.modes);
+    for id in [0, 22, 44, 47, 51, 73, 77, 110, 111, 118, 120, 253, 345, 263, 435] {
+        assert!(depth.answers.contains_key(&id), "message {id} was never answered with");
+    }
+}
+
+#[test]
+fn prop_what_is_no_frame_is_counted_byte_by_byte() {
+    let mut sim = situations().remove(1);
+    let mut stream = RandomStream::new(5, "noise");
+    let numbers = [400u16];
+    let mut expected = sim.bad_bytes();
+    for _ in 0..2_000 {
+        let datagram = mutate::datagram(&numbers, &mut stream);
+        let mut decoder = Decoder::new();
+        let good: usize = decoder.datagram(&datagram).iter().map(|f| f.bytes.len()).sum();
+        assert_eq!(good as u64 + decoder.bad_bytes(), datagram.len() as u64);
+        expected += decoder.bad_bytes();
+        sim.handle_datagram(STATION, &datagram);
+        let next = sim.poll_timeout();
+        sim.handle_timeout(next);
+    }
+    assert_eq!(sim.bad_bytes(), expected);
+}
+
+/// Nobody fetches what the vehicle says: what waits stays within a bound.
+#[test]
+fn prop_what_waits_to_be_sent_is_bounded() {
+    const MOST_BYTES: usize = 4_000 * 1_400 + 300_000;
+    let mut sim = situations().remove(1);
+    let modes = seeds::good(76).pop().unwrap();
+    let mut stream = RandomStream::new(6, "flood");
+    let datagram: Vec<u8> = (0..40).flat_map(|_| mutate::frame(76, &mutate::payload(&modes), (255, 190), &mut stream)).collect();
+    for _ in 0..2_000 {
+        sim.handle_datagram(STATION, &datagram);
+        let until = sim.poll_timeout();
+        sim.handle_timeout(until);
+    }
+    let waiting: usize = std::iter::from_fn(|| sim.poll_transmit()).map(|t| t.bytes.len()).sum();
+    assert!(waiting < MOST_BYTES, "{waiting} bytes");
+}
+
+#[test]
+fn prop_planted_faults_are_found() {
+    // The faults panic on purpose.
+    std::panic::set_hook(Box::new(|_| {}));
+    for (fault, needle) in planted::FAULTS {
+        // One value of one field of one message among dozens: a run or two more may be needed.
+        let found = (11..15).find_map(|seed| run(seed, |vehicle| Box::new(planted::Planted::new(vehicle, fault))).err());
+        let found = found.unwrap_or_else(|| panic!("{fault:?} was not found"));
+        assert!(found.what.contains(needle), "{fault:?}: {}", found.what);
+    }
+}

@@ -1,0 +1,130 @@
+//! From a flight to its record: what it suffered from, task by task, against flights whose faults were put in by hand.
+
+use spandrel_model::scenario::Scenario;
+use spandrel_monitor::assessment::Graded;
+use spandrel_monitor::measures::attention::Survey;
+use spandrel_testkit::job::*;
+use spandrel_training::record::{Hashes, Record, Source, record};
+
+/// A fault begins and ends within a frame (40 ms at 25 Hz), at both its ends, s.
+const TWO_FRAMES_S: f64 = 0.081;
+/// The wire carries positions in 1e-7 degrees and millimetres, m.
+const WIRE_M: f64 = 0.02;
+
+/// Task 1 from 10 to 60 m east, task 2 from 70 to 100 m, both 10 m up.
+fn two_tasks() -> Scenario {
+    let near = task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 3.0);
+    scenario(vec![near, task(2, line((70.0, 0.0, 10.0), (100.0, 0.0, 10.0)), 3.0)])
+}
+
+/// Task 1 with every fault once; task 2 is left out.
+fn faulty_flight() -> Tape {
+    let mut tape = Tape::new();
+    tape.hold(1.0);
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((30.0, 0.0, 10.0), 4.0);
+    tape.snapshot(1);
+    tape.hold(0.2);
+    // Too high: past 3 m for 1.5 s at 1 m/s, 2 s still, 4 s along, 1.5 s down again.
+    tape.fly((30.0, 0.0, 14.5), 1.0);
+    tape.hold(1.0);
+    tape.contact(1);
+    tape.hold(0.2);
+    tape.contact(0);
+    tape.hold(0.8);
+    tape.fly((40.0, 0.0, 14.5), 2.5);
+    tape.fly((40.0, 0.0, 10.0), 1.0);
+    // Too fast for 10 m.
+    tape.fly((50.0, 0.0, 10.0), 5.0);
+    tape.lamp(true);
+    tape.hold(0.2);
+    tape.snapshot(2);
+    tape.hold(0.2);
+    tape.fly((60.0, 0.0, 10.0), 4.0);
+    tape.fly((2.0, 0.0, 10.0), 4.0);
+    tape.contact(3);
+    tape.hold(0.2);
+    tape.contact(0);
+    tape.hold(0.2);
+    tape.land();
+    tape
+}
+
+fn recorded(graded: &Graded, scenario: &Scenario) -> Record {
+    record(&Source {
+        id: "20231114T221320Z-anna-test-job-000000",
+        trainee: "anna",
+        purpose: None,
+        started_unix_us: 1_000_000,
+        spandrel_version: "0.1.0",
+        scenario,
+        vehicle: "test",
+        hashes: &Hashes::of(b"s", b"v", b"t", b""),
+        graded,
+        placed: Fence::of(10).defects(),
+        answers: None,
+    })
+}
+
+#[test]
+fn exact_faults_of_a_flight_stand_in_its_record() {
+    let job = two_tasks();
+    let graded = grade(&faulty_flight(), &job);
+    let record = recorded(&graded, &job);
+    let task = &record.tasks[0];
+    assert!((task.off_path_s - 9.0).abs() < TWO_FRAMES_S, "{}", task.off_path_s);
+    // Rising and falling through 3 to 4.5 m for 1.5 s each, 6 s at 4.5 m.
+    assert!((task.off_height_m.unwrap() - 4.25).abs() < 0.05, "{:?}", task.off_height_m);
+    assert!(task.off_sideways_m.unwrap() < WIRE_M);
+    assert!((task.speeding_s - 2.0).abs() < TWO_FRAMES_S, "{}", task.speeding_s);
+    assert!((task.fastest_m_s - 5.0).abs() < 0.02);
+    assert_eq!((task.crashes.bridge, task.crashes.total()), (1, 1));
+    assert_eq!((record.crashes_outside.water, record.crashes().total()), (1, 2));
+    assert!((task.on_path - graded.assessment.tasks[0].on_path).abs() == 0.0 && task.on_path < 0.8);
+    assert!(task.attempted && !record.tasks[1].attempted);
+    assert_eq!((record.tasks[1].seconds, record.tasks[1].off_height_m), (0.0, None));
+    assert_eq!(record.scores.overall, graded.assessment.scores.overall);
+    assert_eq!((record.end_reason.as_str(), record.battery_failed), ("landed", false));
+}
+
+#[test]
+fn exact_defects_belong_to_the_nearest_task_and_say_what_their_picture_lacked() {
+    let job = two_tasks();
+    let record = recorded(&grade(&faulty_flight(), &job), &job);
+    assert_eq!(record.defects.iter().map(|defect| defect.task.unwrap()).collect::<Vec<_>>(), [1, 1, 1, 1, 1, 1, 2, 2, 2, 2]);
+    assert_eq!(record.defects.iter().filter(|defect| defect.found).map(|defect| defect.id).collect::<Vec<_>>(), [5]);
+    assert!(record.defects[2].lacked.iter().any(|lacked| lacked.starts_with("too dark: lamp off")), "{:?}", record.defects[2]);
+    assert!(record.defects[0].lacked.is_empty(), "no picture was near it");
+    assert_eq!((record.tasks[0].defects_placed, record.tasks[0].defects_found, record.tasks[1].defects_placed), (6, 1, 4));
+    assert_eq!((record.snapshots, record.hits), (2, 1));
+}
+
+#[test]
+fn exact_a_record_reads_back_to_the_same_bits() {
+    let job = two_tasks();
+    let record = recorded(&grade(&faulty_flight(), &job), &job);
+    assert_eq!(record.check(), Ok(()));
+    let again: Record = serde_json::from_str(&serde_json::to_string(&record).unwrap()).unwrap();
+    assert_eq!(again, record);
+}
+
+#[test]
+fn exact_a_task_off_to_the_side_is_not_off_in_height() {
+    let job = one_task();
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((30.0, 0.0, 10.0), 4.0);
+    tape.fly((30.0, 5.0, 10.0), 2.0);
+    tape.hold(3.0);
+    // Farther than 8 m one is elsewhere, which is not counted as being off the path.
+    tape.fly((30.0, 20.0, 10.0), 4.0);
+    tape.hold(5.0);
+    tape.fly((30.0, 0.0, 10.0), 4.0);
+    tape.fly((60.0, 0.0, 10.0), 4.0);
+    tape.land();
+    let record = recorded(&grade(&tape, &job), &job);
+    let task = &record.tasks[0];
+    assert!(task.off_height_m.unwrap() < WIRE_M && task.off_sideways_m.unwrap() > 4.0);
+    // 3 to 5 m at 2 m/s, 3 s, 5 to 8 m at 4 m/s, 8 to 3 m at 4 m/s.
+    assert!((task.off_path_s - (1.0 + 3.0 + 0.75 + 1.25)).abs() < 2.0 * TWO_FRAMES_S, "{}", task.off_path_s);
+}

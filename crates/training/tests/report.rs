@@ -1,0 +1,225 @@
+//! The report: it tells what the scorer tells, escapes what users wrote, asks nobody for anything, and stays small.
+
+use spandrel_mavlink::codec::Encoder;
+use spandrel_mavlink::note;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::look::INCIDENCE_MAX_RAD;
+use spandrel_monitor::assess_log;
+use spandrel_monitor::watch::{COMPONENT, build_site};
+use spandrel_testkit::inspection::{flown, phantom, two_bridges};
+use spandrel_testkit::job::*;
+use spandrel_training::report::coverage::{Fate, REQUIRED_GSD_M};
+use spandrel_training::report::cues::KINDS;
+use spandrel_training::report::{About, Review, page};
+use std::sync::OnceLock;
+
+/// The issue's ceiling for a page, bytes.
+const LARGEST: usize = 10_000_000;
+/// Longest flight that the paper's job allows, s.
+const LONGEST_S: f64 = 1500.0;
+
+fn about() -> About {
+    About { trainee: "anna".into(), started_utc: "2026-08-01T10:00:00Z".into(), folder: "a-session".into(), ..About::default() }
+}
+
+fn review(tape: &Tape, job: &Scenario) -> Review {
+    Review::of(&tape.log(0), job, &phantom(), about()).expect("a session")
+}
+
+/// Two minutes of the paper's job, worked out once for all tests.
+fn short() -> &'static Review {
+    static SHORT: OnceLock<Review> = OnceLock::new();
+    SHORT.get_or_init(|| review(&flown(&two_bridges(), 240.0, 6), &two_bridges()))
+}
+
+/// The same tape with a note of an instructor in its middle.
+fn noted(mut tape: Tape, text: &str) -> Tape {
+    let middle = tape.datagrams.len() / 2;
+    tape.datagrams.insert(middle, note::encode(&mut Encoder::new(252, 192), 1, COMPONENT, text));
+    tape
+}
+
+#[test]
+fn exact_an_instructors_note_stands_in_the_report_and_not_among_the_texts() {
+    let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
+    let plain = review(&tape, &job);
+    assert_eq!(plain.feedback.notes, []);
+    assert!(!page::session(&plain).contains("what the instructor noted"));
+    let review = review(&noted(tape, "watch the pier"), &job);
+    let [(t_s, text)] = review.feedback.notes.as_slice() else { panic!("{:?}", review.feedback.notes) };
+    assert!(text == "watch the pier" && (20.0..180.0).contains(t_s), "{t_s}");
+    assert_eq!(review.feedback.texts, plain.feedback.texts, "nobody's screen showed it");
+    let page = page::session(&review);
+    assert!(
+        page.contains("what the instructor noted")
+            && page.contains("note: watch the pier")
+            && page.contains("class=\"note-dot\"")
+    );
+}
+
+/// Attributes by which a browser fetches something.
+fn fetched(page: &str) -> Vec<&str> {
+    let starts = [" src=\"", " href=\"", " action=\"", " poster=\"", " data=\"", " srcset=\""];
+    let values = |start: &'static str| page.split(start).skip(1).map(|rest| rest.split('"').next().unwrap_or_default());
+    starts.into_iter().flat_map(values).collect()
+}
+
+/// The page without what the libraries and our own script and style bring.
+fn own(page: &str) -> String {
+    use spandrel_training::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
+    [COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE]
+        .iter()
+        .fold(page.to_owned(), |page, text| page.replacen(text, "", 1))
+}
+
+#[test]
+fn exact_the_review_holds_the_scorers_own_assessment() {
+    let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
+    let graded = assess_log(&tape.log(0), &job, &phantom(), build_site).unwrap();
+    let review = review(&tape, &job);
+    assert_eq!((&review.assessment, &review.frames, review.seed), (&graded.assessment, &graded.frames, graded.seed));
+    let each = &graded.assessment.snapshots.each;
+    assert!(each.len() > 5, "pictures to judge");
+    let verdicts: Vec<bool> =
+        review.pictures.iter().map(|picture| picture.verdict == spandrel_training::report::pictures::Verdict::Hit).collect();
+    assert_eq!(verdicts, each.iter().map(|picture| picture.hit).collect::<Vec<_>>());
+    let found = review.defects.iter().filter(|fate| fate.found_by.is_some()).count();
+    assert_eq!(found, graded.assessment.snapshots.defects_found);
+    let missed: Vec<String> = review.defects.iter().filter(|fate| fate.found_by.is_none()).map(|fate| fate.words()).collect();
+    assert!(
+        missed.iter().all(|words| !words.is_empty()) && review.defects.iter().all(|f| f.found_by.is_some() != f.chance.is_some())
+    );
+}
+
+#[test]
+fn exact_the_same_session_makes_the_same_page() {
+    let job = two_bridges();
+    let again = review(&flown(&job, 240.0, 6), &job);
+    assert_eq!(page::session(short()), page::session(&again));
+}
+
+#[test]
+fn exact_the_page_asks_nobody_for_anything() {
+    let page = own(&page::session(short()));
+    for value in fetched(&page) {
+        let inside = value.starts_with('#') || value.starts_with("data:");
+        assert!(inside, "{value}");
+    }
+    assert_eq!(page.matches("<script").count(), 6, "data, two halves of the model's library, uPlot, two of ours");
+    assert!(!page.contains(" style=\"") && !page.contains(" onclick"), "the policy allows no style or script in attributes");
+    assert!(page.contains("Content-Security-Policy"));
+}
+
+#[test]
+fn exact_what_users_wrote_is_escaped_everywhere() {
+    const EVIL: &str = "</script><script>alert(1)</script>\"'><img src=x onerror=alert(2)>{{7*7}}<!--";
+    let mut job = two_bridges();
+    job.title = EVIL.into();
+    for task in &mut job.tasks {
+        task.name = EVIL.into();
+    }
+    let about = About {
+        trainee: EVIL.into(),
+        purpose: Some(EVIL.into()),
+        started_utc: EVIL.into(),
+        folder: EVIL.into(),
+        ..About::default()
+    };
+    let mut vehicle = phantom();
+    vehicle.name = EVIL.into();
+    let tape = noted(flown(&job, 200.0, 9), EVIL);
+    let evil = Review::of(&tape.log(0), &job, &vehicle, about).unwrap();
+    assert_eq!(evil.feedback.notes.len(), 1);
+    for page in [page::session(&evil), page::comparison(&evil, short())] {
+        let page = own(&page);
+        assert!(page.contains("alert(1)"), "it is told");
+        for raw in ["<script>alert", "<img src=x", "<!--"] {
+            assert!(!page.contains(raw), "{raw}");
+        }
+        // In the data block quotes are JSON's; elsewhere none is left that could end an attribute.
+        let before = page.split("<script type=\"application/json\"").next().unwrap_or_default();
+        assert!(!before.contains("\"'>"));
+    }
+}
+
+#[test]
+fn exact_every_square_metre_has_one_fate() {
+    let coverage = &short().coverage;
+    assert!(coverage.elements.len() > 3 && coverage.total().area_m2(Fate::Shown) > 0.0);
+    for element in coverage.elements.iter().chain([&coverage.total()]) {
+        let sum: f64 = Fate::ALL.iter().map(|fate| element.area_m2(*fate)).sum();
+        assert!((sum - element.inspectable_m2).abs() < 1e-6 * element.inspectable_m2, "{element:?}");
+        assert!(element.pictured_m2() <= element.inspectable_m2 && element.area_m2(Fate::Shown) <= element.pictured_m2());
+        assert_eq!(element.typical().is_some(), element.pictured_m2() > 0.0);
+        if let Some(like) = element.typical() {
+            assert!(like.gsd_m <= REQUIRED_GSD_M && like.incidence_rad <= INCIDENCE_MAX_RAD && like.lux > 0.0, "{like:?}");
+        }
+    }
+    let job = two_bridges();
+    let more = review(&flown(&job, 240.0, 2), &job);
+    assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times the pictures show more");
+}
+
+#[test]
+fn exact_the_same_pictures_at_night_lack_light_and_nothing_else() {
+    let mut job = two_bridges();
+    job.light.start_unix_s += 10 * 3600;
+    let (day, night) = (short().coverage.total(), review(&flown(&job, 240.0, 6), &job).coverage.total());
+    for fate in [Fate::TooOblique, Fate::TooFar, Fate::Unpictured, Fate::Unseen] {
+        assert!((night.area_m2(fate) - day.area_m2(fate)).abs() < 1e-6 * day.inspectable_m2, "{fate:?}");
+    }
+    // What stays is lit by the lamp, which is on in the dark task alone.
+    assert!(night.area_m2(Fate::Shown) < day.area_m2(Fate::Shown));
+    assert!(night.area_m2(Fate::DarkLampOff) > day.area_m2(Fate::DarkLampOff));
+    assert!(night.typical().unwrap().lux < day.typical().unwrap().lux);
+}
+
+/// The tape's forward stick creeps by a hundredth of its travel in 100 ms: a tenth takes 200 ms and, where it falls back, no time at all.
+#[test]
+fn exact_a_speeding_cue_is_told_with_its_time_and_the_answer() {
+    let job = scenario(vec![task(1, line((0.0, 0.0, 10.0), (90.0, 0.0, 10.0)), 3.0)]);
+    let mut tape = Tape::of(&job);
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((30.0, 0.0, 10.0), 3.0);
+    let fast_from_s = f64::from(tape.now_ms) / 1000.0;
+    tape.fly((60.0, 0.0, 10.0), 6.0);
+    let fast_to_s = f64::from(tape.now_ms) / 1000.0;
+    tape.fly((90.0, 0.0, 10.0), 3.0);
+    tape.land();
+    let review = Review::of(&tape.log(0), &job, &vehicle(), about()).unwrap();
+    let lift_off_s = review.frames[0].time.s();
+    let speeding: Vec<_> = review.feedback.episodes.iter().filter(|e| KINDS[e.kind].name == "speeding").collect();
+    assert_eq!(speeding.len(), 1, "{:?}", review.feedback.episodes);
+    // A truth every 20 ms; the cue has a hold of its own at its end.
+    assert!((speeding[0].from_s + lift_off_s - fast_from_s).abs() <= 0.021, "{:?}", speeding[0]);
+    assert!((-0.021..=2.5).contains(&(speeding[0].to_s + lift_off_s - fast_to_s)), "{:?}", speeding[0]);
+    assert!(speeding[0].answer_s.is_some_and(|s| s <= 1.1), "{:?}", speeding[0]);
+    assert!(review.feedback.texts.iter().any(|(_, text)| text.starts_with("Too fast")));
+    assert_eq!(speeding[0].task, Some(0));
+}
+
+#[test]
+fn exact_a_job_with_nothing_in_it_has_a_page() {
+    let job = scenario(Vec::new());
+    let mut tape = Tape::of(&job);
+    tape.fly((0.0, 0.0, 5.0), 2.0);
+    tape.silence(2500);
+    tape.hold(1.0);
+    tape.land();
+    let review = Review::of(&tape.log(0), &job, &vehicle(), about()).unwrap();
+    let page = page::session(&review);
+    for words in
+        ["No picture was taken", "No defects were placed", "Nothing was touched", "n/a", "1 gaps over 0.2 s", "not heard"]
+    {
+        assert!(page.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn exact_the_longest_flight_with_a_hundred_pictures_stays_below_ten_megabytes() {
+    let job = two_bridges();
+    let review = review(&flown(&job, LONGEST_S - 20.0, 17), &job);
+    assert!(review.pictures.len() >= 100, "{}", review.pictures.len());
+    let size = page::session(&review).len();
+    assert!(size < LARGEST, "{size}");
+}

@@ -1,0 +1,69 @@
+//! The example study (examples/cohort, flown by `tools/cohort`): 22 synthetic trainees, eight of them three times. It has caught nothing
+//! yet; it holds that the paper's design gives the paper's tables on flights that really were flown, and what plans say of them.
+
+use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
+use spandrel_training::plan::{RULES, plan, read_rules};
+use spandrel_training::record::{Incomplete, Record};
+
+const RECORDS: &str = include_str!("../../../examples/cohort/records.jsonl");
+/// Off the path or over the speed limit for a larger share of the time, or a crash, is not holding the interlayer (the shipped limits).
+const OFF_PATH: f64 = 0.1;
+const SPEEDING: f64 = 0.02;
+
+fn records() -> Vec<Record> {
+    RECORDS.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn study() -> Cohort {
+    cohort(&records(), &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: Incomplete::Include })
+}
+
+#[test]
+fn val_the_pilots_design_gives_its_tables_and_figures() {
+    let records = records();
+    assert!(records.iter().all(|record| record.check().is_ok() && record.answers.as_ref().is_some_and(|a| a.given.len() == 24)));
+    let study = study();
+    assert_eq!((study.trainees, study.sessions, study.group.len()), (22, 38, 8));
+    assert_eq!((study.distributions.len(), study.individuals.len(), study.boxes.len(), study.tests.len()), (5, 22, 15, 15));
+    assert_eq!((study.likert.len(), study.crashes.rows.len(), study.progress.len()), (96, 22, 22));
+    assert_eq!(study.self_rating.people.len(), 22);
+    assert!(study.causal.is_some() && study.homogeneity.len() >= 3);
+    assert!(study.warnings.iter().any(|words| words.contains("below 78")));
+    // Three times make no learning curve.
+    let no_curves = ["learning_curves.csv", "learning_of_the_group.csv"];
+    assert!(tables(&study).iter().all(|(name, table)| (table.lines().count() > 1) != no_curves.contains(name)));
+}
+
+#[test]
+fn val_repetition_with_a_steadier_hand_is_seen_as_progress() {
+    let study = study();
+    let safety = study.tests.iter().find(|test| test.score == "safety" && (test.earlier, test.later) == (1, 3)).unwrap();
+    assert!(safety.test.mean_difference > 0.0);
+    let spread = |repetition: usize| {
+        let one = study.boxes.iter().find(|one| one.score == "overall" && one.repetition == repetition).unwrap();
+        one.plot.q3 - one.plot.q1
+    };
+    assert!(spread(3) < spread(1), "the group draws together");
+}
+
+#[test]
+fn val_who_does_not_hold_the_interlayer_is_sent_to_the_gap_drill_and_nobody_else() {
+    let rules = read_rules("rules.toml", RULES).unwrap();
+    let (mut sent, mut spared) = (0, 0);
+    for record in records() {
+        let task = record.tasks.iter().find(|task| task.kind == "interlayer").unwrap();
+        let steady = 1.0 - task.on_path <= OFF_PATH && task.speeding_s / task.seconds <= SPEEDING;
+        let holds = task.attempted && steady && task.crashes.total() == 0;
+        let whole = spandrel_training::plan::Rules { steps: 20, ..rules.clone() };
+        let plan = plan(std::slice::from_ref(&record), &whole, record.started_unix_us).unwrap();
+        let gap = plan.steps.iter().find(|step| step.scenario == "drill-gap");
+        assert_eq!(gap.is_some(), !holds, "{}: {task:?}", record.id);
+        if let Some(gap) = gap {
+            assert!(gap.reasons.iter().any(|reason| reason.words.starts_with(&task.name)));
+            sent += 1;
+        } else {
+            spared += 1;
+        }
+    }
+    assert!(sent >= 5 && spared >= 5, "{sent} sent, {spared} spared");
+}

@@ -1,0 +1,172 @@
+//! How like two pictures are, and the committed ones to hold new ones against.
+
+use spandrel_view::picture::Picture;
+use std::path::{Path, PathBuf};
+
+/// Pictures are compared after averaging squares of this side, px: the film's grain and JPEG's own losses shrink, shapes stay.
+const BLOCK: u32 = 2;
+/// Largest mean absolute difference of a channel over the picture, of 255. JPEG at quality 90 alone costs about half of it.
+const MEAN_MAX: f64 = 1.5;
+/// The same over the worst tile: a thing the size of a tile that is missing or elsewhere costs more than this.
+const TILE_MAX: f64 = 7.0;
+/// Side of a tile, blocks: 24 px.
+const TILE: u32 = 12;
+/// Quality of committed pictures, 1 to 100.
+const JPEG_QUALITY: u8 = 90;
+
+/// How far two pictures differ, of 255.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Difference {
+    /// Mean over everything.
+    pub mean: f64,
+    /// Mean over the worst tile.
+    pub tile: f64,
+}
+
+impl Difference {
+    pub fn small(&self) -> bool {
+        self.mean <= MEAN_MAX && self.tile <= TILE_MAX
+    }
+}
+
+/// Differences block by block, row by row, with the number of blocks a row.
+fn blocks(a: &Picture, b: &Picture) -> (Vec<f64>, u32) {
+    let (columns, rows) = (a.width / BLOCK, a.height / BLOCK);
+    let mean = |p: &Picture, x: u32, y: u32| {
+        let mut sum = [0.0; 3];
+        for k in 0..BLOCK * BLOCK {
+            let rgb = p.at(x * BLOCK + k % BLOCK, y * BLOCK + k / BLOCK);
+            sum = [0, 1, 2].map(|c| sum[c] + f64::from(rgb[c]) / f64::from(BLOCK * BLOCK));
+        }
+        sum
+    };
+    let of = |k: u32| {
+        let (p, q) = (mean(a, k % columns, k / columns), mean(b, k % columns, k / columns));
+        [0, 1, 2].map(|c| (p[c] - q[c]).abs()).iter().sum::<f64>() / 3.0
+    };
+    ((0..columns * rows).map(of).collect(), columns)
+}
+
+/// Compares two pictures; `None` when their sizes differ.
+pub fn difference(a: &Picture, b: &Picture) -> Option<Difference> {
+    if (a.width, a.height) != (b.width, b.height) {
+        return None;
+    }
+    let (all, columns) = blocks(a, b);
+    let rows = all.len() as u32 / columns;
+    let mean = |from: (u32, u32), to: (u32, u32)| {
+        let inside = (from.1..to.1).flat_map(|y| (from.0..to.0).map(move |x| y * columns + x));
+        let count = f64::from((to.0 - from.0) * (to.1 - from.1));
+        inside.map(|k| all[k as usize]).sum::<f64>() / count
+    };
+    let tiles = (0..rows / TILE).flat_map(|y| (0..columns / TILE).map(move |x| (x * TILE, y * TILE)));
+    let worst = tiles.map(|(x, y)| mean((x, y), (x + TILE, y + TILE))).fold(0.0, f64::max);
+    Some(Difference { mean: mean((0, 0), (columns, rows)), tile: worst })
+}
+
+/// Holds a picture against the committed one of its name. Returns what is wrong, with the places of what was drawn. With
+/// `SPANDREL_PICTURES=write` in the environment it is committed instead: look at it first.
+pub fn held(name: &str, drawn: &Picture) -> Result<Difference, String> {
+    held_at(&committed(name), name, drawn)
+}
+
+/// Where the committed picture of a name is.
+pub fn committed(name: &str) -> PathBuf {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .join("crates/view/tests/pictures/committed")
+        .join(format!("{name}.jpg"))
+}
+
+/// The same for a picture that is kept elsewhere.
+pub fn held_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Difference, String> {
+    if std::env::var("SPANDREL_PICTURES").is_ok_and(|value| value == "write") {
+        std::fs::write(committed, jpeg(drawn)).unwrap();
+        save(&format!("{name}.png"), drawn);
+    }
+    let expected = load(committed).map_err(|error| format!("{name}: {}: {error}", committed.display()))?;
+    let found = difference(drawn, &expected).ok_or_else(|| {
+        let (width, height) = (expected.width, expected.height);
+        format!("{name}: drawn at {} x {}, committed at {width} x {height}", drawn.width, drawn.height)
+    })?;
+    if found.small() {
+        return Ok(found);
+    }
+    let (drawn_at, difference_at) =
+        (save(&format!("{name}.png"), drawn), save(&format!("{name}-difference.png"), &shown(drawn, &expected)));
+    Err(format!(
+        "{name}: mean {:.2} (at most {MEAN_MAX}), worst tile {:.2} (at most {TILE_MAX}); drawn: {}, difference: {}",
+        found.mean,
+        found.tile,
+        drawn_at.display(),
+        difference_at.display()
+    ))
+}
+
+/// The difference, eight times as strong.
+fn shown(a: &Picture, b: &Picture) -> Picture {
+    let rgba = a.rgba.iter().zip(&b.rgba).enumerate();
+    let rgba = rgba.map(|(k, (a, b))| if k % 4 == 3 { 255 } else { a.abs_diff(*b).saturating_mul(8) });
+    Picture { width: a.width, height: a.height, rgba: rgba.collect() }
+}
+
+fn rgb(picture: &Picture) -> Vec<u8> {
+    picture.rgba.chunks(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
+}
+
+/// Writes a PNG where tests may and returns its place.
+pub fn save(name: &str, picture: &Picture) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("view");
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join(name);
+    image::save_buffer(&path, &rgb(picture), picture.width, picture.height, image::ExtendedColorType::Rgb8).unwrap();
+    path
+}
+
+fn jpeg(picture: &Picture) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY)
+        .encode(&rgb(picture), picture.width, picture.height, image::ExtendedColorType::Rgb8)
+        .unwrap();
+    bytes
+}
+
+fn load(path: &Path) -> Result<Picture, image::ImageError> {
+    let read = image::open(path)?.to_rgba8();
+    Ok(Picture { width: read.width(), height: read.height(), rgba: read.into_raw() })
+}
+
+/// Pictures of one height side by side.
+pub fn beside(pictures: &[Picture]) -> Picture {
+    let height = pictures.iter().map(|p| p.height).min().unwrap_or(0);
+    let row = |p: &Picture, y: u32| p.rgba[(4 * y * p.width) as usize..(4 * (y + 1) * p.width) as usize].to_vec();
+    let rgba = (0..height).flat_map(|y| pictures.iter().flat_map(move |p| row(p, y))).collect();
+    Picture { width: pictures.iter().map(|p| p.width).sum(), height, rgba }
+}
+
+/// Stripes of several greys with a square of another grey at a place.
+fn sample(square: Option<(u32, u32)>, shift: u32) -> Picture {
+    let mut rgba = Vec::new();
+    for y in 0..96 {
+        for x in 0..144 {
+            let inside = square.is_some_and(|(left, top)| (left..left + 20).contains(&x) && (top..top + 20).contains(&y));
+            let grey = if inside { 60 } else { 90 + 12 * ((((x + shift) / 7) + y / 11) % 5) as u8 };
+            rgba.extend([grey, grey, grey, 255]);
+        }
+    }
+    Picture { width: 144, height: 96, rgba }
+}
+
+#[test]
+fn exact_the_yardstick_notices_what_is_missing_or_moved_and_forgives_jpeg() {
+    let plain = sample(None, 0);
+    assert_eq!(difference(&plain, &plain), Some(Difference { mean: 0.0, tile: 0.0 }));
+    let spotted = difference(&plain, &sample(Some((60, 40)), 0)).unwrap();
+    assert!(!spotted.small(), "a square of 20 px: {spotted:?}");
+    let moved = difference(&plain, &sample(None, 3)).unwrap();
+    assert!(!moved.small(), "moved by 3 px: {moved:?}");
+    let read = image::load_from_memory(&jpeg(&plain)).unwrap().to_rgba8();
+    let lossy = Picture { width: read.width(), height: read.height(), rgba: read.into_raw() };
+    let found = difference(&plain, &lossy).unwrap();
+    assert!(found.small(), "JPEG alone: {found:?}");
+    assert_eq!(difference(&plain, &Picture { width: 1, height: 1, rgba: vec![0; 4] }), None);
+}

@@ -1,0 +1,312 @@
+//! The pictures that a stranger should be able to name, held against committed ones.
+
+use super::compare::{Difference, beside, held, held_at};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::site::catalogue;
+use spandrel_model::time::SimTime;
+use spandrel_testkit::studio::{Studio, at, dusk, sunny};
+use spandrel_view::arrange::fitted_px;
+use spandrel_view::camera::Eye;
+use spandrel_view::hud::state::cue;
+use spandrel_view::hud::{self, Gnss, Hud, Track};
+use spandrel_view::picture::Picture;
+use spandrel_view::scene::defects::patch;
+use std::path::Path;
+
+/// Size of a scene, px.
+const SCENE: (u32, u32) = (640, 360);
+/// Size of each view under a display: what is written on it must stay legible.
+const VIEW: (u32, u32) = (640, 360);
+/// Size of each picture of a defect, px.
+const CLOSE: (u32, u32) = (320, 240);
+/// Its fields of view at 1 and 3 m, where what is half a metre wide stays in the picture; at 8 m it is a piece of the camera's, pixel by pixel.
+const CLOSE_DEG: [f64; 2] = [30.0, 15.0];
+
+/// Size of each of the tutorial's pictures of a defect, px, and the field of view of the one lens that takes them all: at 1 m it just holds half a
+/// metre.
+const TUTORIAL: (u32, u32) = (240, 180);
+const TUTORIAL_DEG: f64 = 30.0;
+
+/// Collects what is wrong, so that one run tells of every picture.
+#[derive(Default)]
+struct Wall {
+    wrong: Vec<String>,
+}
+
+impl Wall {
+    fn hang(&mut self, name: &str, picture: &Picture) {
+        self.take(name, held(name, picture));
+    }
+
+    fn take(&mut self, name: &str, compared: Result<Difference, String>) {
+        match compared {
+            Ok(found) => println!("{name}: mean {:.2}, worst tile {:.2}", found.mean, found.tile),
+            Err(error) => self.wrong.push(error),
+        }
+    }
+
+    fn all_hold(self) {
+        assert!(self.wrong.is_empty(), "{}", self.wrong.join("\n"));
+    }
+}
+
+#[test]
+fn regress_bridges_in_summer() {
+    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut wall = Wall::default();
+    for (name, from, look, hfov_deg) in [
+        ("arch-from-the-shore", at(-62.0, -70.0, 9.0), at(4.0, 0.0, 19.0), 74.0),
+        ("suspension-bridge-with-traffic", at(-62.0, 136.0, 20.0), at(0.0, 151.0, 14.0), 64.0),
+        ("pier-at-the-water", at(-57.0, 133.0, 5.5), at(-70.0, 150.0, 5.5), 64.0),
+    ] {
+        let shot = studio.seen(from, look, hfov_deg, false, SCENE);
+        let picture = studio.draw(&shot);
+        wall.hang(name, &picture);
+    }
+    wall.all_hold();
+}
+
+/// The pad: truck, crew, and the aircraft over it with its propellers turning.
+#[test]
+fn regress_the_crew_and_the_drone_at_the_pad() {
+    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut wall = Wall::default();
+    for (name, from, drone, look, vfov_deg) in [
+        ("crew-and-truck", at(-105.0, 71.0, 7.4), at(-110.2, 75.3, 6.6), at(-116.0, 79.0, 6.0), 40.0),
+        ("drone-near", at(-111.0, 76.4, 7.0), at(-112.0, 78.0, 6.3), at(-112.0, 78.0, 6.3 - 0.02), 24.0),
+    ] {
+        let moment = studio.moment(drone, at(0.0, 150.0, 14.0), false, at(0.0, 0.0, 0.0));
+        let aspect = f64::from(SCENE.0) / f64::from(SCENE.1);
+        let eye = Eye::at(from, look, f64::to_radians(vfov_deg), aspect);
+        let shot = studio.stage().person(eye, &moment, SCENE);
+        let picture = studio.draw(&shot);
+        wall.hang(name, &picture);
+    }
+    wall.all_hold();
+}
+
+/// What may be taken for a defect and is none: a crack that was closed, a web, spray paint. Form lines, tie holes, streaks and droppings are beside.
+#[test]
+fn regress_false_friends() {
+    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    studio.without_defects();
+    let mut wall = Wall::default();
+    let pictures = [
+        (at(48.0, 2.6, 28.4), at(50.0, 2.6, 28.4), 64.0),
+        (at(-49.0, 2.6, 9.73), at(-50.0, 2.6, 9.73), 44.0),
+        (at(-62.5, 152.0, 2.8), at(-68.0, 153.0, 1.9), 50.0),
+    ]
+    .map(|(from, look, hfov_deg)| {
+        let shot = studio.seen(from, look, hfov_deg, false, CLOSE);
+        studio.draw(&shot)
+    });
+    wall.hang("false-friends", &beside(&pictures));
+    wall.all_hold();
+}
+
+/// Under the arch and in the interlayer at dusk: without the lamp it is dark, with it the lamp's light is seen.
+#[test]
+fn regress_dark_places_take_the_lamp() {
+    // Mean luma of the picture's middle, of 255: what is as dark as slate, and how much brighter the lamp makes it.
+    const DARK_MAX: f64 = 75.0;
+    const LIT_OVER_DARK: f64 = 1.5;
+    let mut studio = Studio::new(dusk(), 7, "medium", SimTime::ZERO);
+    let mut wall = Wall::default();
+    for (name, from, look) in
+        [("under-the-arch", at(-12.0, 0.0, 24.2), at(-8.6, 2.3, 27.6)), ("interlayer", at(12.0, 0.3, 30.6), at(8.6, 1.0, 33.2))]
+    {
+        let mut lumas = Vec::new();
+        for (lamp, state) in [(false, "lamp-off"), (true, "lamp-on")] {
+            let shot = studio.seen(from, look, 84.0, lamp, SCENE);
+            let picture = studio.draw(&shot);
+            let (w, h) = SCENE;
+            lumas.push(picture.luma((w / 3, h / 3), (w - w / 3, h - h / 3)));
+            wall.hang(&format!("{name}-{state}"), &picture);
+        }
+        println!("{name}: middle of the picture {lumas:.0?} of 255");
+        if lumas[0] > DARK_MAX || lumas[1] < LIT_OVER_DARK * lumas[0] {
+            wall.wrong.push(format!("{name}: lamp off {:.0} (at most {DARK_MAX}), on {:.0}", lumas[0], lumas[1]));
+        }
+    }
+    wall.all_hold();
+}
+
+/// A defect at the place where a sight line meets a bridge: its longest extent runs down, or rises a little to the side.
+fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m: (f64, f64), down: bool) -> PlacedDefect {
+    let ray = (to - from).unit();
+    let hit = studio.site.ray(from, ray, 200.0, SimTime::ZERO).unwrap();
+    let level = Vec3::new(0.0, 0.0, 1.0).cross(hit.normal).unit();
+    let along = if down { level.cross(hit.normal).unit() } else { (level * 0.9 + hit.normal.cross(level) * 0.3).unit() };
+    PlacedDefect {
+        id: kind,
+        element: if kind < 1080 { 107 } else { 144 },
+        member: "gallery".into(),
+        kind,
+        condition_state: 3,
+        position_m: from + ray * hit.distance_m,
+        normal: hit.normal,
+        along,
+        length_m: size_m.0,
+        width_m: size_m.1,
+        line: catalogue::is_line(kind),
+    }
+}
+
+/// Shows a defect in the light of its place, and no other.
+fn hang_patch(studio: &mut Studio, defect: &PlacedDefect) {
+    let light = spandrel_model::site::light::spread(64);
+    let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
+    let sun = studio.site.light().daylight(studio.at).sun;
+    let (sky, bounced) = studio.site.light().indirect_shares(defect.position_m, defect.normal, sun, &light, &cast);
+    let patches = [patch(defect, [sky as f32, bounced as f32])];
+    let (gpu, renderer) = studio.renderer();
+    renderer.set_patches(gpu, &patches);
+}
+
+/// A defect from a distance along its normal, a little from aside and below.
+fn close_up(studio: &mut Studio, defect: &PlacedDefect, distance_m: f64, hfov_deg: f64, size: (u32, u32)) -> Picture {
+    let aside = Vec3::new(0.0, 0.0, 1.0).cross(defect.normal).unit();
+    let out = (defect.normal + aside * 0.25 - Vec3::new(0.0, 0.0, 0.12)).unit();
+    let shot = studio.seen(defect.position_m + out * distance_m, defect.position_m, hfov_deg, false, size);
+    studio.draw(&shot)
+}
+
+/// A sight line to a wall of the arch bridge, from the lake.
+fn wall_at() -> (Vec3<Enu>, Vec3<Enu>) {
+    (at(-55.0, -15.0, 24.0), at(-55.0, 0.0, 24.0))
+}
+
+/// A sight line to a girder of the suspension bridge.
+fn girder_at() -> (Vec3<Enu>, Vec3<Enu>) {
+    (at(-20.0, 138.0, 12.7), at(-20.0, 150.0, 12.7))
+}
+
+#[test]
+fn regress_defects_at_1_3_and_8_m() {
+    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let (wall_at, girder_at) = (wall_at(), girder_at());
+    let mut wall = Wall::default();
+    for (name, sight, kind, size_m, down) in [
+        ("crack", wall_at, catalogue::CRACK, (0.9, 0.003), true),
+        ("spall", wall_at, catalogue::SPALL, (0.42, 0.30), false),
+        ("exposed-rebar", wall_at, catalogue::REBAR, (0.46, 0.24), false),
+        ("efflorescence", wall_at, catalogue::EFFLORESCENCE, (0.8, 0.42), true),
+        ("abrasion", wall_at, catalogue::ABRASION, (0.6, 0.4), false),
+        ("corrosion", girder_at, catalogue::CORROSION, (0.42, 0.3), false),
+        ("fatigue-crack", girder_at, catalogue::FATIGUE, (0.22, 0.0004), false),
+        ("missing-bolts", girder_at, catalogue::CONNECTION, (0.30, 0.16), false),
+    ] {
+        let defect = placed(&studio, sight, kind, size_m, down);
+        hang_patch(&mut studio, &defect);
+        let focal_px = studio.vehicle.camera.focal_px();
+        let crop_deg = 2.0 * math::atan(0.5 * f64::from(CLOSE.0) / focal_px).to_degrees();
+        let pictures = [(1.0, CLOSE_DEG[0]), (3.0, CLOSE_DEG[1]), (8.0, crop_deg)]
+            .map(|(distance_m, hfov_deg)| close_up(&mut studio, &defect, distance_m, hfov_deg, CLOSE));
+        wall.hang(&format!("defect-{name}"), &beside(&pictures));
+    }
+    wall.all_hold();
+}
+
+/// The tutorial compares distances: each row is one defect through one lens, so that sizes fall as the distance grows.
+#[test]
+fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
+    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut wall = Wall::default();
+    for (name, sight, kind, size_m, down) in [
+        ("crack", wall_at(), catalogue::CRACK, (0.9, 0.003), true),
+        ("spall", wall_at(), catalogue::SPALL, (0.42, 0.30), false),
+        ("efflorescence", wall_at(), catalogue::EFFLORESCENCE, (0.8, 0.42), true),
+        ("corrosion", girder_at(), catalogue::CORROSION, (0.42, 0.3), false),
+    ] {
+        let defect = placed(&studio, sight, kind, size_m, down);
+        hang_patch(&mut studio, &defect);
+        let row = [1.0, 3.0, 8.0].map(|distance_m| close_up(&mut studio, &defect, distance_m, TUTORIAL_DEG, TUTORIAL));
+        let taught =
+            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("crates/view/src/flow/pictures/{name}.jpg"));
+        wall.take(name, held_at(&taught, &format!("tutorial-{name}"), &beside(&row)));
+    }
+    wall.all_hold();
+}
+
+/// What the display says in flight when nothing is wrong.
+fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
+    let track = |task: &spandrel_model::scenario::Task| Track { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
+    Hud {
+        speed_m_s: 2.4,
+        limit_m_s: 4.4704,
+        battery_pct: Some(86.0),
+        green_pct: 70.0,
+        yellow_pct: 30.0,
+        cues: 0,
+        hit: None,
+        height_m: position_m.up() - studio.scenario.ground_team.pad_m.up(),
+        home_m: (position_m - studio.scenario.ground_team.pad_m).horizontal_norm(),
+        mode: "Position".into(),
+        gnss: Some(Gnss { fixed: true, satellites: 17 }),
+        silent_s: 0.02,
+        gimbal_rad: 0.1,
+        zoom: 1.0,
+        lamp: false,
+        left_s: 1104.0,
+        pictures: 2,
+        shutter: false,
+        time_s: 95.0,
+        position_m,
+        heading_rad: 0.0,
+        pad_m: studio.scenario.ground_team.pad_m,
+        tracks: studio.scenario.tasks.iter().map(track).collect(),
+    }
+}
+
+/// Both views side by side with every state of the display.
+#[test]
+fn regress_both_views_with_every_state_of_the_display() {
+    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut wall = Wall::default();
+    let slab = (at(-30.0, -9.0, 33.0), at(-30.0, 0.0, 32.5));
+    let below = (at(-22.0, -8.0, 17.0), at(-20.0, 0.0, 24.0));
+    let pier = (at(-72.0, 139.0, 3.5), at(-72.0, 150.0, 3.0));
+    let between = (at(14.0, 0.3, 30.8), at(0.0, 0.0, 31.5));
+    for (name, (from, look), change) in [
+        ("calm", slab, (|_| ()) as fn(&mut Hud)),
+        ("yellow-battery-too-fast-off-path", below, |hud| {
+            hud.battery_pct = Some(52.0);
+            hud.speed_m_s = 6.1;
+            hud.cues = cue::SPEEDING | cue::OFF_PATH;
+            hud.shutter = true;
+        }),
+        ("red-battery-crash-too-close", pier, |hud| {
+            hud.battery_pct = Some(17.0);
+            hud.cues = cue::CRASH | cue::TOO_CLOSE;
+            hud.hit = Some("bridge".into());
+            hud.left_s = 71.0;
+        }),
+        ("lamp-zoom-no-satellites", between, |hud| {
+            hud.lamp = true;
+            hud.zoom = 2.0;
+            hud.gnss = Some(Gnss { fixed: false, satellites: 4 });
+            hud.mode = "Altitude".into();
+        }),
+        ("assessment-link-lost", slab, |hud| {
+            hud.battery_pct = None;
+            hud.gnss = None;
+            hud.silent_s = 3.4;
+            hud.tracks = Vec::new();
+        }),
+    ] {
+        let mut display = calm(&studio, from);
+        change(&mut display);
+        let mut moment = studio.moment(from, look, display.lamp, Vec3::new(0.5, 0.0, 0.0));
+        moment.lens.hfov_rad = 2.0 * math::atan(math::tan(0.5 * moment.lens.hfov_rad) / display.zoom);
+        let inspector = studio.stage().inspector(&moment, VIEW);
+        let marked = studio.stage().marked(&inspector, &moment);
+        let seen = fitted_px(VIEW, moment.lens.aspect());
+        let camera = studio.stage().camera(&moment, seen);
+        let shown = hud::layout(&display, f64::from(seen.0) / f64::from(seen.1));
+        let views = [studio.draw_with(&inspector, &marked), studio.draw_with(&camera, &shown)];
+        wall.hang(&format!("views-{name}"), &beside(&views));
+    }
+    wall.all_hold();
+}

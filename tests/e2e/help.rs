@@ -1,0 +1,15 @@
+//! What the help promises.
+
+use spandrel_testkit::shipped::text;
+
+#[test]
+fn regress_a_simulator_without_a_session_leaves_a_crashed_vehicle_where_it_is() {
+    let help = std::process::Command::new(env!("CARGO_BIN_EXE_spandrel")).args(["sim", "--help"]).output().unwrap();
+    let help = String::from_utf8_lossy(&help.stdout).into_owned();
+    let rule = help.split("--after-crash").nth(1).expect("the option is there");
+    assert!(rule.split("--").next().is_some_and(|text| text.contains("[default: continue]")), "{rule}");
+    // A session brings the job's own rule.
+    for source in ["src/demo.rs", "src/train/flight.rs"] {
+        assert!(text(source).contains("\"--after-crash\""), "{source}");
+    }
+}

@@ -1,5 +1,0 @@
-//! Tests of properties that hold for any input.
-
-mod endpoint;
-mod files;
-mod mistakes;

@@ -1,0 +1,39 @@
+//! A zoom lens on the wire and in the measures.
+
+use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::telemetry::Timeline;
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_monitor::measures::attention::camera;
+use spandrel_testkit::shipped::{scenario, vehicle};
+use spandrel_testkit::station::{Station, p};
+
+const CAMERA: u8 = 100;
+/// The one shipped aircraft with a zoom lens.
+const ZOOMS: &str = "m30";
+/// CAMERA_FOV_STATUS carries single precision, deg.
+const WIRE_DEG: f32 = 1e-5;
+
+#[test]
+fn exact_a_picture_is_judged_by_the_field_of_view_that_it_was_taken_with() {
+    let job = scenario("drill-hover");
+    let origin = job.origin;
+    let mut station = Station::of(job, ZOOMS, 7);
+    station.run_ms(100);
+    let accepted = MavResult::MAV_RESULT_ACCEPTED;
+    assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, p(&[1.0, 1.0])), accepted);
+    for _ in 0..5 {
+        station.run_ms(430);
+        station.heard.clear();
+        assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, p(&[0.0, 0.0, 1.0])), accepted);
+        station.run_ms(20);
+        let mut timeline = Timeline::new(LocalPlane::new(origin));
+        for frame in &station.heard {
+            timeline.push(&frame.bytes);
+        }
+        let flight = timeline.flight(0);
+        let [(time, _, _)] = flight.snapshots.all() else { panic!("one picture") };
+        let judged_deg = camera(&flight, *time, &vehicle(ZOOMS).camera).hfov_rad.to_degrees() as f32;
+        let sent_deg = station.last(|m| if let MavMessage::CAMERA_FOV_STATUS(f) = m { Some(f.hfov) } else { None });
+        assert!((judged_deg - sent_deg.unwrap()).abs() < WIRE_DEG, "{judged_deg} for {sent_deg:?}");
+    }
+}

@@ -1,0 +1,138 @@
+//! An aircraft in the air over flat ground.
+
+use crate::shipped::scenario;
+use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::scenario::{BatteryModel, Rules};
+use spandrel_model::site::Site;
+use spandrel_model::time::{Schedule, SimTime};
+use spandrel_model::vehicle::Vehicle;
+use spandrel_sitl::autopilot::{Autopilot, CONTROL_HZ, Landed, Mode, Outcome, Request, Sticks, Tuning};
+use spandrel_sitl::faults::Faults;
+use spandrel_sitl::physics::{Actuators, Air, Load, Model, State};
+use spandrel_sitl::sensors::{BatteryReading, Readings, Sensors, Truth};
+
+pub const VEHICLES: [&str; 4] = ["phantom2", "f450", "m30", "elios3"];
+const STEP: SimTime = SimTime::from_ms(1);
+
+pub struct Bench {
+    pub site: Site,
+    pub model: Model,
+    pub state: State,
+    pub sensors: Sensors,
+    pub autopilot: Autopilot,
+    pub air: Air,
+    pub now: SimTime,
+    pub sticks: Option<Sticks>,
+    pub actuators: Actuators,
+    /// The receiver hears nothing.
+    pub jammed: bool,
+    /// The flow sensor sees nothing.
+    pub dark: bool,
+    /// Changes what the sensors read.
+    pub tamper: Option<fn(&mut Readings, SimTime)>,
+    /// What an instructor breaks.
+    pub faults: Faults,
+    control: Schedule,
+    stick_clock: Schedule,
+}
+
+impl Bench {
+    pub fn new(vehicle: &Vehicle, seed: u64) -> Self {
+        Self::with_rules(vehicle, seed, |_| ())
+    }
+
+    pub fn with_rules(vehicle: &Vehicle, seed: u64, change: impl Fn(&mut Rules)) -> Self {
+        let mut scenario = scenario("drill-hover");
+        change(&mut scenario.rules);
+        let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
+        Self {
+            site: Site::build(&scenario, seed),
+            model: Model::new(vehicle, BatteryModel::Physical),
+            state: State::at_rest(Vec3::new(0.0, 0.0, -feet - 0.02), 0.0),
+            sensors: Sensors::new(vehicle, false, scenario.origin, seed),
+            autopilot: Autopilot::new(vehicle, &scenario.rules, scenario.origin, Tuning::default()),
+            air: Air::STILL,
+            now: SimTime::ZERO,
+            sticks: None,
+            actuators: Actuators::default(),
+            jammed: false,
+            dark: false,
+            faults: Faults::new(seed),
+            tamper: None,
+            control: Schedule::new(SimTime::ZERO, CONTROL_HZ),
+            stick_clock: Schedule::new(SimTime::ZERO, 25.0),
+        }
+    }
+
+    pub fn run(&mut self, seconds: f64, mut each: impl FnMut(&Self)) {
+        let end = self.now + SimTime::from_s(seconds);
+        while self.now < end {
+            if let Some(sticks) = self.sticks
+                && self.stick_clock.fire(self.now)
+            {
+                self.autopilot.sticks(sticks, self.now);
+            }
+            if self.control.fire(self.now) {
+                let b = &self.state.battery;
+                let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
+                let truth = Truth { rigid: &self.state.rigid, battery, lamp_on: false };
+                let mut readings = self.sensors.sample(&truth, &self.site, self.now);
+                readings.gnss = readings.gnss.filter(|_| !self.jammed);
+                readings.flow = readings.flow.filter(|_| !self.dark);
+                if let Some(tamper) = self.tamper {
+                    tamper(&mut readings, self.now);
+                }
+                self.faults.spoil(&mut readings, self.now);
+                self.actuators = self.autopilot.step(&readings, self.now);
+            }
+            let load = Load { lamp_on: false, airborne: true };
+            self.model.advance(&mut self.state, &self.actuators, &self.air, &self.site, load, self.now, STEP);
+            self.sensors.feel(&self.state.rigid, self.state.specific_force_m_s2, STEP);
+            self.now += STEP;
+            each(self);
+        }
+    }
+
+    pub fn ask(&mut self, request: Request) {
+        assert_eq!(self.autopilot.request(request, self.now), Outcome::Accepted, "{request:?}");
+    }
+
+    pub fn position(&self) -> Vec3<Ned> {
+        self.state.rigid.position_m
+    }
+
+    /// Ready, armed and hovering at a height.
+    pub fn airborne(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
+        let mut bench = Self::new(vehicle, seed);
+        bench.take_off(height_m);
+        bench
+    }
+
+    pub fn take_off(&mut self, height_m: f64) {
+        self.run(2.0, |_| ());
+        self.ask(Request::Arm { force: false });
+        self.ask(Request::Takeoff { height_m: Some(height_m) });
+        self.run(6.0 + height_m, |_| ());
+        let status = self.autopilot.status();
+        assert_eq!((status.mode, status.landed), (Mode::Hold, Landed::InAir), "{:?}", self.position());
+    }
+
+    /// Hovering with centred sticks in position mode.
+    pub fn by_hand(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
+        let mut bench = Self::airborne(vehicle, seed, height_m);
+        bench.sticks = Some(Sticks::default());
+        bench.run(0.1, |_| ());
+        bench.ask(Request::SetMode(Mode::Position));
+        bench.run(2.0, |_| ());
+        bench
+    }
+
+    /// Back to an earlier instant, for a state that was kept from there.
+    pub fn rewind(&mut self, to: SimTime) {
+        self.now = to;
+        self.control = Schedule::new(SimTime::ZERO, CONTROL_HZ);
+        self.stick_clock = Schedule::new(SimTime::ZERO, 25.0);
+        self.control.fire(to - STEP);
+        self.stick_clock.fire(to - STEP);
+    }
+}

@@ -1,0 +1,257 @@
+//! A ground station and a monitor's place on an in-process vehicle: no sockets, no clock.
+
+use crate::shipped;
+use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::dialect::{
+    COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage, MavParamType, MavResult, PARAM_SET_DATA,
+};
+use spandrel_model::geodesy::Geo;
+use spandrel_model::scenario::{AfterCrash, Scenario};
+use spandrel_model::time::SimTime;
+use spandrel_sitl::endpoint::LinkId;
+use spandrel_sitl::endpoint::flavour::{self, Flavour};
+use spandrel_sitl::testing::{STATION, Vehicle};
+use std::ops::{Deref, DerefMut};
+
+/// The station's link.
+pub const GCS: LinkId = STATION;
+
+/// A command's parameters; those that are not given are 0.
+pub fn p(values: &[f32]) -> [f32; 7] {
+    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+}
+
+/// A command's first parameter alone.
+pub fn one(value: f32) -> [f32; 7] {
+    p(&[value])
+}
+
+/// [`Vehicle`] for tests: what does not happen in time panics, and answers come at once.
+#[derive(Debug, Clone)]
+pub struct Station {
+    pub vehicle: Vehicle,
+    /// Reads datagrams that a test takes from the simulator itself.
+    decoder: Decoder,
+}
+
+impl Deref for Station {
+    type Target = Vehicle;
+    fn deref(&self) -> &Vehicle {
+        &self.vehicle
+    }
+}
+
+impl DerefMut for Station {
+    fn deref_mut(&mut self) -> &mut Vehicle {
+        &mut self.vehicle
+    }
+}
+
+impl Station {
+    pub fn new(scenario_name: &str, seed: u64) -> Self {
+        Self::of(shipped::scenario(scenario_name), "phantom2", seed)
+    }
+
+    /// On a job and with an aircraft of one's own.
+    pub fn of(scenario: Scenario, vehicle: &str, seed: u64) -> Self {
+        Self::start(&flavour::px4::FLAVOUR, scenario, vehicle, (seed, 0), None)
+    }
+
+    /// As another autopilot.
+    pub fn speaking(flavour: &'static Flavour, scenario_name: &str, seed: u64) -> Self {
+        Self::start(flavour, shipped::scenario(scenario_name), "phantom2", (seed, 0), None)
+    }
+
+    /// As one of several vehicles.
+    pub fn numbered(scenario_name: &str, seed: u64, instance: u8) -> Self {
+        Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, instance), None)
+    }
+
+    /// With a rule for crashes other than the scenario's.
+    pub fn ruled(scenario_name: &str, seed: u64, rule: Option<AfterCrash>) -> Self {
+        Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, 0), rule)
+    }
+
+    fn start(
+        flavour: &'static Flavour,
+        scenario: Scenario,
+        vehicle: &str,
+        (seed, instance): (u64, u8),
+        after_crash: Option<AfterCrash>,
+    ) -> Self {
+        let mut builder = Vehicle::builder().flavour(flavour).seed(seed).instance(instance);
+        if let Some(rule) = after_crash {
+            builder = builder.after_crash(rule);
+        }
+        Self { vehicle: builder.place(scenario, shipped::vehicle(vehicle)), decoder: Decoder::new() }
+    }
+
+    /// Sends a payload laid out by hand, for numbers that the dialect does not know.
+    pub fn send_payload(&mut self, id: u32, payload: &[u8]) {
+        let bytes = self.vehicle.encoder.encode_payload(id, payload);
+        self.sim.handle_datagram(GCS, &bytes);
+    }
+
+    /// Runs for a while and collects what the vehicle says.
+    pub fn run_ms(&mut self, ms: i64) {
+        let until = self.sim.now() + SimTime::from_ms(ms);
+        self.sim.handle_timeout(until);
+        self.collect();
+    }
+
+    /// The frames of one of the vehicle's datagrams.
+    pub fn read(&mut self, bytes: &[u8]) -> Vec<Received> {
+        self.decoder.datagram(bytes)
+    }
+
+    /// All messages that a filter likes, in order.
+    pub fn all<T>(&self, pick: impl Fn(&MavMessage) -> Option<T>) -> Vec<T> {
+        self.heard.iter().filter_map(|f| f.message.as_ref()).filter_map(pick).collect()
+    }
+
+    /// What the vehicle has said in words.
+    pub fn texts(&self) -> Vec<String> {
+        self.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
+    }
+
+    /// It has said something with these words.
+    pub fn said(&self, what: &str) -> bool {
+        self.texts().iter().any(|text| text.contains(what))
+    }
+
+    /// How fast it is over the ground, m/s.
+    pub fn speed(&self) -> f32 {
+        self.last(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vx.hypot(p.vy)) } else { None }).unwrap()
+    }
+
+    /// The gimbal's pitch, deg.
+    pub fn gimbal_deg(&self) -> f32 {
+        let q = self.last(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.q) } else { None }).unwrap();
+        (2.0 * q[2].atan2(q[0])).to_degrees()
+    }
+
+    /// Sends a message and returns the first answer that a filter likes, which must come at once.
+    pub fn ask<T>(&mut self, message: &MavMessage, pick: impl Fn(&MavMessage) -> Option<T>) -> Option<T> {
+        self.heard.clear();
+        self.send(message);
+        self.run_ms(1);
+        self.heard.iter().filter_map(|f| f.message.as_ref()).find_map(pick)
+    }
+
+    /// Sets a parameter, whose value travels as these bits; the value shown in the answer.
+    pub fn set(&mut self, name: &str, param_value: f32, param_type: MavParamType) -> Option<f32> {
+        let set = PARAM_SET_DATA { param_value, target_system: 1, target_component: 1, param_id: name.into(), param_type };
+        self.ask(&MavMessage::PARAM_SET(set), |m| if let MavMessage::PARAM_VALUE(v) = m { Some(v.param_value) } else { None })
+    }
+
+    /// As another sender on the same link.
+    pub fn speak_as(&mut self, system: u8, component: u8) {
+        self.vehicle.encoder = Encoder::new(system, component);
+    }
+
+    /// Runs until a condition holds; false when it does not within the time.
+    pub fn run_until(&mut self, limit_s: f64, mut done: impl FnMut(&mut Self) -> bool) -> bool {
+        let end = self.sim.now() + SimTime::from_s(limit_s);
+        while self.sim.now() < end {
+            self.run_ms(100);
+            if done(self) {
+                return true;
+            }
+            if self.heard.len() > 100_000 {
+                self.heard.drain(..50_000);
+            }
+        }
+        false
+    }
+
+    /// The vehicle's mode as its heartbeat names it.
+    pub fn mode(&self) -> Option<u32> {
+        self.heard.iter().rev().filter(|f| f.component_id == 1).find_map(|f| match &f.message {
+            Some(MavMessage::HEARTBEAT(beat)) => Some(beat.custom_mode),
+            _ => None,
+        })
+    }
+
+    /// The place as the vehicle reports it: north, east, down, m.
+    pub fn place(&self) -> [f32; 3] {
+        self.last(|m| match m {
+            MavMessage::LOCAL_POSITION_NED(p) => Some([p.x, p.y, p.z]),
+            _ => None,
+        })
+        .unwrap()
+    }
+
+    /// The place as the vehicle reports it on the globe, m north, east, down of the scenario's origin.
+    pub fn site_place(&self) -> [f64; 3] {
+        let place = self.last(|m| match m {
+            MavMessage::GLOBAL_POSITION_INT(g) => Some(Geo {
+                latitude_deg: f64::from(g.lat) * 1e-7,
+                longitude_deg: f64::from(g.lon) * 1e-7,
+                altitude_m: f64::from(g.alt) * 1e-3,
+            }),
+            _ => None,
+        });
+        self.sim.site().plane().enu_from_geo(place.unwrap()).ned().array()
+    }
+
+    /// The place after a while.
+    pub fn place_after(&mut self, ms: i64) -> [f32; 3] {
+        self.run_ms(ms.max(25));
+        self.place()
+    }
+
+    /// Sends a command and returns the result of its acknowledgement, which must come at once.
+    pub fn command(&mut self, component: u8, command: MavCmd, p: [f32; 7]) -> MavResult {
+        self.heard.clear();
+        self.send(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+            command,
+            param1: p[0],
+            param2: p[1],
+            param3: p[2],
+            param4: p[3],
+            param5: p[4],
+            param6: p[5],
+            param7: p[6],
+            target_system: 1,
+            target_component: component,
+            confirmation: 0,
+        }));
+        self.run_ms(2);
+        self.last(|m| match m {
+            MavMessage::COMMAND_ACK(ack) if ack.command == command && ack.target_system == 255 => Some(ack.result),
+            _ => None,
+        })
+        .unwrap_or_else(|| panic!("{command:?} was not acknowledged"))
+    }
+
+    pub fn sticks(&mut self, forward: i16, right: i16, z: i16, yaw: i16) {
+        self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
+            target: 1,
+            x: forward,
+            y: right,
+            z,
+            r: yaw,
+            ..MANUAL_CONTROL_DATA::default()
+        }));
+    }
+
+    /// Armed and climbing by hand to about five metres.
+    pub fn airborne(scenario_name: &str, seed: u64) -> Self {
+        let mut station = Self::new(scenario_name, seed);
+        station.climb_by_hand();
+        station
+    }
+
+    /// Ready, armed and up by hand to about five metres.
+    pub fn climb_by_hand(&mut self) {
+        self.run_ms(2500);
+        self.sticks(0, 0, 500, 0);
+        self.run_ms(20);
+        assert_eq!(self.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 3.0])), MavResult::MAV_RESULT_ACCEPTED);
+        assert_eq!(self.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)), MavResult::MAV_RESULT_ACCEPTED);
+        for _ in 0..150 {
+            self.sticks(0, 0, 750, 0);
+            self.run_ms(20);
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! A site ready to be drawn, and cameras in it.
+
+use spandrel_model::frames::{Enu, Rotation, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::{Camera, Vehicle};
+use spandrel_view::camera::Eye;
+use spandrel_view::gpu::{Gpu, Overlay, Renderer};
+use spandrel_view::hud::Item;
+use spandrel_view::picture::Picture;
+use spandrel_view::quality::Quality;
+use spandrel_view::scene::{DronePose, Scene};
+use spandrel_view::shot::Shot;
+use spandrel_view::stage::{Moment, Stage, aimed, parked};
+use std::sync::Arc;
+
+/// A midsummer forenoon, 2026-06-21 09:00 UTC: high sun in the south-east.
+pub const FORENOON: i64 = 1_782_032_400;
+
+pub fn at(east: f64, north: f64, up: f64) -> Vec3<Enu> {
+    Vec3::new(east, north, up)
+}
+
+/// The paper's job.
+pub fn two_bridges() -> Scenario {
+    let text = spandrel_model::shipped::TWO_BRIDGES;
+    spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap()
+}
+
+/// The same on a bright summer day.
+pub fn sunny() -> Scenario {
+    let mut scenario = two_bridges();
+    scenario.light.start_unix_s = FORENOON;
+    scenario.light.cloud_cover = 0.2;
+    scenario
+}
+
+/// The same at dusk: forty minutes later than the job begins, with the sun just down.
+pub fn dusk() -> Scenario {
+    let mut scenario = two_bridges();
+    scenario.light.start_unix_s += 2_400;
+    scenario
+}
+
+/// The aircraft that it is flown with.
+pub fn phantom() -> Vehicle {
+    spandrel_model::vehicle::read("phantom2.toml", spandrel_model::shipped::PHANTOM2).unwrap()
+}
+
+/// A site and what draws it.
+pub struct Studio {
+    pub scenario: Scenario,
+    pub vehicle: Vehicle,
+    pub site: Site,
+    pub scene: Arc<Scene>,
+    pub gpu: Gpu,
+    /// Simulation time of its pictures.
+    pub at: SimTime,
+    renderer: Renderer,
+    overlay: Overlay,
+}
+
+impl Studio {
+    /// Drawn by software, as on any machine.
+    pub fn new(scenario: Scenario, seed: u64, quality: &str, at: SimTime) -> Self {
+        Self::on(Gpu::open_software().unwrap(), scenario, seed, quality, at)
+    }
+
+    pub fn on(gpu: Gpu, scenario: Scenario, seed: u64, quality: &str, at: SimTime) -> Self {
+        let quality = Quality::named(quality).unwrap();
+        let vehicle = phantom();
+        let site = Site::build(&scenario, seed);
+        let scene = Arc::new(Scene::build(&scenario, &site, &vehicle, &quality, at));
+        let renderer = Renderer::new(&gpu, quality, &scene);
+        let overlay = Overlay::new(&gpu);
+        Self { scenario, vehicle, site, scene, gpu, at, renderer, overlay }
+    }
+
+    pub fn stage(&self) -> Stage<'_> {
+        Stage { scenario: &self.scenario, vehicle: &self.vehicle, site: &self.site, scene: &self.scene }
+    }
+
+    pub fn draw(&mut self, shot: &Shot) -> Picture {
+        self.renderer.picture(&self.gpu, shot).unwrap()
+    }
+
+    pub fn draw_with(&mut self, shot: &Shot, items: &[Item]) -> Picture {
+        self.renderer.picture_with(&self.gpu, shot, &mut self.overlay, items).unwrap()
+    }
+
+    pub fn renderer(&mut self) -> (&Gpu, &mut Renderer) {
+        (&self.gpu, &mut self.renderer)
+    }
+
+    /// Takes the site's own defects out of the pictures.
+    pub fn without_defects(&mut self) {
+        self.renderer.set_patches(&self.gpu, &[]);
+    }
+
+    /// What the aircraft's camera sees from one point towards another; `hfov_deg` instead of its own lens.
+    pub fn seen(&self, from: Vec3<Enu>, look: Vec3<Enu>, hfov_deg: f64, lamp: bool, size_px: (u32, u32)) -> Shot {
+        let lens = Camera { hfov_rad: hfov_deg.to_radians(), ..self.vehicle.camera };
+        let pose = aimed(from, look, lamp);
+        let standing = parked(&self.scenario, &self.vehicle);
+        self.stage().through(Eye::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (self.at, size_px))
+    }
+
+    /// The aircraft in flight here, looking there.
+    pub fn moment(&self, from: Vec3<Enu>, look: Vec3<Enu>, lamp: bool, velocity_m_s: Vec3<Enu>) -> Moment {
+        let to = look - from;
+        let yaw = math::atan2(to.east(), to.north());
+        let drone = DronePose { position_m: from, ned_from_frd: Rotation::from_euler(0.02, -0.05, yaw), spinning: true };
+        let camera = aimed(from + to.unit() * 0.1, look, lamp);
+        Moment { at: self.at, drone, velocity_m_s, camera, lens: self.vehicle.camera, turn: Default::default() }
+    }
+}
