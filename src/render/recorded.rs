@@ -80,7 +80,7 @@ impl Recorded {
 
     /// First and last instant.
     pub fn span(&self) -> (SimTime, SimTime) {
-        let time = |truth: Option<&spandrel_mavlink::telemetry::Truth>| truth.map_or(SimTime::ZERO, |truth| truth.time);
+        let time = |truth: Option<&spandrel_mavlink::contract::truth::Truth>| truth.map_or(SimTime::ZERO, |truth| truth.time);
         (time(self.flight.truths.first()), time(self.flight.truths.last()))
     }
 
@@ -197,8 +197,8 @@ mod tests {
     use crate::session_folder::SessionFolder;
     use serde_json::json;
     use spandrel_mavlink::codec::Encoder;
+    use spandrel_mavlink::contract::truth::Truth;
     use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, MavMessage, MavModeFlag};
-    use spandrel_mavlink::telemetry::Truth;
     use spandrel_model::frames::{Rotation, Vec3};
     use spandrel_monitor::Record;
     use spandrel_view::stage::Turn;

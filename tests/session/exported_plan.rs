@@ -4,11 +4,11 @@
 use serde_json::Value;
 use spandrel_clients::pilot::flight_plan;
 use spandrel_clients::pilot::job::Map;
+use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::dialect::*;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
-use spandrel_monitor::feedback::cue;
 use spandrel_monitor::watch::build_site;
 use spandrel_monitor::{Monitor, MonitorConfig, Record};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};

@@ -1,5 +1,5 @@
 //! MAVLink as Spandrel speaks it, without sockets: bytes to frames and back ([`codec`]), signing ([`signing`]), routing ([`router`]), file
-//! transfer ([`ftp`]), units ([`units`]), and what a flight's messages add up to ([`telemetry`]).
+//! transfer ([`ftp`]), units ([`units`]), the contract between vehicle and monitor ([`contract`]), and what a flight's messages add up to ([`telemetry`]).
 //!
 //! Bytes that belong to no frame are counted and skipped; nothing panics on them. Telemetry goes three steps: a frame becomes a
 //! [`telemetry::sample::Sample`], samples become a [`telemetry::timeline::Timeline`] with its gaps marked, and the timeline gives scored
@@ -24,6 +24,7 @@
 
 pub mod ardupilotmega;
 pub mod codec;
+pub mod contract;
 pub mod ftp;
 pub mod note;
 pub mod router;

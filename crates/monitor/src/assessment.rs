@@ -12,8 +12,10 @@ use super::score::conformity::TaskShares;
 use super::score::{Score, conformity, efficiency, safety};
 use super::session::{EndReason, Session, lift_off_height_m};
 use serde::Serialize;
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::modes::ControlSource;
 use spandrel_mavlink::telemetry::log_stream::Log;
-use spandrel_mavlink::telemetry::{Contact, Flight, Frame, Hand, Timeline};
+use spandrel_mavlink::telemetry::{Flight, Frame, Timeline};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
@@ -104,7 +106,7 @@ pub struct Stretch {
     /// Last frame, included.
     pub to_frame: u32,
     /// Who; `None` before the first heartbeat.
-    pub by: Option<Hand>,
+    pub by: Option<ControlSource>,
 }
 
 /// The paper's scores.

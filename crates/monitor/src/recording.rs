@@ -1,7 +1,8 @@
 //! A flight that was heard over MAVLink, for Foxglove: frames of drone and camera, battery, what the scores are made of, and in words
 //! what happened.
 
-use spandrel_mavlink::telemetry::{Contact, Flight};
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::telemetry::Flight;
 use spandrel_model::foxglove::{self, Message, Pose};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::scenario::Scenario;

@@ -2,7 +2,9 @@
 
 use super::measures::crash;
 use serde::Serialize;
-use spandrel_mavlink::telemetry::{Contact, Flight, Frame};
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::continuity::is_jump;
+use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::time::SimTime;
@@ -19,10 +21,6 @@ const REST_FOR: SimTime = SimTime::from_ms(3_000);
 
 /// The words `armed` and `on the ground` come once a second and may be this old.
 const WORDS_OLD: SimTime = SimTime::from_ms(1_500);
-/// Farther between two moments than this, and farther than at [`FASTEST_M_S`], the drone has been put back, m (estimate).
-const JUMP_M: f64 = 1.5;
-/// Faster than any drone flies or falls here, m/s (estimate).
-const FASTEST_M_S: f64 = 50.0;
 
 /// Why a session ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -102,7 +100,7 @@ pub struct EndRule {
     seen_armed: bool,
     rest_since: Option<SimTime>,
     pending: Option<(SimTime, EndReason)>,
-    last: Option<(SimTime, Vec3<Enu>)>,
+    last: Option<Moment>,
     put_back: Option<SimTime>,
 }
 
@@ -126,10 +124,11 @@ impl EndRule {
 
     /// Once the drone has been put back elsewhere, what was said of it before says nothing about there.
     fn without_old_words(&mut self, moment: &Moment) -> Moment {
-        let jumped = self.last.is_some_and(|(time, position_m)| {
-            (moment.position_m - position_m).norm() > JUMP_M + FASTEST_M_S * (moment.time - time).s()
+        let jumped = self.last.is_some_and(|last| {
+            let step_m = (moment.position_m - last.position_m).norm();
+            is_jump(step_m, moment.speed_m_s.max(last.speed_m_s), moment.time - last.time)
         });
-        self.last = Some((moment.time, moment.position_m));
+        self.last = Some(*moment);
         if jumped {
             self.put_back = Some(moment.time);
         }

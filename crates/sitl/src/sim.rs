@@ -201,7 +201,7 @@ impl Sim {
             actuators: Actuators::default(),
             scoring: Scoring {
                 seed: i32::try_from(seed & 0x7fff_ffff).unwrap_or(0),
-                scenario_crc: scenario.crc.cast_signed(),
+                scenario_crc: scenario.crc,
                 clearance_m: CLEARANCE_REACH_M,
                 ..Scoring::default()
             },

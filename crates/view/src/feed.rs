@@ -3,8 +3,10 @@
 use super::hud::Gnss;
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, Received};
+use spandrel_mavlink::contract::modes;
+use spandrel_mavlink::contract::named::Named;
 use spandrel_mavlink::dialect::{
-    GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavAutopilot, MavMessage, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA,
+    GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavMessage, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA,
 };
 use spandrel_model::time::SimTime;
 
@@ -46,8 +48,7 @@ impl Feed {
     fn message(&mut self, message: &MavMessage, component: u8, now: SimTime) {
         match message {
             MavMessage::HEARTBEAT(beat) if component == 1 => {
-                let copter = beat.autopilot == MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA;
-                self.mode = Some(mode_name(copter, beat.custom_mode));
+                self.mode = Some(modes::name(beat.autopilot as u8, beat.custom_mode));
             }
             MavMessage::GPS_RAW_INT(gps) => {
                 let fixed = !matches!(
@@ -56,7 +57,11 @@ impl Feed {
                 );
                 self.gnss = Some(Gnss { fixed, satellites: gps.satellites_visible });
             }
-            MavMessage::NAMED_VALUE_INT(named) if named.name.to_str() == Ok("cues") => self.cue(named.value, now),
+            MavMessage::NAMED_VALUE_INT(named) => {
+                if let Some(Named::Cues(cues)) = Named::from_int(named) {
+                    self.cue(cues, now);
+                }
+            }
             MavMessage::STATUSTEXT(text) if component != 1 => {
                 if let Ok(words) = text.text.to_str() {
                     self.words(words);
@@ -109,49 +114,6 @@ pub fn shutter(taken: Option<SimTime>, now: SimTime) -> bool {
     taken.is_some_and(|taken| taken <= now && now - taken <= SHUTTER)
 }
 
-/// Names of PX4's and ArduCopter's modes as their ground stations show them.
-#[must_use]
-pub fn mode_name(copter: bool, custom_mode: u32) -> String {
-    let known = if copter {
-        match custom_mode {
-            0 => "Stabilize",
-            1 => "Acro",
-            2 => "Alt Hold",
-            3 => "Auto",
-            4 | 20 => "Guided",
-            5 => "Loiter",
-            6 => "RTL",
-            7 => "Circle",
-            9 => "Land",
-            16 => "PosHold",
-            17 => "Brake",
-            21 => "Smart RTL",
-            23 => "Follow",
-            27 => "Auto RTL",
-            _ => "",
-        }
-    } else {
-        match custom_mode.to_le_bytes() {
-            [_, _, 1, _] => "Manual",
-            [_, _, 2, _] => "Altitude",
-            [_, _, 3, 1] => "Orbit",
-            [_, _, 3, _] => "Position",
-            [_, _, 4, 2] => "Take-off",
-            [_, _, 4, 3] => "Hold",
-            [_, _, 4, 4] => "Mission",
-            [_, _, 4, 5] => "Return",
-            [_, _, 4, 6] => "Land",
-            [_, _, 4, 8] => "Follow",
-            [_, _, 4, _] => "Auto",
-            [_, _, 5, _] => "Acro",
-            [_, _, 6, _] => "Offboard",
-            [_, _, 7, _] => "Stabilized",
-            _ => "",
-        }
-    };
-    if known.is_empty() { format!("mode {custom_mode}") } else { known.to_owned() }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -188,12 +150,5 @@ mod tests {
             feed.gnss().and_then(Gnss::known)
         };
         assert_eq!([known(0), known(11), known(u8::MAX)], [Some(0), Some(11), None]);
-    }
-
-    #[test]
-    fn exact_modes_have_the_names_of_their_ground_stations() {
-        assert_eq!(mode_name(false, 4 << 16 | 5 << 24), "Return");
-        assert_eq!(mode_name(true, 5), "Loiter");
-        assert_eq!(mode_name(true, 99), "mode 99");
     }
 }

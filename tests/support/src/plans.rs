@@ -1,4 +1,5 @@
 //! Plans for the drill ground: items, and an upload as the vehicle asks for it.
+#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
 
 use crate::station::Station;
 use spandrel_mavlink::dialect::*;

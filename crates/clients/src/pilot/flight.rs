@@ -6,6 +6,7 @@ use super::job::{Job, Map};
 use super::perception::Motion;
 use super::track::{Leg, Progress, Wish};
 use super::{Phase, Pilot, PilotConfig};
+use spandrel_mavlink::contract::contact::Contact;
 use spandrel_mavlink::dialect::MavCmd;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -117,8 +118,7 @@ impl Pilot {
 
     /// Motors off in the air's middle: try to go on, unless the session is over.
     fn fallen(&mut self) -> Axes {
-        const PERSON_OR_VEHICLE: [i32; 2] = [4, 5];
-        if PERSON_OR_VEHICLE.contains(&self.wire.heard.contact) {
+        if matches!(self.wire.heard.contact, Contact::Person | Contact::Vehicle) {
             self.finish("hit a person or a vehicle");
         } else if self.wire.heard.battery_pct.is_some_and(|pct| pct < 1.0) {
             self.finish("battery empty");

@@ -1,13 +1,15 @@
 //! What the pilot's ground station says and hears on the wire.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::truth::{self, Truth};
 use spandrel_mavlink::dialect::{
-    HIL_STATE_QUATERNION_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState, MavMessage, MavModeFlag,
-    MavSysStatusSensor, TIMESYNC_DATA,
+    MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState, MavMessage, MavModeFlag, MavSysStatusSensor, TIMESYNC_DATA,
 };
 use spandrel_mavlink::station;
 use spandrel_model::frames::Rotation;
-use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
@@ -42,8 +44,8 @@ pub struct Heard {
     pub seed: Option<u64>,
     /// Times that the aircraft was put back.
     pub respawns: i32,
-    /// What the aircraft touches (design.md's code).
-    pub contact: i32,
+    /// What the aircraft touches.
+    pub contact: Contact,
     /// Gimbal pitch, rad.
     pub gimbal_pitch_rad: f64,
 }
@@ -81,9 +83,9 @@ impl Wire {
         for frame in self.decoder.datagram(bytes) {
             let from_autopilot = frame.component_id == AUTOPILOT;
             match frame.message {
-                Some(MavMessage::HIL_STATE_QUATERNION(truth)) => {
+                Some(MavMessage::HIL_STATE_QUATERNION(state)) => {
                     self.heard.seen = true;
-                    news.extend(motion(&truth, plane).map(News::Truth));
+                    news.extend(truth::read(&state, plane).map(|truth| News::Truth(motion(&truth))));
                 }
                 Some(MavMessage::TIMESYNC(sync)) if sync.tc1 == 0 => news.push(News::Timesync(sync.ts1)),
                 Some(MavMessage::HEARTBEAT(beat)) if from_autopilot => {
@@ -118,10 +120,10 @@ impl Wire {
                     self.heard.gimbal_pitch_rad = attitude.euler().1;
                 }
             }
-            MavMessage::NAMED_VALUE_INT(named) => match named.name.to_str() {
-                Ok("seed") => self.heard.seed = u64::try_from(named.value).ok(),
-                Ok("respawns") => self.heard.respawns = named.value,
-                Ok("contact") => self.heard.contact = named.value,
+            MavMessage::NAMED_VALUE_INT(named) => match Named::from_int(named) {
+                Some(Named::Seed(seed)) => self.heard.seed = Some(u64::from(seed)),
+                Some(Named::Respawns(count)) => self.heard.respawns = count,
+                Some(Named::Contact(contact)) => self.heard.contact = contact,
                 _ => {}
             },
             _ => {}
@@ -199,18 +201,11 @@ impl Default for Wire {
     }
 }
 
-fn motion(truth: &HIL_STATE_QUATERNION_DATA, plane: &LocalPlane) -> Option<Motion> {
-    let geo = Geo {
-        latitude_deg: f64::from(truth.lat) * 1e-7,
-        longitude_deg: f64::from(truth.lon) * 1e-7,
-        altitude_m: f64::from(truth.alt) * 1e-3,
-    };
-    let attitude = Rotation::from_wxyz(truth.attitude_quaternion.map(f64::from))?;
-    let v = [truth.vx, truth.vy, truth.vz].map(|c| f64::from(c) * 0.01);
-    Some(Motion {
-        time: SimTime::from_us(i64::try_from(truth.time_usec).ok()?),
-        position_m: plane.enu_from_geo(geo),
-        velocity_m_s: spandrel_model::frames::Vec3::new(v[1], v[0], -v[2]),
-        yaw_rad: attitude.yaw_rad(),
-    })
+fn motion(truth: &Truth) -> Motion {
+    Motion {
+        time: truth.time,
+        position_m: truth.position_m,
+        velocity_m_s: truth.velocity_m_s,
+        yaw_rad: truth.ned_from_frd.yaw_rad(),
+    }
 }

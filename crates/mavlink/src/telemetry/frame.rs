@@ -1,7 +1,8 @@
 //! A flight read at the scorer's rate. Frame i stands for the 1/f s that end at its time; frame 1 is lift-off.
 
-use super::sample::{Contact, Truth};
 use super::timeline::Flight;
+use crate::contract::contact::Contact;
+use crate::contract::truth::Truth;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::time::SimTime;
 
@@ -9,13 +10,8 @@ use spandrel_model::time::SimTime;
 pub const GAP_AFTER: SimTime = SimTime::from_ms(200);
 /// A gap up to this long is interpolated; the frames of a longer one are missing.
 pub const INTERPOLATED_UP_TO: SimTime = SimTime::from_ms(1_000);
-/// A step between two samples that exceeds flight at this many times the faster sample's speed, plus [`JUMP_SLACK_M`], is no flight
-/// but a respawn whose message was lost.
-const JUMP_FACTOR: f64 = 4.0;
 /// A contact's own message may follow the count of onsets by this much (it is repeated at 10 Hz).
 const HIT_REPORT_WITHIN: SimTime = SimTime::from_ms(200);
-/// m.
-const JUMP_SLACK_M: f64 = 3.0;
 
 /// One frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,8 +116,8 @@ impl Flight {
     }
 
     fn respawned_between(&self, before: &Truth, next: &Truth) -> bool {
-        let reach = JUMP_FACTOR * before.velocity_m_s.norm().max(next.velocity_m_s.norm()) * (next.time - before.time).s();
-        if (next.position_m - before.position_m).norm() > reach + JUMP_SLACK_M {
+        // The message of a respawn may be lost.
+        if before.jumps_to(next) {
             return true;
         }
         self.respawns.at(before.time) != self.respawns.at(next.time) && self.respawns.at(before.time).is_some()

@@ -3,7 +3,6 @@
 //! file format in between, [`log_stream`] reads it in pieces. Read by monitor, pilot, view and report; knows nothing of the scoring.
 
 pub mod frame;
-pub mod hand;
 pub mod log_stream;
 mod rows;
 pub mod sample;
@@ -12,6 +11,5 @@ pub mod timeline;
 pub mod tlog;
 
 pub use frame::Frame;
-pub use hand::Hand;
-pub use sample::{Contact, Sample, Truth};
-pub use timeline::{Flight, RESTART_AFTER, RESTART_CONFIRM, Timeline};
+pub use sample::Sample;
+pub use timeline::{Flight, Timeline};

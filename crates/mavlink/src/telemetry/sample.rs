@@ -1,102 +1,21 @@
 //! One MAVLink frame -> one [`Sample`], if it says anything that the timeline keeps. The header is looked at first, so that the
 //! many frames of no interest cost a few nanoseconds. Wire units (degE7, mm, cm/s, µs, permille) stop here.
 
-use super::hand::Hand;
+use crate::contract::contact::Contact;
+use crate::contract::modes::ControlSource;
+use crate::contract::named::Named;
+use crate::contract::sticks::Sticks;
+use crate::contract::truth::{self, Truth, clock};
 use crate::dialect::{
     BATTERY_STATUS_DATA, CAMERA_FOV_STATUS_DATA, CAMERA_IMAGE_CAPTURED_DATA, EXTENDED_SYS_STATE_DATA,
     GIMBAL_DEVICE_ATTITUDE_STATUS_DATA, HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, ILLUMINATOR_STATUS_DATA, MavLandedState,
     MavMessage, MavModeFlag, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA, RC_CHANNELS_DATA,
 };
 use mavlink::{MavlinkVersion, Message, MessageData};
-use serde::Serialize;
-use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
-use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::frames::{Frd, Ned, Rotation};
+use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
-
-/// What the aircraft touches, as the wire's `contact` says it (design.md).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Default)]
-#[serde(rename_all = "lowercase")]
-pub enum Contact {
-    /// Nothing.
-    #[default]
-    None,
-    /// A bridge.
-    Bridge,
-    /// The ground.
-    Terrain,
-    /// The water.
-    Water,
-    /// A car or truck.
-    Vehicle,
-    /// A pedestrian or the crew.
-    Person,
-    /// Anything else, and whatever number a newer sender may use.
-    Other,
-}
-
-impl Contact {
-    /// From the wire's number.
-    #[must_use]
-    pub fn from_wire(code: i32) -> Self {
-        match code {
-            0 => Self::None,
-            1 => Self::Bridge,
-            2 => Self::Terrain,
-            3 => Self::Water,
-            4 => Self::Vehicle,
-            5 => Self::Person,
-            _ => Self::Other,
-        }
-    }
-
-    /// The word of the export.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Bridge => "bridge",
-            Self::Terrain => "terrain",
-            Self::Water => "water",
-            Self::Vehicle => "vehicle",
-            Self::Person => "person",
-            Self::Other => "other",
-        }
-    }
-
-    /// Higher is worse: person, vehicle, bridge, terrain, water, other, none.
-    #[must_use]
-    pub fn severity(self) -> u8 {
-        match self {
-            Self::None => 0,
-            Self::Other => 1,
-            Self::Water => 2,
-            Self::Terrain => 3,
-            Self::Bridge => 4,
-            Self::Vehicle => 5,
-            Self::Person => 6,
-        }
-    }
-
-    /// Counted by the paper's X_o.
-    #[must_use]
-    pub fn is_other_crash(self) -> bool {
-        matches!(self, Self::Bridge | Self::Terrain | Self::Water | Self::Other)
-    }
-}
-
-/// The simulator's truth at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Truth {
-    /// Since simulation start.
-    pub time: SimTime,
-    /// Position, m from the scenario origin.
-    pub position_m: Vec3<Enu>,
-    /// Velocity, m/s.
-    pub velocity_m_s: Vec3<Enu>,
-    /// Attitude.
-    pub ned_from_frd: Rotation<Frd, Ned>,
-}
 
 /// Content of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -138,38 +57,13 @@ pub enum SampleValue {
     Beat {
         /// Motors may turn.
         armed: bool,
-        /// Who flies.
-        by: Hand,
+        /// What controls the aircraft.
+        by: ControlSource,
     },
     /// The autopilot believes that it stands.
     OnGround(bool),
     /// A picture with this running number was taken.
     Snapshot(i32),
-}
-
-/// Stick positions in steps of the wire: forward, right, up, clockwise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Sticks([i16; 4]);
-
-impl Sticks {
-    /// Microseconds from center to full travel.
-    const TRAVEL_US: i16 = 500;
-
-    /// From the pulse widths of RC_CHANNELS 1 to 4, us: roll, pitch, throttle, yaw. Widths beyond full travel count as full.
-    #[must_use]
-    pub fn from_us(channels: [u16; 4]) -> Self {
-        let [right, forward, up, clockwise] = channels.map(|us| {
-            let off_center = i16::try_from(us).unwrap_or(i16::MAX) - 1500;
-            off_center.clamp(-Self::TRAVEL_US, Self::TRAVEL_US)
-        });
-        Self([forward, right, up, clockwise])
-    }
-
-    /// Forward, right, up, clockwise, each in [-1, 1].
-    #[must_use]
-    pub fn axes(self) -> [f64; 4] {
-        self.0.map(|step| f64::from(step) / f64::from(Self::TRAVEL_US))
-    }
 }
 
 /// One message of interest.
@@ -278,11 +172,6 @@ pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
     HIL_STATE_QUATERNION_DATA::deser(MavlinkVersion::V2, payload).ok().map(|truth| clock(truth.time_usec))
 }
 
-/// A clock beyond the range of [`SimTime`] (292 years) is a broken frame; saturating keeps it in order instead of wrapping.
-fn clock(us: u64) -> SimTime {
-    SimTime::from_us(i64::try_from(us).unwrap_or(i64::MAX).min(i64::MAX / 1_000))
-}
-
 /// Reads one frame whose checksum has been checked. `None` when it says nothing that the timeline keeps.
 #[must_use]
 pub fn read(frame: &[u8], plane: &LocalPlane) -> Option<Sample> {
@@ -305,7 +194,7 @@ fn boot(ms: u32) -> Option<SimTime> {
 
 fn decode(header: &Header, payload: &[u8], plane: &LocalPlane) -> Option<(Option<SimTime>, Said)> {
     if header.message_id == HIL_STATE_QUATERNION_DATA::ID {
-        let truth = truth(&body(payload)?, plane)?;
+        let truth = truth::read(&body(payload)?, plane)?;
         return Some((Some(truth.time), Said::Truth(truth)));
     }
     let (own_time, value) = decode_value(header, payload)?;
@@ -332,7 +221,7 @@ fn decode_value(header: &Header, payload: &[u8]) -> Option<(Option<SimTime>, Sam
             let beat: HEARTBEAT_DATA = body(payload)?;
             let armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
             (header.sender.1 == 1)
-                .then_some((None, SampleValue::Beat { armed, by: Hand::of(beat.autopilot as u8, beat.custom_mode) }))
+                .then_some((None, SampleValue::Beat { armed, by: ControlSource::of(beat.autopilot as u8, beat.custom_mode) }))
         }
         EXTENDED_SYS_STATE_DATA::ID => {
             let state: EXTENDED_SYS_STATE_DATA = body(payload)?;
@@ -353,42 +242,28 @@ fn decode_value(header: &Header, payload: &[u8]) -> Option<(Option<SimTime>, Sam
             let hfov_rad = f64::from(camera.hfov).to_radians();
             (hfov_rad > 0.0 && hfov_rad < math::PI).then(|| (boot(camera.time_boot_ms), SampleValue::FieldOfView(hfov_rad)))
         }
-        NAMED_VALUE_INT_DATA::ID => named_int(&body(payload)?),
+        NAMED_VALUE_INT_DATA::ID => {
+            let named: NAMED_VALUE_INT_DATA = body(payload)?;
+            Some((boot(named.time_boot_ms), kept_value(Named::from_int(&named)?)?))
+        }
         NAMED_VALUE_FLOAT_DATA::ID => {
             let named: NAMED_VALUE_FLOAT_DATA = body(payload)?;
-            let value = f64::from(named.value);
-            (named.name.to_str() == Ok("clearance") && value.is_finite())
-                .then(|| (boot(named.time_boot_ms), SampleValue::Clearance(value)))
+            Some((boot(named.time_boot_ms), kept_value(Named::from_float(&named)?)?))
         }
         _ => None,
     }
 }
 
-fn named_int(named: &NAMED_VALUE_INT_DATA) -> Option<(Option<SimTime>, SampleValue)> {
-    let said = match named.name.to_str().ok()? {
-        "contact" => SampleValue::Contact(Contact::from_wire(named.value)),
-        "hits" => SampleValue::Hits(named.value),
-        "respawns" => SampleValue::Respawns(named.value),
-        "traffic" => SampleValue::Traffic(named.value),
-        // A 32-bit field carries the seed; as unsigned, so that the upper half survives too.
-        "seed" => SampleValue::Seed(u64::from(named.value as u32)),
-        "scn_crc" => SampleValue::ScenarioCrc(named.value as u32),
-        _ => return None,
-    };
-    Some((boot(named.time_boot_ms), said))
-}
-
-fn truth(wire: &HIL_STATE_QUATERNION_DATA, plane: &LocalPlane) -> Option<Truth> {
-    let geo = Geo {
-        latitude_deg: f64::from(wire.lat) * 1e-7,
-        longitude_deg: f64::from(wire.lon) * 1e-7,
-        altitude_m: f64::from(wire.alt) * 1e-3,
-    };
-    let velocity: Vec3<Ned> = Vec3::new(f64::from(wire.vx) * 0.01, f64::from(wire.vy) * 0.01, f64::from(wire.vz) * 0.01);
-    Some(Truth {
-        time: clock(wire.time_usec),
-        position_m: plane.enu_from_geo(geo),
-        velocity_m_s: velocity.enu(),
-        ned_from_frd: Rotation::from_wxyz(wire.attitude_quaternion.map(f64::from))?,
+/// What of the named values the timeline keeps.
+fn kept_value(named: Named) -> Option<SampleValue> {
+    Some(match named {
+        Named::Contact(contact) => SampleValue::Contact(contact),
+        Named::Hits(count) => SampleValue::Hits(count),
+        Named::Respawns(count) => SampleValue::Respawns(count),
+        Named::Traffic(code) => SampleValue::Traffic(code),
+        Named::Seed(seed) => SampleValue::Seed(u64::from(seed)),
+        Named::ScenarioCrc(crc) => SampleValue::ScenarioCrc(crc),
+        Named::ClearanceM(metres) => SampleValue::Clearance(metres),
+        Named::Lux(_) | Named::Pace(_) | Named::Cues(_) => return None,
     })
 }

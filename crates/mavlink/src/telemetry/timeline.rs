@@ -4,20 +4,19 @@
 //! time of the truth sample before it in its sender's numbering, so that shuffled or doubled datagrams change nothing. A clock that
 //! goes back is a restarted simulator: a new epoch begins, and the old one stays.
 
-use super::hand::Hand;
 use super::log_stream::Log;
 use super::rows::Rows;
-use super::sample::{self, Contact, Header, Said, Sample, SampleValue, Truth};
+use super::sample::{self, Header, Said, Sample, SampleValue};
 use super::signal::Signal;
+use crate::contract::contact::Contact;
+use crate::contract::continuity::{RESTART_AFTER, RESTART_CONFIRM};
+use crate::contract::modes::ControlSource;
+use crate::contract::truth::Truth;
 use serde::Serialize;
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::time::SimTime;
 use std::ops::ControlFlow;
 
-/// A truth sample this much older than the newest is no mere reordering.
-pub const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
-/// So many old truth samples in a row make a restart; fewer are stragglers.
-pub const RESTART_CONFIRM: usize = 3;
 /// A message's own clock is believed within this span of the truth's.
 const OWN_CLOCK_WITHIN: SimTime = SimTime::from_ms(2_000);
 /// The truth sample found by number is believed within this span of the one found by arrival.
@@ -369,7 +368,7 @@ pub struct Flight {
     /// Armed.
     pub armed: Signal<bool>,
     /// Who flies, to the second of the heartbeat.
-    pub flown_by: Signal<Hand>,
+    pub flown_by: Signal<ControlSource>,
     /// Autopilot says on the ground.
     pub on_ground: Signal<bool>,
     /// Pictures taken, once each: number, and when by the camera's own clock.

@@ -1,6 +1,7 @@
 //! Battery: green, yellow, red. A text only when the colour gets worse.
 
-use super::{Moment, Text, cue};
+use super::{Moment, Text};
+use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::Feedback;
 
 /// Colour of the display.

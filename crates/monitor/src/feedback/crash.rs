@@ -1,7 +1,8 @@
 //! Crash: the onset of any contact, with what was hit. Said at once and before all else; a chatter of onsets is said once.
 
-use super::{CoolDown, Moment, Text, cue};
-use spandrel_mavlink::telemetry::Contact;
+use super::{CoolDown, Moment, Text};
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::Feedback;
 use spandrel_model::time::SimTime;
 

@@ -9,25 +9,9 @@ pub mod speeding;
 pub mod texts;
 pub mod too_close;
 
-use spandrel_mavlink::telemetry::Contact;
+use spandrel_mavlink::contract::contact::Contact;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
-
-/// Bits of the wire's `cues`.
-pub mod cue {
-    /// Battery is yellow.
-    pub const BATTERY_YELLOW: i32 = 1;
-    /// Battery is red and flashes.
-    pub const BATTERY_RED: i32 = 1 << 1;
-    /// Too fast.
-    pub const SPEEDING: i32 = 1 << 2;
-    /// Off the path, but near it.
-    pub const OFF_PATH: i32 = 1 << 3;
-    /// Something is too close.
-    pub const TOO_CLOSE: i32 = 1 << 4;
-    /// Something was hit.
-    pub const CRASH: i32 = 1 << 5;
-}
 
 /// One task as the drone stands to it.
 #[derive(Debug, Clone, Copy, PartialEq)]

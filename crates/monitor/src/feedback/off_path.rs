@@ -1,7 +1,8 @@
 //! Off path: beyond the threshold but still within reach of the task last entered. Who has not entered a task yet, or leaves one by its end
 //! or when it is flown, is between tasks (assessment.md, "Cues that mean something").
 
-use super::{CoolDown, Moment, TaskNow, Text, cue};
+use super::{CoolDown, Moment, TaskNow, Text};
+use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::Feedback;
 use spandrel_model::time::SimTime;
 

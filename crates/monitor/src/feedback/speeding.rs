@@ -1,6 +1,7 @@
 //! Speeding: over the limit while on any path, or near the one last entered. (The score knows a window's end, this cannot.)
 
-use super::{CoolDown, Moment, Text, cue};
+use super::{CoolDown, Moment, Text};
+use spandrel_mavlink::contract::cue;
 use spandrel_model::math::M_S_PER_MPH;
 use spandrel_model::numbers::{beside_limit, limit};
 use spandrel_model::scenario::Feedback;

@@ -1,6 +1,7 @@
 //! The way of texts to the wire: one at a time, a crash before all else, nothing stale.
 
-use super::{Text, cue};
+use super::Text;
+use spandrel_mavlink::contract::cue;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 

@@ -1,6 +1,7 @@
 //! Too close: anything nearer to the drone's centre than the limit, with a gap between on and off.
 
-use super::{CoolDown, Moment, Text, cue};
+use super::{CoolDown, Moment, Text};
+use spandrel_mavlink::contract::cue;
 use spandrel_model::numbers::beside_limit;
 use spandrel_model::scenario::Feedback;
 

@@ -1,7 +1,8 @@
 //! Crash analysis: the pad rule, lost contacts, onsets, and which task a crash belongs to.
 
 use super::on_path::OnPath;
-use spandrel_mavlink::telemetry::{Contact, Flight, Frame};
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::GroundTeam;
 

@@ -9,12 +9,13 @@ use crate::measures::crash::may_touch_pad;
 use crate::session::{EndReason, Moment as EndMoment, lift_off_height_m};
 use serde_json::json;
 use spandrel_mavlink::codec::Received;
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_mavlink::note;
 use spandrel_mavlink::telemetry::frame::GAP_AFTER;
 use spandrel_mavlink::telemetry::sample::{Said, Sample, SampleValue};
 use spandrel_mavlink::telemetry::timeline::Pushed;
-use spandrel_mavlink::telemetry::{Contact, Truth};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 impl Monitor {

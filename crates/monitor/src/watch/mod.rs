@@ -13,10 +13,13 @@ use crate::measures::attention::Survey;
 use crate::measures::on_path::Paths;
 use crate::session::{EndReason, EndRule};
 use spandrel_mavlink::codec::{Decoder, Encoder, Received};
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::modes::ControlSource;
+use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavAutopilot, MavMessage, MavSeverity};
 use spandrel_mavlink::telemetry::log_stream::Log;
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
-use spandrel_mavlink::telemetry::{Contact, Hand, Timeline, Truth, tlog};
+use spandrel_mavlink::telemetry::{Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
@@ -98,7 +101,7 @@ struct Live {
     on_pad: bool,
     clearance_m: Option<f64>,
     armed: Option<bool>,
-    flown_by: Option<Hand>,
+    flown_by: Option<ControlSource>,
     on_ground: bool,
     lift_off: Option<SimTime>,
     on: Option<usize>,

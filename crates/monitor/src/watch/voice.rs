@@ -1,15 +1,16 @@
 //! Speaking: cues, texts, answers, events.
 
 use super::{AUTOPILOT, COMPONENT, CUES_EVERY, Monitor, Record};
-use crate::feedback::{Moment, TaskNow, cue};
+use crate::feedback::{Moment, TaskNow};
 use crate::session::lift_off_height_m;
 use serde_json::json;
 use spandrel_mavlink::codec::{Encoder, Received};
-use spandrel_mavlink::dialect::{
-    COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA, TIMESYNC_DATA,
-};
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::truth::Truth;
+use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use spandrel_mavlink::station;
-use spandrel_mavlink::telemetry::{Contact, Truth};
 
 /// Share of a path's points that must be passed before it counts as flown (estimate: a rounded corner hides the last ones).
 const FLOWN_SHARE: f64 = 0.9;
@@ -26,11 +27,7 @@ impl Monitor {
         self.live.cues = cues;
         if changed || self.live.cues_sent.is_none_or(|sent| truth.time - sent >= CUES_EVERY) {
             self.live.cues_sent = Some(truth.time);
-            self.send(&MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA {
-                time_boot_ms: truth.time.ms() as u32,
-                value: cues,
-                name: "cues".into(),
-            }));
+            self.send(&Named::Cues(cues).message(truth.time.ms() as u32));
         }
         self.texts.put(truth.time, texts);
         while let Some(text) = self.texts.next(truth.time) {

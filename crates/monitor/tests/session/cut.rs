@@ -1,6 +1,7 @@
 //! From datagrams to frames and scores: gaps, respawns, contacts, windows, ends.
 
-use spandrel_mavlink::telemetry::{Contact, Timeline};
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::telemetry::Timeline;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::{PlacedDefect, Scenario};

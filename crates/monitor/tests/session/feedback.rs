@@ -1,9 +1,9 @@
 //! The six feedbacks on the wire, with their thresholds and times.
 
 use crate::live::{monitor_of, sent};
+use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::dialect::MavMessage;
 use spandrel_monitor::Monitor;
-use spandrel_monitor::feedback::cue;
 use spandrel_testkit::job::*;
 
 struct Watch {

@@ -1,8 +1,10 @@
 //! The values that the scoring needs beside the truth's motion (design.md): named values, on change and at rates of their own.
 
 use super::Endpoint;
-use super::streams::{AUTOPILOT, truth};
+use super::streams::AUTOPILOT;
 use super::view::View;
+use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::dialect::MavMessage;
 use spandrel_model::time::{Schedule, SimTime};
 
 /// When each is due.
@@ -30,32 +32,34 @@ impl Endpoint {
         let rates = &mut self.truth_rates;
         let mut out = Vec::new();
         if rates.contact.fire(view.now) | (s.contact != self.sent.contact) {
-            out.push(truth::named_int(view, "contact", s.contact));
+            out.push(Named::Contact(s.contact));
         }
         let slow = rates.slow.fire(view.now);
-        for (name, value, known) in [("hits", s.hits, self.sent.hits), ("respawns", s.respawns, self.sent.respawns)] {
-            if slow || value != known {
-                out.push(truth::named_int(view, name, value));
-            }
+        if slow || s.hits != self.sent.hits {
+            out.push(Named::Hits(s.hits));
+        }
+        if slow || s.respawns != self.sent.respawns {
+            out.push(Named::Respawns(s.respawns));
         }
         // Traffic that was never stopped is not spoken of.
         if slow || s.traffic != self.sent.traffic {
-            out.extend(s.traffic.iter().filter(|code| **code != 0).map(|code| truth::named_int(view, "traffic", *code)));
+            out.extend(s.traffic.into_iter().filter(|code| *code != 0).map(Named::Traffic));
         }
         if slow {
-            out.push(truth::named_int(view, "seed", s.seed));
-            out.push(truth::named_int(view, "scn_crc", s.scenario_crc));
+            out.push(Named::Seed(s.seed.cast_unsigned()));
+            out.push(Named::ScenarioCrc(s.scenario_crc));
             if self.pace != 1.0 {
-                out.push(truth::named_float(view, "pace", self.pace));
+                out.push(Named::Pace(self.pace));
             }
         }
         if rates.clearance.fire(view.now) {
-            out.push(truth::named_float(view, "clearance", s.clearance_m));
+            out.push(Named::ClearanceM(s.clearance_m));
         }
         if rates.lux.fire(view.now) {
-            out.push(truth::named_float(view, "lux", s.lux));
+            out.push(Named::Lux(s.lux));
         }
         self.sent = *s;
+        let out: Vec<MavMessage> = out.into_iter().map(|value| value.message(view.sim_ms())).collect();
         for link in self.listeners().filter(|link| !link.is_limited() && link.wants_truth()) {
             out.iter().for_each(|message| link.send(AUTOPILOT, message));
         }

@@ -9,6 +9,7 @@ use super::payload::Payload;
 use crate::autopilot::{Estimate, Landed, Status, Sticks};
 use crate::physics::{Actuators, RigidState, battery};
 use crate::sensors::Readings;
+use spandrel_mavlink::contract::contact::Contact;
 use spandrel_model::frames::{Frd, LocalNed, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;
@@ -141,8 +142,8 @@ pub struct PlanSummary {
 /// What the scoring needs beside the motion (design.md, truth for the scoring).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scoring {
-    /// 0 none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other.
-    pub contact: i32,
+    /// What is touched.
+    pub contact: Contact,
     /// Contact onsets so far.
     pub hits: i32,
     /// Times put back.
@@ -152,7 +153,7 @@ pub struct Scoring {
     /// The session's seed.
     pub seed: i32,
     /// CRC of the scenario.
-    pub scenario_crc: i32,
+    pub scenario_crc: u32,
     /// Nearest surface to the drone's centre, m.
     pub clearance_m: f64,
     /// Ambient light at the drone, lux.

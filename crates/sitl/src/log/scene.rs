@@ -46,7 +46,7 @@ impl Scene {
             let values = foxglove::Scoring {
                 clearance_m: s.clearance_m,
                 lux: Some(s.lux),
-                contact: word(s.contact),
+                contact: s.contact.word(),
                 hits: s.hits,
                 respawns: s.respawns,
                 lamp_on: view.lamp.on,
@@ -62,12 +62,6 @@ impl Scene {
         }
         out
     }
-}
-
-/// What is touched, by the wire's number (design.md, truth for the scoring).
-fn word(contact: i32) -> &'static str {
-    const WORDS: [&str; 7] = ["none", "bridge", "terrain", "water", "vehicle", "person", "other"];
-    usize::try_from(contact).ok().and_then(|code| WORDS.get(code)).copied().unwrap_or("other")
 }
 
 fn transforms(view: &View, at: u64) -> Message {

@@ -244,7 +244,7 @@ fn true_global(v: &View, row: &mut Row) -> Option<()> {
 }
 
 fn scoring(v: &View, row: &mut Row) -> Option<()> {
-    row.f32(v.scoring.clearance_m).f32(v.scoring.lux).i32(v.scoring.contact).i32(v.scoring.hits).i32(v.scoring.respawns);
+    row.f32(v.scoring.clearance_m).f32(v.scoring.lux).i32(v.scoring.contact.code()).i32(v.scoring.hits).i32(v.scoring.respawns);
     row.f32(v.gimbal.pitch_rad).bool(v.lamp.on);
     Some(())
 }

@@ -3,6 +3,7 @@
 use super::{CLEARANCE_REACH_M, Sim, SimEvent};
 use crate::autopilot::Landed;
 use crate::physics;
+use spandrel_mavlink::contract::contact::Contact;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::scenario::AfterCrash;
@@ -44,18 +45,18 @@ impl Sim {
         }
     }
 
-    /// The wire's contact code and its onsets. Touching the pad gently, near home or before lift-off, is none.
+    /// What is touched, and its onsets. Touching the pad gently, near home or before lift-off, is none.
     fn note_contact(&mut self) {
         let report = self.state.contact;
-        let code = match report.surface {
-            Some((surface, _)) if self.lifted && !self.gentle(surface, report.impact_m_s) => contact_code(surface),
-            _ => 0,
+        let contact = match report.surface {
+            Some((surface, _)) if self.lifted && !self.gentle(surface, report.impact_m_s) => contact_with(surface),
+            _ => Contact::None,
         };
-        let before = std::mem::replace(&mut self.scoring.contact, code);
+        let before = std::mem::replace(&mut self.scoring.contact, contact);
         // Who scrapes along a bridge and then hits somebody has hit somebody: that ends the session from any contact.
-        let grave = |code: i32| [contact_code(Surface::Person), contact_code(Surface::Vehicle)].contains(&code);
-        let onset = code != 0 && before == 0;
-        let worse = grave(code) && !grave(before);
+        let grave = |contact: Contact| matches!(contact, Contact::Person | Contact::Vehicle);
+        let onset = contact != Contact::None && before == Contact::None;
+        let worse = grave(contact) && !grave(before);
         if !onset && !worse {
             return;
         }
@@ -88,7 +89,7 @@ impl Sim {
     /// Landed on its feet, gently, and not in the water: it stays, and may take off again.
     fn stands(&self) -> bool {
         let landed = self.backend.builtin().is_some_and(|a| matches!(a.status().landed, Landed::OnGround | Landed::TakingOff));
-        let wet = self.scoring.contact == contact_code(Surface::Water);
+        let wet = self.scoring.contact == Contact::Water;
         landed && !wet && !self.hit_hard && !self.lies_upset()
     }
 
@@ -100,9 +101,9 @@ impl Sim {
             return;
         }
         let rigid = &self.state.rigid;
-        let touching = self.scoring.contact != 0 || self.lies_upset();
+        let touching = self.scoring.contact != Contact::None || self.lies_upset();
         let still = rigid.velocity_m_s.norm() < STILL_M_S;
-        let wet = self.scoring.contact == contact_code(Surface::Water);
+        let wet = self.scoring.contact == Contact::Water;
         if touching {
             self.touched_at = self.now;
         }
@@ -135,7 +136,7 @@ impl Sim {
         let hover = self.model.hover_rotor_rad_s();
         self.state.rigid.rotor_rad_s = [hover; physics::MAX_ROTORS];
         self.scoring.respawns += 1;
-        self.scoring.contact = 0;
+        self.scoring.contact = Contact::None;
         let attitude = Rotation::from_euler(0.0, 0.0, yaw_rad);
         let now = self.now;
         if let Some(autopilot) = self.backend.builtin_mut() {
@@ -168,16 +169,15 @@ impl Sim {
     }
 }
 
-/// design.md: 0 none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other; the pad is something else, where it is hit and not
-/// landed on.
-fn contact_code(surface: Surface) -> i32 {
+/// The pad is something else where it is hit and not landed on.
+fn contact_with(surface: Surface) -> Contact {
     match surface {
-        Surface::Bridge => 1,
-        Surface::Terrain => 2,
-        Surface::Water => 3,
-        Surface::Vehicle => 4,
-        Surface::Person => 5,
-        Surface::Other | Surface::Pad => 6,
+        Surface::Bridge => Contact::Bridge,
+        Surface::Terrain => Contact::Terrain,
+        Surface::Water => Contact::Water,
+        Surface::Vehicle => Contact::Vehicle,
+        Surface::Person => Contact::Person,
+        Surface::Other | Surface::Pad => Contact::Other,
     }
 }
 
@@ -354,7 +354,7 @@ mod tests {
                 events.extend(pass(&mut sim, 10_000));
                 assert_eq!(crashes(&events), expected, "{surface:?} at {impact_m_s} m/s: {events:?}");
                 assert!(!events.contains(&SimEvent::Respawn) && sim.ended().is_none(), "{events:?}");
-                assert_eq!(sim.scoring.contact, 0, "standing on the pad is no contact");
+                assert_eq!(sim.scoring.contact, Contact::None, "standing on the pad is no contact");
             }
         }
     }

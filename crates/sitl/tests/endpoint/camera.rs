@@ -4,7 +4,7 @@
 use spandrel_mavlink::dialect::*;
 use spandrel_model::math;
 use spandrel_testkit::plans::{home_north, item, upload};
-use spandrel_testkit::shipped::{scenario, vehicle};
+use spandrel_testkit::shipped::scenario;
 use spandrel_testkit::station::{Station, p};
 
 const CAMERA: u8 = 100;
@@ -180,7 +180,6 @@ fn wire_a_continuous_zoom_stops_when_told_and_a_reset_leads_back_to_the_wide_end
 #[test]
 fn wire_before_every_picture_stands_the_field_of_view_that_it_has() {
     let mut station = on_the_pad(ZOOMS);
-    let wide = vehicle(ZOOMS).camera;
     station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, p(&[1.0, 1.0]));
     for _ in 0..5 {
         station.run_ms(430);

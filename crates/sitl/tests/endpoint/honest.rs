@@ -92,7 +92,7 @@ fn question(sim: &mut Sim) -> i64 {
 
 #[test]
 fn wire_an_answer_moves_time_only_when_it_is_for_us_and_signed_where_signatures_are_demanded() {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(SIDECAR, LinkKind::Payload, true);
     let token = question(&mut sim);
     let mut encoder = Encoder::new(1, 191);

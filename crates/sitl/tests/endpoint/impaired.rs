@@ -211,7 +211,7 @@ const ASKED_AGAIN_MS: i64 = 250;
 fn asked_or_acknowledged(station: &mut Station) -> Vec<(i64, Option<u16>)> {
     let mut heard = Vec::new();
     for _ in 0..1_500 {
-        station.sim.handle_timeout(station.sim.poll_timeout());
+        station.vehicle.sim.handle_timeout(station.vehicle.sim.poll_timeout());
         let now_ms = station.sim.now().ms();
         while let Some(transmit) = station.sim.poll_transmit() {
             let frames = Decoder::new().datagram(&transmit.bytes);
@@ -303,7 +303,7 @@ impl Uploader {
 
     /// What the vehicle sends in the next millisecond.
     fn tick(&mut self) -> Vec<MavMessage> {
-        self.station.sim.handle_timeout(self.station.sim.poll_timeout());
+        self.station.vehicle.sim.handle_timeout(self.station.vehicle.sim.poll_timeout());
         let sent: Vec<_> = std::iter::from_fn(|| self.station.sim.poll_transmit()).collect();
         sent.iter().flat_map(|transmit| Decoder::new().datagram(&transmit.bytes)).filter_map(|frame| frame.message).collect()
     }

@@ -46,7 +46,7 @@ fn echoes(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(LinkId, [u
     let mut out = Vec::new();
     for _ in 0..4 {
         send(station);
-        station.sim.handle_timeout(station.sim.now() + SimTime::from_ms(20));
+        station.vehicle.sim.handle_timeout(station.vehicle.sim.now() + SimTime::from_ms(20));
         while let Some(transmit) = station.sim.poll_transmit() {
             for frame in Decoder::new().datagram(&transmit.bytes) {
                 if let Some(MavMessage::RC_CHANNELS(c)) = frame.message {
@@ -107,7 +107,7 @@ fn wire_a_sidecar_hears_every_sample_of_the_sticks_as_it_was_sent() {
             station.sticks(sample.1, 0, 500, 0);
             sent.push(sample);
         }
-        station.sim.handle_timeout(station.sim.now() + SimTime::from_ms(i64::from(1 + 7 * (at % 3))));
+        station.vehicle.sim.handle_timeout(station.vehicle.sim.now() + SimTime::from_ms(i64::from(1 + 7 * (at % 3))));
         while let Some(transmit) = station.sim.poll_transmit() {
             let frames = Decoder::new().datagram(&transmit.bytes).into_iter().filter(|_| transmit.link == sidecar);
             heard.extend(frames.filter_map(|frame| match frame.message {

@@ -47,7 +47,7 @@ fn command(command: MavCmd, param1: f32) -> MavMessage {
 /// An answer to a question about time goes to who has asked it; only the answer to our own question stays here.
 #[test]
 fn wire_answers_to_others_questions_about_time_go_on_from_a_link_in_step() {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let (sidecar, other) = (LinkId(7), LinkId(8));
     sim.open_link(sidecar, LinkKind::Payload, true);
     sim.open_link(other, LinkKind::Sdk, false);
@@ -99,7 +99,7 @@ fn share_of_a_tick(first: bool) -> usize {
 #[test]
 fn wire_a_flood_beside_fifty_peers_is_bounded_in_each_tick_and_they_miss_nothing() {
     const TICKS: i64 = 1_000;
-    let mut calm = Station::new("drill-hover", 7).sim;
+    let mut calm = Station::new("drill-hover", 7).vehicle.sim;
     let peers: Vec<LinkId> = (10..60).map(LinkId).collect();
     peers.iter().chain([&FLOOD]).for_each(|peer| calm.open_link(*peer, LinkKind::GroundStation, false));
     let mut flooded = calm.clone();
@@ -150,7 +150,7 @@ fn wire_a_flood_beside_fifty_peers_is_bounded_in_each_tick_and_they_miss_nothing
 
 #[test]
 fn wire_fifty_peers_at_once_get_everything_that_one_gets() {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let peers: Vec<LinkId> = (10..60).map(LinkId).collect();
     peers.iter().for_each(|peer| sim.open_link(*peer, LinkKind::GroundStation, false));
     let mut encoders: Vec<Encoder> = (0..50).map(|k| Encoder::new(100 + k, 190)).collect();
@@ -178,7 +178,7 @@ fn wire_fifty_peers_at_once_get_everything_that_one_gets() {
 
 #[test]
 fn wire_a_radio_gets_what_it_carries_and_answers_come_soon() {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(RADIO, LinkKind::Serial, false);
     sim.limit_link(RADIO, RADIO_BYTES_S);
     let mut encoder = Encoder::new(250, 190);
@@ -241,7 +241,7 @@ fn wire_a_client_that_speaks_mavlink_1_is_obeyed() {
 
 #[test]
 fn wire_nobody_hands_on_what_sets_up_signatures() {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(FLOOD, LinkKind::GroundStation, false);
     let mut encoder = Encoder::new(77, 190);
     let secret = MavMessage::SETUP_SIGNING(SETUP_SIGNING_DATA { secret_key: [7; 32], ..Default::default() });
@@ -254,7 +254,7 @@ fn wire_nobody_hands_on_what_sets_up_signatures() {
 
 #[test]
 fn wire_a_datagram_longer_than_any_clients_is_dropped_whole() {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let question = Encoder::new(255, 190).encode(&question(1));
     sim.handle_datagram(GCS, &question.repeat(BYTES_A_TICK / question.len() + 1));
     let answered = run_ms(&mut sim, 5)[&GCS].iter().filter(|f| f.message_id == 111 && f.system_id == 1).count();
@@ -264,7 +264,7 @@ fn wire_a_datagram_longer_than_any_clients_is_dropped_whole() {
 /// Whoever is known by a source address alone gets answers, and streams once a heartbeat has come from there: one byte drew 266 kB.
 #[test]
 fn regress_a_peer_that_nobody_called_gets_no_streams_before_its_heartbeat() {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let peer = LinkId(9);
     sim.open_link(peer, LinkKind::Payload, false);
     sim.await_heartbeat(peer);

@@ -15,7 +15,7 @@ fn key() -> Key {
 }
 
 fn signed_vehicle() -> Sim {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(SIDECAR, LinkKind::Payload, false);
     sim.demand_signatures(key(), NOW, &[]);
     sim.tell_stamp(NOW);
@@ -98,7 +98,7 @@ fn wire_a_sidecar_without_the_key_is_heard_by_others_and_commands_nothing() {
 
 #[test]
 fn wire_an_unsigned_frame_acts_on_trusted_kinds_of_links_alone_and_a_forged_one_nowhere() {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(SIDECAR, LinkKind::Sdk, false);
     sim.demand_signatures(key(), NOW, &[LinkKind::Sdk]);
     let mut encoder = Encoder::new(255, 190);

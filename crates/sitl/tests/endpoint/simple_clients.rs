@@ -258,7 +258,7 @@ fn answer(clock: i64, token: i64) -> Vec<u8> {
 
 #[test]
 fn regress_lockstep_begins_with_a_peers_first_answer() {
-    let mut sim = Station::new("drill-hover", 7).sim;
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(PEER, LinkKind::Sdk, true);
     let heard = |sim: &mut spandrel_sitl::sim::Sim| -> Vec<MavMessage> {
         let sent = std::iter::from_fn(|| sim.poll_transmit()).filter(|t| t.link == PEER);

@@ -8,7 +8,7 @@ pub use outcome::Outcome;
 
 use super::questionnaire::{Answers, Scales, scales};
 use serde::{Deserialize, Serialize};
-use spandrel_mavlink::telemetry::Contact;
+use spandrel_mavlink::contract::contact::Contact;
 use spandrel_model::scenario::{PlacedDefect, Scenario, TaskKind};
 use spandrel_monitor::Graded;
 use spandrel_monitor::folder::sha256_hex;

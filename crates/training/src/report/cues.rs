@@ -2,11 +2,11 @@
 
 use super::Scene;
 use super::track::Step;
+use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::telemetry::log_stream::Log;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_monitor::feedback::cue;
 use spandrel_monitor::watch::build_site;
 use spandrel_monitor::{Monitor, MonitorConfig, Record};
 use std::ops::ControlFlow;

@@ -1,6 +1,7 @@
 //! Names and numbers as people read them. Nothing is rounded before it comes here.
 
-use spandrel_mavlink::telemetry::{Contact, Hand};
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::modes::ControlSource;
 use spandrel_monitor::session::EndReason;
 
 /// A number with so many digits after the point; a dash for what is not known.
@@ -66,12 +67,12 @@ pub fn contact(with: Contact) -> &'static str {
 
 /// Who flew.
 #[must_use]
-pub fn hand(by: Option<Hand>) -> &'static str {
+pub fn hand(by: Option<ControlSource>) -> &'static str {
     match by {
-        Some(Hand::Pilot) => "pilot",
-        Some(Hand::Mission) => "mission",
-        Some(Hand::Script) => "script",
-        Some(Hand::Autopilot) => "autopilot",
+        Some(ControlSource::Pilot) => "pilot",
+        Some(ControlSource::Mission) => "mission",
+        Some(ControlSource::Script) => "script",
+        Some(ControlSource::Autopilot) => "autopilot",
         None => "not known",
     }
 }

@@ -3,13 +3,16 @@
 
 use serde_json::{Value, json};
 use spandrel_mavlink::codec::Received;
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavAutopilot, MavMessage, MavSeverity};
+use spandrel_mavlink::telemetry::sample;
 use spandrel_mavlink::telemetry::sample::{Said, Sample, SampleValue};
-use spandrel_mavlink::telemetry::{Contact, Truth, sample};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::gates::Gates;
-use spandrel_monitor::feedback::cue;
 use spandrel_monitor::measures::on_path::Paths;
 use std::collections::VecDeque;
 
@@ -17,16 +20,6 @@ use std::collections::VecDeque;
 const NOWHERE: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
 /// Words that are shown, the newest last.
 const WORDS: usize = 40;
-/// Cues with their names, as the report has them.
-const CUES: [(i32, &str); 6] = [
-    (cue::CRASH, "crash"),
-    (cue::TOO_CLOSE, "too close"),
-    (cue::SPEEDING, "speeding"),
-    (cue::OFF_PATH, "off path"),
-    (cue::BATTERY_RED, "battery red"),
-    (cue::BATTERY_YELLOW, "battery yellow"),
-];
-
 /// What identifies the job that is flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JobKey {
@@ -126,10 +119,12 @@ impl Watch {
                 let words: String = text.text.to_str().unwrap_or_default().chars().filter(|c| !c.is_control()).collect();
                 self.say(kind, words);
             }
-            Some(MavMessage::NAMED_VALUE_INT(value)) if value.name.to_str().is_ok_and(|name| name == "cues") => {
-                self.cues = value.value
+            Some(message) => {
+                if let Some(Named::Cues(cues)) = Named::of(message) {
+                    self.cues = cues;
+                }
             }
-            _ => {}
+            None => {}
         }
         // Before the job is known only what needs no place on the earth is read right; the rest comes again.
         let nowhere = LocalPlane::new(NOWHERE);
@@ -198,7 +193,7 @@ impl Watch {
             json!([e, n, u])
         });
         let task = self.on.and_then(|on| self.job.as_ref()?.tasks.get(on)).map(|(id, name)| format!("{id} · {name}"));
-        let cues: Vec<&str> = CUES.iter().filter(|(bit, _)| self.cues & bit != 0).map(|(_, name)| *name).collect();
+        let cues: Vec<&str> = cue::ALL.iter().filter(|(bit, _)| self.cues & bit != 0).map(|(_, name)| *name).collect();
         let words: Vec<Value> = self
             .words
             .iter()

@@ -4,8 +4,8 @@
 use super::Names;
 use super::menu::{self, Row, STEP};
 use super::sheet::{Pen, SMALL, TITLE, width_of};
-use crate::hud::state::cue;
 use crate::hud::{Colour, Gnss, Hud, Item, Point, Side, Track, layout};
+use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
 
 /// Pictures by name, JPEG.

@@ -5,9 +5,10 @@ use super::brief::brief;
 use super::map::map;
 use super::messages::messages;
 use super::pane::Pane;
-use super::state::{Hud, cue};
+use super::state::Hud;
 use super::status::status;
 use super::{Colour, Item, Side};
+use spandrel_mavlink::contract::cue;
 use spandrel_model::numbers::beside_limit;
 
 /// Distance of blocks from the picture's edges.

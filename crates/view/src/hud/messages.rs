@@ -4,8 +4,9 @@ use super::icons::Shape;
 use super::layout::{EDGE, GAP, M_S_PER_MPH, MIDDLE};
 use super::letters::{width_of, wrapped};
 use super::pane::Pane;
-use super::state::{Hud, cue};
+use super::state::Hud;
 use super::{Colour, Item, Side, map};
+use spandrel_mavlink::contract::cue;
 
 /// Width of a sign, mean of capitals.
 const SIGN: f64 = 0.0205;

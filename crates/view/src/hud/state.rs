@@ -83,17 +83,3 @@ pub struct Hud {
     /// Paths on the map; none: the map is hidden.
     pub tracks: Vec<Track>,
 }
-
-/// Bits of the wire's `cues`.
-pub mod cue {
-    /// Battery is red and flashes.
-    pub const BATTERY_RED: i32 = 1 << 1;
-    /// Too fast.
-    pub const SPEEDING: i32 = 1 << 2;
-    /// Off the path, but near it.
-    pub const OFF_PATH: i32 = 1 << 3;
-    /// Something is too close.
-    pub const TOO_CLOSE: i32 = 1 << 4;
-    /// Something was hit.
-    pub const CRASH: i32 = 1 << 5;
-}

@@ -1,7 +1,7 @@
 //! The words of the display, their colours and places.
 
-use super::state::cue;
 use super::*;
+use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
 
 const WIDE: f64 = 16.0 / 9.0;

@@ -1,7 +1,7 @@
 //! Poses of a vehicle that says no truth, from its own estimate: ATTITUDE or ATTITUDE_QUATERNION, and GLOBAL_POSITION_INT.
 
+use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::MavMessage;
-use spandrel_mavlink::telemetry::Truth;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;

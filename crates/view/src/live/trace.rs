@@ -2,7 +2,7 @@
 
 use super::series::Series;
 use crate::stage::Turn;
-use spandrel_mavlink::telemetry::Truth;
+use spandrel_mavlink::contract::truth::Truth;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
@@ -15,9 +15,6 @@ pub(super) const GAP: SimTime = SimTime::from_ms(1_000);
 /// The lens is drawn so much later than everything else: it is told at 5 Hz, and with what the picture is behind anyway
 /// ([`BEHIND_S`](super::clock::BEHIND_S)) its next telling has come by then, 20 ms of jitter included (estimate).
 const LENS_BEHIND: SimTime = SimTime::from_ms(160);
-/// A step that no aircraft flies, m and m/s: it was put back.
-const JUMP_M: f64 = 3.0;
-const JUMP_M_S: f64 = 40.0;
 
 /// Where the aircraft was and how it moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -136,7 +133,7 @@ pub(super) fn share(from: SimTime, to: SimTime, at: SimTime) -> f64 {
 
 fn continues(before: &Truth, next: &Truth) -> bool {
     let span = next.time - before.time;
-    span <= GAP && (next.position_m - before.position_m).norm() <= JUMP_M + JUMP_M_S * span.s()
+    span <= GAP && !before.jumps_to(next)
 }
 
 #[cfg(test)]

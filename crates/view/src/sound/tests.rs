@@ -2,7 +2,7 @@
 
 use super::propellers::BLADES;
 use super::{Heard, RATE_HZ, Settings, Sound, spoken};
-use crate::hud::state::cue;
+use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 

@@ -1,7 +1,7 @@
 //! Warnings as tones that are told apart by pitch and rhythm; the gravest one alone is heard.
 
 use super::RATE_HZ;
-use crate::hud::state::cue;
+use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
 
 /// A tone grows and falls within this, s: no click, and still a clear beginning.

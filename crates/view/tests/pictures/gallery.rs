@@ -1,6 +1,7 @@
 //! The pictures that a stranger should be able to name, held against committed ones.
 
 use super::compare::{Difference, beside, held, held_at};
+use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
@@ -9,7 +10,6 @@ use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk, sunny};
 use spandrel_view::arrange::fitted_px;
 use spandrel_view::camera::Eye;
-use spandrel_view::hud::state::cue;
 use spandrel_view::hud::{self, Gnss, Hud, Track};
 use spandrel_view::picture::Picture;
 use spandrel_view::scene::defects::patch;

@@ -2,35 +2,21 @@
 
 use super::super::LinkKind;
 use super::super::view::View;
-use spandrel_mavlink::dialect::{
-    HIL_STATE_QUATERNION_DATA, MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA, RC_CHANNELS_DATA,
-};
-use spandrel_mavlink::units::{cm, deg_e7, milli_g, mm};
+use spandrel_mavlink::contract::sticks;
+use spandrel_mavlink::contract::truth::Published;
+use spandrel_mavlink::dialect::{MavMessage, RC_CHANNELS_DATA};
 
 pub(super) fn state(v: &View) -> Option<MavMessage> {
-    let geo = v.true_geo();
-    let w = v.truth.rates_rad_s;
-    let velocity = v.truth.velocity_m_s;
-    let force = v.specific_force_m_s2;
-    let air = (velocity - v.wind_m_s).norm();
-    Some(MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
-        time_usec: v.sim_us(),
-        attitude_quaternion: v.truth.attitude.wxyz().map(|c| c as f32),
-        rollspeed: w.forward() as f32,
-        pitchspeed: w.right() as f32,
-        yawspeed: w.down() as f32,
-        lat: deg_e7(geo.latitude_deg),
-        lon: deg_e7(geo.longitude_deg),
-        alt: mm(geo.altitude_m),
-        vx: cm(velocity.north()),
-        vy: cm(velocity.east()),
-        vz: cm(velocity.down()),
-        ind_airspeed: cm(air).unsigned_abs(),
-        true_airspeed: cm(air).unsigned_abs(),
-        xacc: milli_g(force.forward()),
-        yacc: milli_g(force.right()),
-        zacc: milli_g(force.down()),
-    }))
+    let published = Published {
+        time_us: v.sim_us(),
+        place: v.true_geo(),
+        velocity_m_s: v.truth.velocity_m_s,
+        ned_from_frd: v.truth.attitude,
+        rates_rad_s: v.truth.rates_rad_s,
+        specific_force_m_s2: v.specific_force_m_s2,
+        airspeed_m_s: (v.truth.velocity_m_s - v.wind_m_s).norm(),
+    };
+    Some(MavMessage::HIL_STATE_QUATERNION(published.message()))
 }
 
 /// Sticks as received: roll, pitch, throttle, yaw in microseconds. A sidecar gets 1500 + 500 x axis, forward positive; everybody else
@@ -39,10 +25,9 @@ pub(super) fn sticks(v: &View) -> Option<MavMessage> {
     if v.to != LinkKind::Payload && v.flavour.dialect_of_ardupilot {
         return Some(channels(v));
     }
-    let sticks = v.sticks?;
-    let us = |axis: f64| (1500.0 + 500.0 * axis).round() as u16;
+    let held = v.sticks?;
     let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = match v.to {
-        LinkKind::Payload => [us(sticks.right), us(sticks.forward), us(sticks.up), us(sticks.yaw)],
+        LinkKind::Payload => sticks::to_us([held.forward, held.right, held.up, held.yaw]),
         LinkKind::GroundStation | LinkKind::Sdk | LinkKind::Tcp | LinkKind::Serial => v.pulses_us?,
     };
     Some(MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {
@@ -90,16 +75,4 @@ fn channels(v: &View) -> MavMessage {
         rssi: u8::MAX,
         ..Default::default()
     })
-}
-
-/// A named whole number.
-#[must_use]
-pub fn named_int(v: &View, name: &str, value: i32) -> MavMessage {
-    MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: v.sim_ms(), value, name: name.into() })
-}
-
-/// A named number.
-#[must_use]
-pub fn named_float(v: &View, name: &str, value: f64) -> MavMessage {
-    MavMessage::NAMED_VALUE_FLOAT(NAMED_VALUE_FLOAT_DATA { time_boot_ms: v.sim_ms(), value: value as f32, name: name.into() })
 }

@@ -169,7 +169,7 @@ fn rows(review: &Review) -> Vec<Strip> {
 
 fn hands(review: &Review) -> Strip {
     let stretch = |s: &spandrel_monitor::assessment::Stretch| {
-        let class = if s.by == Some(spandrel_mavlink::telemetry::Hand::Pilot) { "h-pilot" } else { "h-other" };
+        let class = if s.by == Some(spandrel_mavlink::contract::modes::ControlSource::Pilot) { "h-pilot" } else { "h-other" };
         let t_s = |frame: u32| review.t_s((frame as usize).saturating_sub(1));
         (class.to_owned(), t_s(s.from_frame), t_s(s.to_frame), words::hand(s.by).to_owned())
     };

@@ -6,7 +6,7 @@ use crate::report::plots::bars::{self, Counts, Row};
 use crate::report::table::{Cell, Table};
 use crate::report::words;
 use maud::{Markup, html};
-use spandrel_mavlink::telemetry::Contact;
+use spandrel_mavlink::contract::contact::Contact;
 use spandrel_monitor::score::completion::TaskState;
 
 /// Kinds of crashes in the order of the bars.

@@ -4,10 +4,9 @@ use super::map::{Map, TRACK_WITHIN};
 use super::{line, simplified};
 use crate::report::Review;
 use crate::report::words;
+use spandrel_mavlink::contract::continuity::is_jump;
 use spandrel_mavlink::telemetry::Frame;
 
-/// A step this long between two frames is no flight: the drone was put back, m.
-const JUMP_M: f64 = 2.5;
 /// Limits of the clearance colours, m: below the first is closest.
 pub const CLEARANCES_M: [f64; 3] = [1.0, 2.5, 5.0];
 
@@ -27,6 +26,12 @@ pub(super) fn plain(review: &Review, map: &Map, shown: &dyn Fn(&Frame) -> bool) 
 }
 
 /// Path data by colour.
+/// The drone was put back between two frames.
+fn jumped(before: &Frame, next: &Frame) -> bool {
+    let step_m = (next.position_m - before.position_m).norm();
+    is_jump(step_m, before.velocity_m_s.norm().max(next.velocity_m_s.norm()), next.time - before.time)
+}
+
 fn pieces(
     review: &Review,
     map: &Map,
@@ -44,7 +49,7 @@ fn pieces(
         run.clear();
     };
     for (i, frame) in review.frames.iter().enumerate() {
-        let broken = i > 0 && (frame.position_m - review.frames[i - 1].position_m).norm() > JUMP_M;
+        let broken = i > 0 && jumped(&review.frames[i - 1], frame);
         if broken || !shown(frame) {
             close(&mut run, colour);
             if !shown(frame) {

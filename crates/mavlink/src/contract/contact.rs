@@ -1,0 +1,96 @@
+//! What the aircraft touches: the codes of the named value `contact`.
+
+use serde::Serialize;
+
+/// What the aircraft touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Default)]
+#[serde(rename_all = "lowercase")]
+pub enum Contact {
+    /// Nothing.
+    #[default]
+    None,
+    /// A bridge.
+    Bridge,
+    /// The ground.
+    Terrain,
+    /// The water.
+    Water,
+    /// A car or truck.
+    Vehicle,
+    /// A pedestrian or the crew.
+    Person,
+    /// Anything else, and every code that is not known here.
+    Other,
+}
+
+impl Contact {
+    /// All of them, by code.
+    pub const ALL: [Self; 7] = [Self::None, Self::Bridge, Self::Terrain, Self::Water, Self::Vehicle, Self::Person, Self::Other];
+
+    /// From the code on the wire.
+    #[must_use]
+    pub fn from_code(code: i32) -> Self {
+        usize::try_from(code).ok().and_then(|code| Self::ALL.get(code)).copied().unwrap_or(Self::Other)
+    }
+
+    /// The code on the wire.
+    #[must_use]
+    pub fn code(self) -> i32 {
+        match self {
+            Self::None => 0,
+            Self::Bridge => 1,
+            Self::Terrain => 2,
+            Self::Water => 3,
+            Self::Vehicle => 4,
+            Self::Person => 5,
+            Self::Other => 6,
+        }
+    }
+
+    /// The word in exported files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Bridge => "bridge",
+            Self::Terrain => "terrain",
+            Self::Water => "water",
+            Self::Vehicle => "vehicle",
+            Self::Person => "person",
+            Self::Other => "other",
+        }
+    }
+
+    /// Of several contacts at once the one with the highest severity is published: person, vehicle, bridge, terrain, water, other, none.
+    #[must_use]
+    pub fn severity(self) -> u8 {
+        match self {
+            Self::None => 0,
+            Self::Other => 1,
+            Self::Water => 2,
+            Self::Terrain => 3,
+            Self::Bridge => 4,
+            Self::Vehicle => 5,
+            Self::Person => 6,
+        }
+    }
+
+    /// Counted by the paper's X_o: neither a person nor a vehicle.
+    #[must_use]
+    pub fn is_other_crash(self) -> bool {
+        matches!(self, Self::Bridge | Self::Terrain | Self::Water | Self::Other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_codes_come_back_and_unknown_ones_are_other() {
+        for contact in Contact::ALL {
+            assert_eq!(Contact::from_code(contact.code()), contact);
+        }
+        assert_eq!([7, -1].map(Contact::from_code), [Contact::Other; 2]);
+    }
+}

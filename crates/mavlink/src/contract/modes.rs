@@ -1,0 +1,120 @@
+//! Flight modes by their numbers: PX4's layout (`px4_custom_mode.h`: main mode in the third byte, sub-mode in the fourth) and ArduCopter's
+//! (`mode.h`). Names are those that ground stations show.
+
+use serde::Serialize;
+
+/// What controls the aircraft.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ControlSource {
+    /// A person at the sticks.
+    Pilot,
+    /// The uploaded mission.
+    Mission,
+    /// A program's external setpoints.
+    Script,
+    /// The autopilot's own behavior: hold, take-off, return, land.
+    Autopilot,
+}
+
+use ControlSource::{Autopilot, Mission, Pilot, Script};
+
+/// MAV_AUTOPILOT_ARDUPILOTMEGA.
+const ARDUPILOT: u8 = 3;
+
+/// PX4: main mode, sub-mode (`None`: any other), name, what controls the aircraft.
+const PX4: [(u8, Option<u8>, &str, ControlSource); 14] = [
+    (1, None, "Manual", Pilot),
+    (2, None, "Altitude", Pilot),
+    (3, Some(1), "Orbit", Autopilot),
+    (3, None, "Position", Pilot),
+    (4, Some(2), "Take-off", Autopilot),
+    (4, Some(3), "Hold", Autopilot),
+    (4, Some(4), "Mission", Mission),
+    (4, Some(5), "Return", Autopilot),
+    (4, Some(6), "Land", Autopilot),
+    (4, Some(8), "Follow", Autopilot),
+    (4, None, "Auto", Autopilot),
+    (5, None, "Acro", Pilot),
+    (6, None, "Offboard", Script),
+    (7, None, "Stabilized", Pilot),
+];
+
+/// ArduCopter: number, name, what controls the aircraft.
+const COPTER: [(u32, &str, ControlSource); 15] = [
+    (0, "Stabilize", Pilot),
+    (1, "Acro", Pilot),
+    (2, "Alt Hold", Pilot),
+    (3, "Auto", Mission),
+    (4, "Guided", Script),
+    (5, "Loiter", Pilot),
+    (6, "RTL", Autopilot),
+    (7, "Circle", Autopilot),
+    (9, "Land", Autopilot),
+    (16, "PosHold", Pilot),
+    (17, "Brake", Autopilot),
+    (20, "Guided", Script),
+    (21, "Smart RTL", Autopilot),
+    (23, "Follow", Autopilot),
+    (27, "Auto RTL", Autopilot),
+];
+
+/// Name and control source of a mode number; `None` when it is not known. A vehicle that names no autopilot is read as PX4, as SDKs do.
+fn known(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource)> {
+    if autopilot == ARDUPILOT {
+        return COPTER.iter().find(|(number, ..)| *number == custom_mode).map(|(_, name, source)| (*name, *source));
+    }
+    let [_, _, main, sub] = custom_mode.to_le_bytes();
+    let row = PX4.iter().find(|(m, s, ..)| *m == main && s.is_none_or(|s| s == sub));
+    row.map(|(.., name, source)| (*name, *source))
+}
+
+/// The mode's name as ground stations show it, or its number.
+#[must_use]
+pub fn name(autopilot: u8, custom_mode: u32) -> String {
+    known(autopilot, custom_mode).map_or_else(|| format!("mode {custom_mode}"), |(name, _)| name.to_owned())
+}
+
+impl ControlSource {
+    /// From HEARTBEAT's autopilot and custom mode; a mode that is not known counts as flown by hand.
+    #[must_use]
+    pub fn of(autopilot: u8, custom_mode: u32) -> Self {
+        known(autopilot, custom_mode).map_or(Self::Pilot, |(_, source)| source)
+    }
+
+    /// The word in records.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pilot => "pilot",
+            Self::Mission => "mission",
+            Self::Script => "script",
+            Self::Autopilot => "autopilot",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn val_modes_of_both_autopilots_name_what_controls_the_aircraft() {
+        for (mode, source) in [(3 << 16, Pilot), (4 << 24 | 4 << 16, Mission), (5 << 24 | 4 << 16, Autopilot), (6 << 16, Script)]
+        {
+            assert_eq!(ControlSource::of(12, mode), source);
+            assert_eq!(ControlSource::of(0, mode), source);
+        }
+        for (mode, source) in [(5, Pilot), (16, Pilot), (3, Mission), (4, Script), (6, Autopilot), (7, Autopilot), (99, Pilot)] {
+            assert_eq!(ControlSource::of(3, mode), source);
+        }
+    }
+
+    #[test]
+    fn exact_modes_have_the_names_of_their_ground_stations() {
+        assert_eq!(name(12, 4 << 16 | 5 << 24), "Return");
+        assert_eq!(name(12, 4 << 16 | 99 << 24), "Auto");
+        assert_eq!(name(3, 5), "Loiter");
+        assert_eq!(name(3, 99), "mode 99");
+    }
+}

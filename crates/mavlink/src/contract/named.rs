@@ -1,0 +1,142 @@
+//! Named values: what the scoring needs beside motion, and the monitor's cues.
+//!
+//! Whole numbers travel as NAMED_VALUE_INT, others as NAMED_VALUE_FLOAT. `time_boot_ms` is simulation time.
+
+use super::contact::Contact;
+use crate::dialect::{MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA};
+
+/// A named value and what it says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Named {
+    /// `contact`: what is touched from now on, the most severe of several. On change and at 10 Hz.
+    Contact(Contact),
+    /// `hits`: onsets of contact since simulation start, so that none is lost between two `contact`s. On change and every 5 s.
+    Hits(i32),
+    /// `respawns`: how often the aircraft was put back. On change and every 5 s.
+    Respawns(i32),
+    /// `traffic`: when traffic was stopped (negative) or let go, ms since simulation start. On change and every 5 s, once it was stopped.
+    Traffic(i32),
+    /// `seed`: the session's seed; the field's 32 bits are read as unsigned. Every 5 s.
+    Seed(u32),
+    /// `scn_crc`: CRC-32 of the scenario that the simulator runs. Every 5 s.
+    ScenarioCrc(u32),
+    /// `clearance`: distance from the drone's center to the nearest surface, m, the pad left out. At 30 Hz.
+    ClearanceM(f64),
+    /// `lux`: ambient light at the drone, lx. For displays only. At 5 Hz.
+    Lux(f64),
+    /// `pace`: simulation seconds in a second, where it is not 1. Every 5 s.
+    Pace(f64),
+    /// `cues`: the monitor's feedback that is on, bits of [`super::cue`]. On change and at 5 Hz.
+    Cues(i32),
+}
+
+impl Named {
+    /// The name on the wire.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Contact(_) => "contact",
+            Self::Hits(_) => "hits",
+            Self::Respawns(_) => "respawns",
+            Self::Traffic(_) => "traffic",
+            Self::Seed(_) => "seed",
+            Self::ScenarioCrc(_) => "scn_crc",
+            Self::ClearanceM(_) => "clearance",
+            Self::Lux(_) => "lux",
+            Self::Pace(_) => "pace",
+            Self::Cues(_) => "cues",
+        }
+    }
+
+    /// The message at a simulation time, ms modulo 2^32.
+    #[must_use]
+    pub fn message(self, time_boot_ms: u32) -> MavMessage {
+        let name = self.name();
+        match self {
+            Self::Contact(contact) => int(time_boot_ms, name, contact.code()),
+            Self::Hits(value) | Self::Respawns(value) | Self::Traffic(value) | Self::Cues(value) => {
+                int(time_boot_ms, name, value)
+            }
+            Self::Seed(value) | Self::ScenarioCrc(value) => int(time_boot_ms, name, value.cast_signed()),
+            Self::ClearanceM(value) | Self::Lux(value) | Self::Pace(value) => float(time_boot_ms, name, value),
+        }
+    }
+
+    /// From a NAMED_VALUE_INT or NAMED_VALUE_FLOAT; `None` for other messages, for other names and for numbers that are not finite.
+    #[must_use]
+    pub fn of(message: &MavMessage) -> Option<Self> {
+        match message {
+            MavMessage::NAMED_VALUE_INT(named) => Self::from_int(named),
+            MavMessage::NAMED_VALUE_FLOAT(named) => Self::from_float(named),
+            _ => None,
+        }
+    }
+
+    /// From a NAMED_VALUE_INT.
+    #[must_use]
+    pub fn from_int(named: &NAMED_VALUE_INT_DATA) -> Option<Self> {
+        let value = named.value;
+        Some(match named.name.to_str().ok()? {
+            "contact" => Self::Contact(Contact::from_code(value)),
+            "hits" => Self::Hits(value),
+            "respawns" => Self::Respawns(value),
+            "traffic" => Self::Traffic(value),
+            "seed" => Self::Seed(value.cast_unsigned()),
+            "scn_crc" => Self::ScenarioCrc(value.cast_unsigned()),
+            "cues" => Self::Cues(value),
+            _ => return None,
+        })
+    }
+
+    /// From a NAMED_VALUE_FLOAT.
+    #[must_use]
+    pub fn from_float(named: &NAMED_VALUE_FLOAT_DATA) -> Option<Self> {
+        let value = f64::from(named.value);
+        if !value.is_finite() {
+            return None;
+        }
+        Some(match named.name.to_str().ok()? {
+            "clearance" => Self::ClearanceM(value),
+            "lux" => Self::Lux(value),
+            "pace" => Self::Pace(value),
+            _ => return None,
+        })
+    }
+}
+
+fn int(time_boot_ms: u32, name: &str, value: i32) -> MavMessage {
+    MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms, value, name: name.into() })
+}
+
+fn float(time_boot_ms: u32, name: &str, value: f64) -> MavMessage {
+    MavMessage::NAMED_VALUE_FLOAT(NAMED_VALUE_FLOAT_DATA { time_boot_ms, value: value as f32, name: name.into() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_named_value_comes_back() {
+        let all = [
+            Named::Contact(Contact::Person),
+            Named::Hits(3),
+            Named::Respawns(-1),
+            Named::Traffic(-95_000),
+            Named::Seed(u32::MAX),
+            Named::ScenarioCrc(0xC0FF_EE00),
+            Named::ClearanceM(2.25),
+            Named::Lux(18_000.0),
+            Named::Pace(4.0),
+            Named::Cues(33),
+        ];
+        for value in all {
+            assert_eq!(Named::of(&value.message(7)), Some(value), "{}", value.name());
+            // MAVLink's field.
+            assert!(value.name().len() <= 10);
+        }
+        assert_eq!(Named::of(&float(7, "clearance", f64::NAN)), None);
+        assert_eq!(Named::of(&int(7, "clearance", 1)), None, "the type is part of the contract");
+        assert_eq!(Named::of(&int(7, "unknown", 1)), None);
+    }
+}

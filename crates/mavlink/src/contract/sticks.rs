@@ -1,0 +1,51 @@
+//! Stick positions on the wire: RC_CHANNELS 1 to 4 are roll, pitch, throttle and yaw, 1500 us at center and 500 us to full travel, forward,
+//! right, up and clockwise positive.
+
+/// Microseconds at center.
+const CENTER_US: i16 = 1500;
+/// Microseconds from center to full travel.
+const TRAVEL_US: i16 = 500;
+
+/// Stick positions in steps of the wire: forward, right, up, clockwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sticks([i16; 4]);
+
+impl Sticks {
+    /// From the pulse widths of RC_CHANNELS 1 to 4, us: roll, pitch, throttle, yaw. Widths beyond full travel count as full.
+    #[must_use]
+    pub fn from_us(channels: [u16; 4]) -> Self {
+        let [right, forward, up, clockwise] = channels.map(|us| {
+            let off_center = i16::try_from(us).unwrap_or(i16::MAX) - CENTER_US;
+            off_center.clamp(-TRAVEL_US, TRAVEL_US)
+        });
+        Self([forward, right, up, clockwise])
+    }
+
+    /// Forward, right, up, clockwise, each in [-1, 1].
+    #[must_use]
+    pub fn axes(self) -> [f64; 4] {
+        self.0.map(|step| f64::from(step) / f64::from(TRAVEL_US))
+    }
+}
+
+/// Pulse widths of RC_CHANNELS 1 to 4, us, for stick positions forward, right, up and clockwise in [-1, 1].
+#[must_use]
+pub fn to_us([forward, right, up, clockwise]: [f64; 4]) -> [u16; 4] {
+    [right, forward, up, clockwise].map(|axis| (f64::from(CENTER_US) + f64::from(TRAVEL_US) * axis).round() as u16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_sticks_come_back_within_half_a_microsecond() {
+        let sticks = [0.25, -1.0, 1.0, -0.0021];
+        let back = Sticks::from_us(to_us(sticks)).axes();
+        for (sent, read) in sticks.iter().zip(back) {
+            assert!((sent - read).abs() <= 0.5 / f64::from(TRAVEL_US), "{sent} {read}");
+        }
+        assert_eq!(to_us([0.25, -1.0, 1.0, 0.0]), [1000, 1625, 2000, 1500]);
+        assert_eq!(Sticks::from_us([u16::MAX, 0, 1500, 1500]).axes(), [-1.0, 1.0, 0.0, 0.0]);
+    }
+}
