@@ -1,4 +1,4 @@
-"""The table of answers in docs/ is what the vehicle answers, and every difference from a real PX4 or ArduCopter has its reason."""
+"""The table of answers in docs/src/measured/conformance.md is what the vehicle answers, and every difference from a real PX4 or ArduCopter has its reason."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""Cases of ArduPilot's own copter autotest that say most about how an ArduCopter behaves, with their limits, in our own words; docs/autotest.md
+"""Cases of ArduPilot's own copter autotest that say most about how an ArduCopter behaves, with their limits, in our own words; docs/src/measured/autotest.md
 names all of its cases, and which of them pass."""
 
 import concurrent.futures

@@ -559,7 +559,7 @@ def test_an_instructor_watches_and_acts(browser, tmp_path):
 def test_a_trainee_sees_the_camera_of_his_own_flight_alone(browser, tmp_path):
     """The picture is one that a window keeps; here the test does."""
     picture = tmp_path / "camera.jpg"
-    photograph = (spandrel.ROOT / "docs" / "window.jpg").read_bytes()
+    photograph = (spandrel.ROOT / "docs" / "src" / "images" / "window.jpg").read_bytes()
     flight = spandrel.Flight(tmp_path, scenario="drill-hover", speed=1)
     flight.sessions.mkdir(exist_ok=True)
     for name in ("client-test", "anna"):

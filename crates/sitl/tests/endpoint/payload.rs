@@ -162,11 +162,11 @@ fn wire_pictures_by_distance_come_as_far_apart_as_asked() {
     assert!(count >= 3.0);
 }
 
-/// The buttons that QGroundControl makes of the file in docs/.
+/// The buttons that QGroundControl makes of the actions file in docs/src/how-to/.
 #[test]
 fn wire_every_action_of_the_ground_stations_file_is_accepted() {
     let file: serde_json::Value =
-        serde_json::from_str(&spandrel_testkit::shipped::text("docs/qgroundcontrol-actions.json")).unwrap();
+        serde_json::from_str(&spandrel_testkit::shipped::text("docs/src/how-to/qgroundcontrol-actions.json")).unwrap();
     assert_eq!((file["fileType"].as_str(), file["version"].as_u64()), (Some("MavlinkActions"), Some(1)));
     let mut station = Station::airborne("drill-hover", 7);
     for action in file["actions"].as_array().unwrap() {

@@ -1,0 +1,79 @@
+"""tools/check-links finds what is wrong in a book; tools/book runs it on ours."""
+
+import subprocess
+import sys
+
+import pytest
+
+import spandrel
+
+CHECK = spandrel.ROOT / "tools" / "check-links"
+PAGES = {
+    "index.html": '<h1 id="top">A</h1><a href="more/b.html#part">b</a><a href="https://example.org/x">elsewhere</a><a href="#top">top</a>',
+    "more/b.html": '<h2 id="part">B</h2><img src="../images/c.png"><a href="../index.html">back</a>',
+}
+# What is changed in the good book: a page's old text, its new text, and the words of the complaint.
+FAULTS = {
+    "page": ("index.html", "more/b.html#part", "more/gone.html", "more/gone.html: no such file"),
+    "anchor": ("index.html", "#part", "#gone", "more/b.html#gone: no such anchor"),
+    "own anchor": ("index.html", 'href="#top"', 'href="#gone"', "#gone: no such anchor"),
+    "picture": ("more/b.html", "c.png", "gone.png", "images/gone.png: no such file"),
+    "outside": ("index.html", "more/b.html#part", "../source/SUMMARY.md", "no such file in the book"),
+}
+
+
+@pytest.fixture
+def book(tmp_path):
+    """A book of two pages and a picture: its source and what it was built to."""
+    source, built = tmp_path / "source", tmp_path / "built"
+    for folder in (source / "more", source / "images", built / "more", built / "images"):
+        folder.mkdir(parents=True)
+    (source / "SUMMARY.md").write_text("# Summary\n\n- [A](index.md)\n- [B](more/b.md)\n", encoding="utf-8")
+    (source / "index.md").write_text("# A\n", encoding="utf-8")
+    (source / "more" / "b.md").write_text("# B\n", encoding="utf-8")
+    for folder in (source, built):
+        (folder / "images" / "c.png").write_bytes(b"picture")
+    for name, text in PAGES.items():
+        (built / name).write_text(text, encoding="utf-8")
+    return source, built
+
+
+def check(book):
+    """The exit code and what was printed."""
+    done = subprocess.run([sys.executable, str(CHECK), *map(str, book)], capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+def test_exact_a_whole_book_has_no_problem(book):
+    """Every page, anchor and picture is there; links to other sites are not looked at. The repository's own Markdown is checked, too."""
+    code, printed = check(book)
+    assert code == 0, printed
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_exact_a_link_that_leads_nowhere_is_found(book, fault):
+    """One fault, one complaint that names it."""
+    page, old, new, words = FAULTS[fault]
+    path = book[1] / page
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    code, printed = check(book)
+    assert code == 1 and words in printed, printed
+
+
+def test_exact_pages_and_the_summary_match(book):
+    """A page that is not listed, a listed page that is missing or empty, a page listed twice, a picture that no page shows."""
+    source, _built = book
+    (source / "orphan.md").write_text("# Orphan\n", encoding="utf-8")
+    (source / "empty.md").write_text("\n", encoding="utf-8")
+    (source / "images" / "unused.jpg").write_bytes(b"picture")
+    with open(source / "SUMMARY.md", "a", encoding="utf-8") as summary:
+        summary.write("- [Gone](gone.md)\n- [Empty](empty.md)\n- [A again](index.md)\n")
+    code, printed = check(book)
+    assert code == 1
+    for words in (
+        "orphan.md: not listed", "gone.md is missing or empty", "empty.md is missing or empty", "index.md is listed twice",
+        "images/unused.jpg: no page shows this picture",
+    ):
+        assert words in printed, printed
