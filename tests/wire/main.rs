@@ -7,6 +7,7 @@ mod camera;
 mod camera_settings;
 mod circles;
 mod copter;
+mod copter_guided;
 mod copter_modes;
 mod copter_pilots;
 mod copter_plans;

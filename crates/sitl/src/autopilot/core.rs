@@ -198,6 +198,11 @@ impl Autopilot {
         self.take_over(now);
     }
 
+    /// Whether the sticks come in the mode that flies errands: there the yaw stick turns the nose and takes nothing over.
+    pub fn note_errands(&mut self, flown: bool) {
+        self.links.guided = flown;
+    }
+
     /// The sticks were let go of on purpose: that is no loss.
     pub fn let_go_of_sticks(&mut self) {
         self.watch.sticks_seen = false;
@@ -225,6 +230,7 @@ impl Autopilot {
     /// An external set-point.
     pub fn offboard(&mut self, setpoint: OffboardSetpoint, now: SimTime) {
         self.links.offboard = Some((setpoint, now));
+        self.course.turned_by_pilot = false;
     }
 
     /// A ground station's heartbeat has come.
@@ -461,6 +467,7 @@ fn boot_status() -> Status {
         failsafe: None,
         home_m: None,
         target_m: None,
+        setpoint: None,
         attitude_target: Rotation::identity(),
         thrust: 0.0,
         mission_current: 0,

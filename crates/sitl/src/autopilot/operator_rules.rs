@@ -294,6 +294,26 @@ pub struct FenceParts {
     pub auto: FenceSwitching,
 }
 
+/// The bits of `GUID_OPTIONS` that have a meaning here (ArduCopter).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct GuidedOptions {
+    /// Bit 0: the transmitter may arm the motors in GUIDED.
+    pub transmitter_arms: bool,
+    /// The yaw stick turns the nose in GUIDED; bit 2 switches that off.
+    pub pilot_yaw: bool,
+    /// The thrust of an attitude setpoint is a climb rate; with bit 3 it is thrust.
+    pub thrust_climbs: bool,
+}
+
+impl GuidedOptions {
+    /// From the parameter's bits.
+    #[must_use]
+    pub fn from_bits(bits: i32) -> Self {
+        let has = |bit: i32| bits & 1 << bit != 0;
+        Self { transmitter_arms: has(0), pilot_yaw: !has(2), thrust_climbs: !has(3) }
+    }
+}
+
 /// All of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OperatorRules {
@@ -317,6 +337,8 @@ pub struct OperatorRules {
     pub fence: FenceParts,
     /// `CIRCLE_RADIUS`: radius of an orbit that names none, and of a circle entered by its mode alone, m.
     pub orbit_radius_m: f64,
+    /// `GUID_OPTIONS`: flight by errands and external setpoints.
+    pub guided: GuidedOptions,
     /// `EKF2_NOAID_TOUT`: without GNSS and optical flow for this long the position counts as lost, s.
     pub no_aid_s: f64,
 }
@@ -365,6 +387,7 @@ impl Default for OperatorRules {
             mission_starts_armed: true,
             fence: FenceParts { height: true, distance: true, areas: true, floor_m: None, auto: FenceSwitching::Never },
             orbit_radius_m: 5.0,
+            guided: GuidedOptions::default(),
             no_aid_s: NO_AID_S,
         }
     }

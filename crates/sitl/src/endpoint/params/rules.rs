@@ -2,8 +2,8 @@
 
 use super::Params;
 use crate::autopilot::operator_rules::{
-    BatteryResponses, Envelope, Exceptions, FenceParts, FenceSwitching, Heading, JOB_BATTERY, MissionNeeds, OffboardLoss,
-    OperatorRules, Response, ReturnPlaces, ReturnRules,
+    BatteryResponses, Envelope, Exceptions, FenceParts, FenceSwitching, GuidedOptions, Heading, JOB_BATTERY, MissionNeeds,
+    OffboardLoss, OperatorRules, Response, ReturnPlaces, ReturnRules,
 };
 
 /// Bits of ArduPilot's `FS_OPTIONS`.
@@ -52,6 +52,7 @@ impl Params {
             rules.mission_starts_armed = self.integer("AUTO_OPTIONS") & 1 << 1 != 0;
             rules.orbit_radius_m = self.number("CIRCLE_RADIUS") / 100.0;
             rules.fence = self.fence_parts();
+            rules.guided = GuidedOptions::from_bits(self.integer("GUID_OPTIONS"));
         }
     }
 
