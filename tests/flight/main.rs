@@ -4,6 +4,7 @@ mod automatic;
 mod bench;
 mod consistency;
 mod emergencies;
+mod heights;
 mod manoeuvres;
 mod missions;
 mod rules;

@@ -285,6 +285,7 @@ impl Autopilot {
         let dt_s = (now - self.last_step).s().clamp(0.0, 0.05);
         self.last_step = now;
         self.estimator.no_aid_s = self.tuning.rules.no_aid_s;
+        self.estimator.wanted_reference = self.tuning.rules.height_reference;
         let readings = &self.senses.screen(readings, now);
         self.estimator.set_parked(!self.status.armed);
         self.estimator.step(readings, now);

@@ -294,6 +294,30 @@ pub struct FenceParts {
     pub auto: FenceSwitching,
 }
 
+/// The sensor whose slow changes the height follows, by the numbers of `EKF2_HGT_REF` (ArduPilot: `EK3_SRC1_POSZ`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum HeightReference {
+    /// Barometer: the receiver's height counts as off by a slow error of its own.
+    Barometer,
+    /// GNSS, with the barometer weighed by its drift.
+    #[default]
+    Gnss,
+    /// Range finder: height over the ground below.
+    RangeFinder,
+}
+
+impl HeightReference {
+    /// From the parameter's number. There is no vision: GNSS is next.
+    #[must_use]
+    pub fn from_number(number: i32) -> Self {
+        match number {
+            0 => Self::Barometer,
+            2 => Self::RangeFinder,
+            _ => Self::Gnss,
+        }
+    }
+}
+
 /// The bits of `GUID_OPTIONS` that have a meaning here (ArduCopter).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct GuidedOptions {
@@ -339,6 +363,8 @@ pub struct OperatorRules {
     pub orbit_radius_m: f64,
     /// `GUID_OPTIONS`: flight by errands and external setpoints.
     pub guided: GuidedOptions,
+    /// `EKF2_HGT_REF`; `EK3_SRC1_POSZ`: what the height follows.
+    pub height_reference: HeightReference,
     /// `EKF2_NOAID_TOUT`: without GNSS and optical flow for this long the position counts as lost, s.
     pub no_aid_s: f64,
 }
@@ -388,6 +414,7 @@ impl Default for OperatorRules {
             fence: FenceParts { height: true, distance: true, areas: true, floor_m: None, auto: FenceSwitching::Never },
             orbit_radius_m: 5.0,
             guided: GuidedOptions::default(),
+            height_reference: HeightReference::default(),
             no_aid_s: NO_AID_S,
         }
     }
