@@ -290,6 +290,7 @@ impl Autopilot {
         self.estimator.set_parked(!self.status.armed);
         self.estimator.step(readings, now);
         self.estimate = self.estimator.estimate();
+        self.follow_place_step();
         self.see(readings);
         self.watch_sensors(now);
         self.supervise(now);
@@ -477,6 +478,7 @@ fn boot_status() -> Status {
         mission_paused: false,
         fence: FenceState::default(),
         orbit: None,
+        position_resets: 0,
         health: Health::GOOD,
     }
 }

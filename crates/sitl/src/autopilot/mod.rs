@@ -267,6 +267,8 @@ pub struct Status {
     pub fence: fence::FenceState,
     /// The circle that is flown.
     pub orbit: Option<orbit::Orbit>,
+    /// How often the position was set to the receiver's.
+    pub position_resets: u32,
     /// What works.
     pub health: senses::Health,
 }

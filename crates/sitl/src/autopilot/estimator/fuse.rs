@@ -72,11 +72,17 @@ impl Estimator {
         let steady_s = self.checks.gnss_off.hold_s(flat, GATE * (2.0 * variance).sqrt(), now);
         let witness = (now - self.trust.flow).s() < FLOW_FRESH_S;
         if steady_s > REFUSED_S && !witness {
-            self.position_m = Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down());
+            self.reset_place(Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down()));
             self.covariance.reset(P, 2, fix.eph_m * fix.eph_m);
             self.checks.gnss.forget();
             self.checks.gnss_off.forget();
         }
+    }
+
+    /// The receiver is believed from here on: the position steps there.
+    fn reset_place(&mut self, position_m: Vec3<Ned>) {
+        self.place_step_m = Some(self.place_step_m.unwrap_or_default() + (position_m - self.position_m));
+        self.position_m = position_m;
     }
 
     fn fuse_fix_height(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {

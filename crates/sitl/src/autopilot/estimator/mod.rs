@@ -125,6 +125,8 @@ pub struct Estimator {
     /// What the height is to follow, where that works.
     pub wanted_reference: HeightReference,
     followed: Followed,
+    /// Steps of the position since somebody asked, m.
+    place_step_m: Option<Vec3<Ned>>,
     usable: bool,
 }
 
@@ -194,6 +196,7 @@ impl Estimator {
             no_aid_s: NO_AID_S,
             wanted_reference: HeightReference::default(),
             followed: Followed::default(),
+            place_step_m: None,
             usable: false,
         }
     }
@@ -372,6 +375,11 @@ impl Estimator {
     pub fn dropped(&self) -> Dropped {
         let c = &self.checks;
         Dropped { compass: c.mag.dropped(), barometer: c.baro.dropped(), gnss: c.gnss.dropped() || c.gnss_height.dropped() }
+    }
+
+    /// The step by which the position was set to the receiver's since the last call, m.
+    pub fn take_place_step(&mut self) -> Option<Vec3<Ned>> {
+        self.place_step_m.take()
     }
 
     /// Starts over at a known place (the vehicle was put there by hand); biases are kept.
