@@ -32,6 +32,7 @@ mod parameters;
 mod payload;
 mod plans;
 mod program;
+mod px4_events;
 mod px4_setup;
 mod ranges;
 mod signing;
