@@ -77,11 +77,11 @@ pub struct Args {
     /// Which key does what (TOML: format = 1, push, [sticks], [actions], [window]); the same file as that of `spandrel view`
     #[arg(long, value_name = "FILE", requires = "keyboard")]
     keys: Option<PathBuf>,
-    /// Write down what the device reports
+    /// Write down what the device reports, or what --replay plays
     #[arg(long, value_name = "FILE", conflicts_with = "keyboard")]
     record: Option<PathBuf>,
     /// Play what was written down instead of a device, and end with it
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["device", "record"])]
+    #[arg(long, value_name = "FILE", conflicts_with = "device")]
     replay: Option<PathBuf>,
 }
 

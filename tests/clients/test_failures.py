@@ -55,7 +55,7 @@ def test_wire_mavsdk_stops_a_motor_in_flight_and_the_vehicle_falls_until_it_turn
     system, telemetry, failure = failing
     telemetry.set_rate_actuator_output_status(20.0)
     texts = []
-    telemetry.subscribe_status_text(lambda text, *_: texts.append(text.text))
+    telemetry.subscribe_status_text(lambda text, *_: texts.append(text.text.rstrip()))
     with pytest.raises(Exception, match="UNSUPPORTED"):
         failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OFF, 9)
     action, _telemetry = sdk.take_off(system, 2.0)
@@ -89,7 +89,7 @@ def test_wire_mavsdk_empties_the_battery_and_the_compass_comes_and_goes(failing)
     """An empty battery is told in numbers and in words, and the vehicle does not arm with it."""
     system, telemetry, failure = failing
     texts = []
-    telemetry.subscribe_status_text(lambda text, *_: texts.append(text.text))
+    telemetry.subscribe_status_text(lambda text, *_: texts.append(text.text.rstrip()))
     failure.inject(FailureUnit.SENSOR_MAG, FailureType.OFF, 0)
     health = telemetry.health
     wait_for("no compass", lambda: not (health().is_magnetometer_calibration_ok or health().is_armable), limit_s=60)

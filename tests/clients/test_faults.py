@@ -18,6 +18,7 @@ from pymavlink import mavutil
 import display
 import sdk
 import spandrel
+import test_controller
 import webserver
 from spandrel import wait_for
 
@@ -423,6 +424,69 @@ class Watched:
         """Ends both."""
         spandrel.end(self.monitor)
         spandrel.end(self.sim)
+
+
+# What a controller reports: an axis that moves, and a picture; seconds since the vehicle was heard.
+REPORTED = [{"t_s": round(0.05 * k, 2), "axis": test_controller.YAW, "value": round(0.01 * k, 2)} for k in range(10)]
+
+
+class Recorded:
+    """`spandrel rc --record` beside a vehicle on a sound disk; a record stands in for the controller."""
+
+    def __init__(self, shim, folder):
+        self.shim, self.log = shim, folder / "operations"
+        self.profiles, self.played, self.out = folder / "profiles", folder / "played.jsonl", folder / "out"
+        for made in (self.profiles, self.out):
+            made.mkdir()
+        (self.profiles / "test-transmitter-0483-5710.toml").write_text(test_controller.PROFILE, encoding="utf-8")
+        head = {"format": 1, "device": test_controller.DEVICE, "id": test_controller.IDENTITY}
+        self.played.write_text("\n".join(json.dumps(line) for line in [head, *REPORTED]), encoding="utf-8")
+        self.dial = spandrel.free_udp_port()
+        self.sim = spandrel.start_sim(folder, spandrel.free_udp_port(), speed=1, gcs_port=self.dial)
+
+    def fly(self, kind, first=1):
+        """One flight with a fault; how it ended, and the whole lines of its record without their times."""
+        kept = self.out / "kept.jsonl"
+        kept.unlink(missing_ok=True)
+        self.log.unlink(missing_ok=True)
+        command = [spandrel.PROGRAM, "rc", "--replay", str(self.played), "--record", str(kept), "--profiles", str(self.profiles)]
+        done = subprocess.run(
+            [*command, "--connect", f"127.0.0.1:{self.dial}"], env=environment(self.shim, self.out, kind, first, log=self.log),
+            stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False,
+        )
+        text = kept.read_text(encoding="utf-8") if kept.exists() else ""
+        assert text == "" or text.endswith("\n"), "no half line"
+        return done, [{k: v for k, v in json.loads(line).items() if k != "t_s"} for line in text.splitlines()]
+
+
+@pytest.fixture(name="recorded")
+def fixture_recorded(shim, tmp_path):
+    """A vehicle, and what is needed to fly it."""
+    made = Recorded(shim, tmp_path)
+    yield made
+    spandrel.end(made.sim)
+
+
+@pytest.mark.timeout(300)
+@pytest.mark.parametrize("kind", KINDS)
+def test_regress_a_fault_ends_the_record_of_a_controller_and_not_the_flight(recorded, kind, measured):
+    """The record keeps whole lines up to the fault; only one that cannot be begun ends the command, with a message that names the file."""
+    sound, lines = recorded.fly("none")
+    total = len(operations(recorded.log))
+    assert sound.returncode == 0 and len(lines) == 1 + len(REPORTED), (sound.stderr, lines)
+    for first in spread(total):
+        done, kept = recorded.fly(kind, first)
+        assert any(line.endswith(" fault") for line in operations(recorded.log)) or kind == "short", "a fault was met"
+        assert kept == lines[: len(kept)] and "panicked" not in done.stderr, (first, kept, done.stderr)
+        if kind == "kill":
+            assert done.returncode == -signal.SIGKILL and len(kept) < len(lines), (first, done.returncode)
+        elif kind == "short":
+            assert done.returncode == 0 and kept == lines, (first, done.stderr)
+        elif first <= 2:
+            assert done.returncode != 0 and "kept.jsonl" in done.stderr, (first, done.stderr)
+        else:
+            assert done.returncode == 0 and "the record ends here, the flight goes on" in done.stderr, (first, done.stderr)
+    measured(f"rc --record with {kind}: {total} file operations")
 
 
 @pytest.mark.timeout(600)

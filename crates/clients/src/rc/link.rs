@@ -152,7 +152,8 @@ impl Link {
                 }
                 Some(MavMessage::STATUSTEXT(text)) => {
                     if let Ok(words) = text.text.to_str() {
-                        self.told.push_back(words.to_owned());
+                        // A tab at the end means that an event says the same.
+                        self.told.push_back(words.trim_end().to_owned());
                     }
                 }
                 _ => {}

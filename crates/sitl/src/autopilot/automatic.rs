@@ -28,7 +28,23 @@ pub(super) const TURN_BEYOND_M: f64 = 2.0;
 const TURN_ABOVE_M_S: f64 = 1.0;
 
 impl Autopilot {
+    /// The yaw stick turns the nose in GUIDED (ArduCopter, unless `GUID_OPTIONS` says otherwise); false where something else turns it.
+    fn pilot_turns(&mut self, dt_s: f64) -> bool {
+        let guided = self.links.guided && matches!(self.status.mode, Mode::Hold | Mode::Takeoff | Mode::Offboard);
+        let fresh = self.links.sticks_fresh(self.tuning.manual_patience_s(), self.last_step);
+        if guided && self.tuning.rules.guided.pilot_yaw && fresh && self.links.sticks.yaw != 0.0 {
+            (self.course.target_yaw_rad, self.course.turn, self.course.turned_by_pilot) = (None, None, true);
+            self.stick_yaw(dt_s);
+        } else if self.course.turned_by_pilot {
+            self.turn_at(0.0, dt_s);
+        }
+        self.course.turned_by_pilot
+    }
+
     pub(super) fn turn_to(&mut self, yaw: Option<f64>, dt_s: f64) {
+        if self.pilot_turns(dt_s) {
+            return;
+        }
         let own = AUTO_YAW_SHARE * self.airframe.limits.yaw_rate_rad_s;
         let turn = self.course.turn.filter(|turn| yaw == Some(turn.yaw_rad));
         let Some(yaw) = yaw else {
@@ -249,14 +265,22 @@ impl Autopilot {
         }
     }
 
+    /// The external setpoint, while one is flown and as long as it counts.
+    pub(super) fn setpoint_flown(&self, now: SimTime) -> Option<OffboardSetpoint> {
+        let fresh = self.status.mode == Mode::Offboard && self.links.offboard_fresh(self.tuning.offboard_patience_s(), now);
+        self.links.offboard.filter(|_| fresh).map(|(setpoint, _)| setpoint)
+    }
+
     pub(super) fn fly_setpoint(&mut self, now: SimTime, dt_s: f64) -> Wanted {
-        let Some((setpoint, _)) =
-            self.links.offboard.filter(|_| self.links.offboard_fresh(self.tuning.offboard_patience_s(), now))
-        else {
+        let Some(setpoint) = self.setpoint_flown(now) else {
             return if self.estimate.position_valid { self.go(None, dt_s) } else { self.sink_blind(dt_s) };
         };
         match setpoint.yaw_rate_rad_s {
-            Some(rate) if setpoint.yaw_rad.is_none() => self.turn_at(rate, dt_s),
+            Some(rate) if setpoint.yaw_rad.is_none() => {
+                if !self.pilot_turns(dt_s) {
+                    self.turn_at(rate, dt_s);
+                }
+            }
             // Where a set-point leaves the heading open, a command may say it, as in ArduPilot's GUIDED.
             _ => {
                 let wanted = setpoint.yaw_rad.or(self.course.target_yaw_rad).or_else(|| self.nose_of(&setpoint));

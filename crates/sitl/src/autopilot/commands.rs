@@ -254,6 +254,7 @@ impl Autopilot {
         self.look_at_m = None;
         self.course.target_yaw_rad = Some(turn.yaw_rad);
         self.course.turn = Some(turn);
+        self.course.turned_by_pilot = false;
         Outcome::Accepted
     }
 

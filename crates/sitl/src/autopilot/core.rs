@@ -198,6 +198,11 @@ impl Autopilot {
         self.take_over(now);
     }
 
+    /// Whether the sticks come in the mode that flies errands: there the yaw stick turns the nose and takes nothing over.
+    pub fn note_errands(&mut self, flown: bool) {
+        self.links.guided = flown;
+    }
+
     /// The sticks were let go of on purpose: that is no loss.
     pub fn let_go_of_sticks(&mut self) {
         self.watch.sticks_seen = false;
@@ -225,6 +230,7 @@ impl Autopilot {
     /// An external set-point.
     pub fn offboard(&mut self, setpoint: OffboardSetpoint, now: SimTime) {
         self.links.offboard = Some((setpoint, now));
+        self.course.turned_by_pilot = false;
     }
 
     /// A ground station's heartbeat has come.
@@ -279,10 +285,12 @@ impl Autopilot {
         let dt_s = (now - self.last_step).s().clamp(0.0, 0.05);
         self.last_step = now;
         self.estimator.no_aid_s = self.tuning.rules.no_aid_s;
+        self.estimator.wanted_reference = self.tuning.rules.height_reference;
         let readings = &self.senses.screen(readings, now);
         self.estimator.set_parked(!self.status.armed);
         self.estimator.step(readings, now);
         self.estimate = self.estimator.estimate();
+        self.follow_place_step();
         self.see(readings);
         self.watch_sensors(now);
         self.supervise(now);
@@ -461,6 +469,7 @@ fn boot_status() -> Status {
         failsafe: None,
         home_m: None,
         target_m: None,
+        setpoint: None,
         attitude_target: Rotation::identity(),
         thrust: 0.0,
         mission_current: 0,
@@ -469,6 +478,7 @@ fn boot_status() -> Status {
         mission_paused: false,
         fence: FenceState::default(),
         orbit: None,
+        position_resets: 0,
         health: Health::GOOD,
     }
 }

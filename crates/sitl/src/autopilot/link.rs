@@ -13,6 +13,8 @@ pub struct Links {
     pub sticks_at: Option<SimTime>,
     /// Sticks when the present automatic mode began: they take over by moving from there.
     pub sticks_then: Sticks,
+    /// The sticks came in the mode that flies errands (ArduCopter: GUIDED).
+    pub guided: bool,
     /// Last heartbeat of a ground station.
     pub ground_station: Option<SimTime>,
     /// Last external set-point and its time.
@@ -39,11 +41,12 @@ impl Links {
         self.offboard.is_some_and(|(_, at)| (now - at).s() <= loss_s)
     }
 
-    /// A stick is deflected by `least` and has moved that far since the mode began.
+    /// A stick is deflected by `least` and has moved that far since the mode began. In GUIDED yaw does not count: it turns the nose, or nothing.
     #[must_use]
     pub fn moved(&self, least: f64) -> bool {
         let (s, t) = (&self.sticks, &self.sticks_then);
-        let pairs = [(s.forward, t.forward), (s.right, t.right), (s.up, t.up), (s.yaw, t.yaw)];
+        let yaw = if self.guided { (0.0, 0.0) } else { (s.yaw, t.yaw) };
+        let pairs = [(s.forward, t.forward), (s.right, t.right), (s.up, t.up), yaw];
         pairs.iter().any(|(now, then)| now.abs() > least && (now - then).abs() > least)
     }
 

@@ -249,6 +249,8 @@ pub struct Status {
     pub home_m: Option<Vec3<Ned>>,
     /// Present position target, if any, m.
     pub target_m: Option<Vec3<Ned>>,
+    /// The external setpoint that is flown.
+    pub setpoint: Option<OffboardSetpoint>,
     /// Attitude set-point.
     pub attitude_target: Rotation<Frd, Ned>,
     /// Collective thrust set-point 0..1.
@@ -265,6 +267,8 @@ pub struct Status {
     pub fence: fence::FenceState,
     /// The circle that is flown.
     pub orbit: Option<orbit::Orbit>,
+    /// How often the position was set to the receiver's.
+    pub position_resets: u32,
     /// What works.
     pub health: senses::Health,
 }

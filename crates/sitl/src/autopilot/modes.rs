@@ -89,6 +89,8 @@ pub struct Course {
     pub wait_until: Option<SimTime>,
     /// A commanded turn.
     pub turn: Option<Turn>,
+    /// The pilot has turned the nose in GUIDED: it stays until something else is asked for.
+    pub turned_by_pilot: bool,
     /// What is flown is paused.
     pub paused: Option<Pause>,
 }
@@ -142,7 +144,7 @@ impl Autopilot {
         let c = &mut self.course;
         c.target_m = stopping_point(&self.gains, e.position_m, e.velocity_m_s);
         c.target_yaw_rad = None;
-        (c.turn, c.paused) = (None, None);
+        (c.turn, c.paused, c.turned_by_pilot) = (None, None, false);
         c.speed_m_s = None;
         c.lock_flat = None;
         c.lock_down = None;
@@ -241,6 +243,7 @@ impl Autopilot {
 
     pub(super) fn wanted(&mut self, now: SimTime, dt_s: f64) -> Wanted {
         self.status.target_m = None;
+        self.status.setpoint = self.setpoint_flown(now);
         self.status.climbing_out = false;
         if self.status.landed == Landed::OnGround {
             return Wanted::Rest;

@@ -294,6 +294,50 @@ pub struct FenceParts {
     pub auto: FenceSwitching,
 }
 
+/// The sensor whose slow changes the height follows, by the numbers of `EKF2_HGT_REF` (ArduPilot: `EK3_SRC1_POSZ`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum HeightReference {
+    /// Barometer: the receiver's height counts as off by a slow error of its own.
+    Barometer,
+    /// GNSS, with the barometer weighed by its drift.
+    #[default]
+    Gnss,
+    /// Range finder: height over the ground below.
+    RangeFinder,
+}
+
+impl HeightReference {
+    /// From the parameter's number. There is no vision: GNSS is next.
+    #[must_use]
+    pub fn from_number(number: i32) -> Self {
+        match number {
+            0 => Self::Barometer,
+            2 => Self::RangeFinder,
+            _ => Self::Gnss,
+        }
+    }
+}
+
+/// The bits of `GUID_OPTIONS` that have a meaning here (ArduCopter).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct GuidedOptions {
+    /// Bit 0: the transmitter may arm the motors in GUIDED.
+    pub transmitter_arms: bool,
+    /// The yaw stick turns the nose in GUIDED; bit 2 switches that off.
+    pub pilot_yaw: bool,
+    /// The thrust of an attitude setpoint is a climb rate; with bit 3 it is thrust.
+    pub thrust_climbs: bool,
+}
+
+impl GuidedOptions {
+    /// From the parameter's bits.
+    #[must_use]
+    pub fn from_bits(bits: i32) -> Self {
+        let has = |bit: i32| bits & 1 << bit != 0;
+        Self { transmitter_arms: has(0), pilot_yaw: !has(2), thrust_climbs: !has(3) }
+    }
+}
+
 /// All of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OperatorRules {
@@ -317,12 +361,16 @@ pub struct OperatorRules {
     pub fence: FenceParts,
     /// `CIRCLE_RADIUS`: radius of an orbit that names none, and of a circle entered by its mode alone, m.
     pub orbit_radius_m: f64,
+    /// `GUID_OPTIONS`: flight by errands and external setpoints.
+    pub guided: GuidedOptions,
+    /// `EKF2_HGT_REF`; `EK3_SRC1_POSZ`: what the height follows.
+    pub height_reference: HeightReference,
     /// `EKF2_NOAID_TOUT`: without GNSS and optical flow for this long the position counts as lost, s.
     pub no_aid_s: f64,
 }
 
 /// Longest dead reckoning by default, s. PX4 allows 5 s; an aircraft below a deck over water often has neither GNSS nor optical flow, and this
-/// estimator's drift stays within its limits for about that long (`tests/flight`).
+/// estimator's drift stays within its limits for about that long (`crates/sitl/tests/flight`).
 pub const NO_AID_S: f64 = 60.0;
 
 impl Default for OperatorRules {
@@ -365,6 +413,8 @@ impl Default for OperatorRules {
             mission_starts_armed: true,
             fence: FenceParts { height: true, distance: true, areas: true, floor_m: None, auto: FenceSwitching::Never },
             orbit_radius_m: 5.0,
+            guided: GuidedOptions::default(),
+            height_reference: HeightReference::default(),
             no_aid_s: NO_AID_S,
         }
     }

@@ -26,10 +26,6 @@ impl Autopilot {
         if !flying || !pausable {
             return Outcome::Failed("Failed to pause".into());
         }
-        if self.status.mode == Mode::Offboard {
-            // The target of the last setpoint is flown to after the pause; a velocity setpoint has none.
-            self.end_errand(now);
-        }
         let place_m = stopping_point(&self.gains, self.estimate.position_m, self.estimate.velocity_m_s);
         self.course.paused.get_or_insert(Pause { place_m, since: now });
         self.status.mission_paused |= self.status.mode == Mode::Mission;

@@ -191,6 +191,18 @@ impl Autopilot {
         }
     }
 
+    /// The filter has set its position to the receiver's. A place that is held for a pilot moves along, so that the vehicle stays where it is; a
+    /// target on the map does not (PX4 and ArduCopter: so do position hold and waypoints).
+    pub(super) fn follow_place_step(&mut self) {
+        let Some(step_m) = self.estimator.take_place_step() else { return };
+        self.status.position_resets += 1;
+        if let Some((north, east)) = &mut self.course.lock_flat {
+            *north += step_m.north();
+            *east += step_m.east();
+        }
+        self.say(Severity::Critical, format!("GNSS position jumped {:.0} m: position reset", step_m.horizontal_norm()));
+    }
+
     fn say_sensor(&mut self, change: SensorChange) {
         let severity = if change.fault.is_some() { Severity::Critical } else { Severity::Info };
         self.events.push(super::Event { severity, text: change.words(), sensor: Some(change) });

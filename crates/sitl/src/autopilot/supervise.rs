@@ -244,7 +244,10 @@ impl Autopilot {
     /// To the place of the last set-point, where it had one; else it stops.
     pub(super) fn end_errand(&mut self, now: SimTime) {
         self.watch.intended = Mode::Hold;
+        let paused = self.course.paused;
         self.enter(Mode::Hold, now);
+        // A setpoint may run out while it is paused.
+        self.course.paused = paused;
         if let Some((OffboardSetpoint { position_m: [Some(n), Some(e), Some(d)], yaw_rad, .. }, _)) = self.links.offboard {
             self.course.target_m = Vec3::new(n, e, d);
             self.course.target_yaw_rad = yaw_rad;

@@ -10,7 +10,7 @@ use super::gimbal::{Aim, DEVICE, Gimbal};
 use super::manual;
 use super::offboard::{self, Reading};
 use crate::autopilot::follow::Target;
-use crate::autopilot::{Landed, Mode, Outcome, Request};
+use crate::autopilot::{Landed, Mode, Outcome, Request, Sticks};
 use spandrel_mavlink::dialect::{
     FOLLOW_TARGET_DATA, GIMBAL_DEVICE_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_ATTITUDE_DATA,
     GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA, GIMBAL_MANAGER_SET_PITCHYAW_DATA, GLOBAL_POSITION_INT_DATA, HEARTBEAT_DATA,
@@ -31,13 +31,20 @@ fn counts(e: &Endpoint, a: &Arrival) -> bool {
     e.params.ground_station().is_none_or(|system| system == a.from.0)
 }
 
+/// In the mode that flies errands the yaw stick takes nothing over.
+fn fly_by_sticks(e: &Endpoint, sticks: Sticks, a: &mut Arrival) {
+    let row = e.flavour.row_of(a.autopilot.status().mode, e.chosen);
+    a.autopilot.note_errands(e.flavour.errands == Some(row.number));
+    a.autopilot.sticks(sticks, a.view.now);
+}
+
 pub(super) fn manual_control(e: &mut Endpoint, m: &MANUAL_CONTROL_DATA, a: &mut Arrival) {
     if !e.sticks_pass || !counts(e, a) {
         return;
     }
     let from = (a.link, a.from);
     if let Some(sticks) = e.manual.manual_control(from, m, a.view.now) {
-        a.autopilot.sticks(sticks, a.view.now);
+        fly_by_sticks(e, sticks, a);
     }
     if let Some(pitch) = e.manual.gimbal(from, m)
         && let Some(gimbal) = gimbal(e, DEVICE, a)
@@ -60,7 +67,7 @@ pub(super) fn channels(e: &mut Endpoint, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut 
     let from = (a.link, a.from);
     let held = e.manual.is_holder(from);
     if let Some(sticks) = e.manual.channels(from, c, a.view.now) {
-        a.autopilot.sticks(sticks, a.view.now);
+        fly_by_sticks(e, sticks, a);
     } else if held && !e.manual.is_holder((a.link, a.from)) {
         a.autopilot.let_go_of_sticks();
     }
@@ -203,7 +210,7 @@ pub(super) fn global_target(e: &mut Endpoint, t: &SET_POSITION_TARGET_GLOBAL_INT
 }
 
 pub(super) fn attitude_target(e: &mut Endpoint, t: &SET_ATTITUDE_TARGET_DATA, a: &mut Arrival) {
-    fly(e, offboard::attitude(t, a.view, &a.autopilot.tuning), a);
+    fly(e, offboard::attitude(t, &a.autopilot.tuning), a);
 }
 
 /// The gimbal as the message's sender may move it: none for another device, or while somebody else is in control.

@@ -3,6 +3,7 @@
 
 use super::arrival::Arrival;
 use super::link::Link;
+use super::notices;
 use super::streams::AUTOPILOT;
 use super::view::View;
 use super::{Endpoint, LinkKind};
@@ -178,6 +179,16 @@ impl Endpoint {
     }
 }
 
+impl Endpoint {
+    /// Sends the event of a text, where it has one.
+    pub(super) fn send_notice(&mut self, text: &str, now_ms: u32) {
+        let Some(notice) = notices::of(text).filter(|_| self.flavour.events) else { return };
+        self.events.add(notice.name, notice.levels, &[], now_ms);
+        let Some(event) = self.events.kept.back().cloned().map(MavMessage::EVENT) else { return };
+        self.links.values_mut().filter(|link| hears(link)).for_each(|link| link.stream(AUTOPILOT, &event));
+    }
+}
+
 /// Sidecars read telemetry, not events.
 fn hears(link: &Link) -> bool {
     link.kind != LinkKind::Payload
@@ -250,6 +261,7 @@ pub fn definitions() -> Json {
             },
             "event_groups": {
                 "arming_check": { "events": checks },
+                "default": notices::definitions(sub_id),
                 "health": { "events": { sub_id(HEALTH_SUMMARY).to_string(): health_summary } },
             },
             "navigation_mode_groups": { "groups": groups },

@@ -25,6 +25,7 @@ pub mod link;
 pub mod logs;
 pub mod manual;
 pub mod mission;
+mod notices;
 mod offboard;
 pub mod params;
 pub mod payload;

@@ -188,8 +188,8 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &View) -> Reading {
 }
 
 /// SET_ATTITUDE_TARGET: an attitude with a yaw rate beside it, or body rates where the attitude is ignored; thrust 0 to 1.
-/// Where the flavour reads the thrust as a climb rate, 0.5 keeps the height and the ends are the vertical speeds of automatic modes.
-pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, view: &View, tuning: &Tuning) -> Reading {
+/// Where the thrust is read as a climb rate (`GUID_OPTIONS`), 0.5 keeps the height and the ends are the vertical speeds of automatic modes.
+pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> Reading {
     use AttitudeTargetTypemask as A;
     let has = |flag: A| t.type_mask.contains(flag);
     if has(A::ATTITUDE_TARGET_TYPEMASK_THRUST_BODY_SET) {
@@ -199,7 +199,7 @@ pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, view: &View, tuning: &Tuning) -> R
         return Err("Set-point without thrust");
     }
     let thrust = f64::from(t.thrust);
-    let climb_m_s = view.flavour.thrust_climbs.then(|| {
+    let climb_m_s = tuning.rules.guided.thrust_climbs.then(|| {
         let share = 2.0 * (thrust.clamp(0.0, 1.0) - 0.5);
         share * if share > 0.0 { tuning.climb_m_s } else { tuning.descend_m_s }
     });

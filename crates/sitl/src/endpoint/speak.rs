@@ -54,7 +54,7 @@ impl Endpoint {
         self.truth(view);
         self.calibrate(view);
         self.report_events(view);
-        self.say_texts();
+        self.say_texts(view);
         self.params.note_plans(self.plans.totals());
         self.send_params();
         self.send_shell();
@@ -78,7 +78,7 @@ impl Endpoint {
                 }
             }
         }
-        self.say_texts();
+        self.say_texts(view);
     }
 
     /// The flavour's number of the mode that is flown. One that the fence or a failsafe has changed to nobody chose: what flies errands as they come does

@@ -1,26 +1,31 @@
 //! Texts to everybody, in the pieces that the wire asks for.
 
-use super::Endpoint;
 use super::streams::AUTOPILOT;
+use super::view::View;
+use super::{Endpoint, LinkKind, notices};
 use spandrel_mavlink::dialect::{MavMessage, STATUSTEXT_DATA};
 
 impl Endpoint {
-    /// Texts of more than 50 bytes go out in pieces that clients put together by their id.
-    pub(super) fn say_texts(&mut self) {
+    /// Texts of more than 50 bytes go out in pieces that clients put together by their id. What an event says as well ends with a tab for ground
+    /// stations, as PX4's do.
+    pub(super) fn say_texts(&mut self, view: &View) {
         for (severity, text) in std::mem::take(&mut self.texts) {
-            let pieces = pieces(&text);
-            let whole = pieces.len() == 1;
+            self.send_notice(&text, view.boot_ms());
+            let marked = self.flavour.events && notices::says_all(&text);
+            let plain = pieces(&text);
+            let tabbed = if marked { pieces(&format!("{text}\t")) } else { Vec::new() };
+            let whole = plain.len() == 1 && tabbed.len() <= 1;
             if !whole {
                 self.text_id = self.text_id.wrapping_add(1).max(1);
             }
-            for (k, piece) in pieces.iter().enumerate() {
-                let message = MavMessage::STATUSTEXT(STATUSTEXT_DATA {
-                    severity,
-                    text: piece.as_str().into(),
-                    id: if whole { 0 } else { self.text_id },
-                    chunk_seq: k as u8,
-                });
-                self.broadcast(AUTOPILOT, &message);
+            let id = if whole { 0 } else { self.text_id };
+            for link in self.listeners() {
+                let stations = matches!(link.kind, LinkKind::GroundStation | LinkKind::Tcp | LinkKind::Serial);
+                let pieces = if marked && stations { &tabbed } else { &plain };
+                for (k, piece) in pieces.iter().enumerate() {
+                    let text = piece.as_str().into();
+                    link.send(AUTOPILOT, &MavMessage::STATUSTEXT(STATUSTEXT_DATA { severity, text, id, chunk_seq: k as u8 }));
+                }
             }
         }
     }

@@ -3,7 +3,9 @@
 
 use super::copter::{ARM, AUTO, SET_MODE, copter, copter_at, mode, next_beat};
 use spandrel_mavlink::dialect::*;
-use spandrel_sitl::autopilot::operator_rules::{Exceptions, Heading, MissionNeeds, OffboardLoss, Response, ReturnPlaces};
+use spandrel_sitl::autopilot::operator_rules::{
+    Exceptions, Heading, HeightReference, MissionNeeds, OffboardLoss, Response, ReturnPlaces,
+};
 use spandrel_sitl::autopilot::{LinkLoss, Mode, OperatorRules, Tuning};
 use spandrel_sitl::endpoint::params::face::{COPTER, Face, PX4};
 use spandrel_sitl::endpoint::params::{Pack, Params, Value, metadata};
@@ -329,16 +331,21 @@ fn exact_modes_that_a_lost_link_never_stops() {
 }
 
 #[test]
-fn regress_the_height_reference_takes_every_value_and_says_that_it_is_not_used() {
+fn regress_the_height_reference_takes_every_value_and_reaches_the_filter() {
+    use HeightReference::{Barometer, Gnss, RangeFinder};
     const INT: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
     const REAL: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
-    for (face, name, codes) in [(&PX4, "EKF2_HGT_REF", [0, 1, 2, 3]), (&COPTER, "EK3_SRC1_POSZ", [1, 2, 3, 6])] {
+    let references = [Barometer, Gnss, RangeFinder, Gnss];
+    for (face, name, codes) in [(&PX4, "EKF2_HGT_REF", [0, 1, 2, 3]), (&COPTER, "EK3_SRC1_POSZ", [1, 3, 2, 6])] {
         let (mut own, all) = (params(face), described(face));
         let row = all.iter().find(|row| row["name"] == name).unwrap();
-        assert!(row["longDesc"].as_str().unwrap().contains("No effect on this vehicle"), "{row}");
-        for code in codes {
+        assert!(!row["longDesc"].as_str().unwrap().contains("No effect"), "{row}");
+        for (code, reference) in codes.into_iter().zip(references) {
             let (wire, kind) = if face.cast { (code as f32, REAL) } else { (Value::Int(code).to_wire(), INT) };
             assert_eq!(own.set(name, wire, kind), Ok(()), "{name} {code}");
+            let mut tuning = Tuning::default();
+            own.apply(&mut tuning);
+            assert_eq!(tuning.rules.height_reference, reference, "{name} {code}");
         }
     }
 }

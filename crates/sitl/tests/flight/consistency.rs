@@ -11,7 +11,7 @@ use spandrel_sitl::autopilot::estimator::align::ROCKING_SHARE;
 use spandrel_sitl::autopilot::estimator::covariance::{P, THETA, V};
 use spandrel_sitl::autopilot::estimator::{Estimator, Truth};
 use spandrel_sitl::physics::{MAX_ROTORS, RigidState};
-use spandrel_sitl::sensors::{self, Plain, Sensors, Surroundings};
+use spandrel_sitl::sensors::{self, Plain, Readings, Sensors, Surroundings};
 use spandrel_testkit::bench::VEHICLES;
 use spandrel_testkit::shipped::vehicle;
 
@@ -35,31 +35,54 @@ fn rates(t: f64, rocking_rad_s: Vec3<Frd>) -> Vec3<Frd> {
     Vec3::new(0.35 * math::cos(0.7 * t), 0.25 * math::cos(0.9 * t), 0.3 * math::sin(0.2 * t))
 }
 
-/// A plain whose sky closes between two times.
+/// A plain whose sky closes between two times, and whose ground may move.
 struct Shadow {
     from: SimTime,
     until: SimTime,
+    ground_up_m: fn(SimTime) -> f64,
+}
+
+/// The ground stays.
+pub(super) fn flat(_: SimTime) -> f64 {
+    0.0
 }
 
 impl Surroundings for Shadow {
     fn ray_m(&self, origin: Vec3<Enu>, d: Vec3<Enu>, max: f64, at: SimTime) -> Option<f64> {
-        if d.up() > 0.0 && at >= self.from && at < self.until { Some(3.0) } else { Plain { up_m: 0.0 }.ray_m(origin, d, max, at) }
+        if d.up() > 0.0 && at >= self.from && at < self.until {
+            Some(3.0)
+        } else {
+            Plain { up_m: (self.ground_up_m)(at) }.ray_m(origin, d, max, at)
+        }
     }
     fn lux(&self, _: Vec3<Enu>, _: SimTime) -> f64 {
         1e4
     }
 }
 
-struct Run {
+pub(super) struct Run {
     rigid: RigidState,
     sensors: Sensors,
-    filter: Estimator,
+    pub(super) filter: Estimator,
     site: Shadow,
     rocking_rad_s: Vec3<Frd>,
-    now: SimTime,
+    pub(super) now: SimTime,
 }
 
 impl Run {
+    /// Under an open sky, without optical flow, the ground always within the range finder's reach.
+    pub(super) fn in_the_open(seed: u64, ground_up_m: fn(SimTime) -> f64) -> Self {
+        let mut vehicle = vehicle("phantom2");
+        vehicle.sensors.flow_velocity_m_s = 0.0;
+        vehicle.sensors.range_max_m = 30.0;
+        Self::with(seed, Shadow { from: SimTime::NEVER, until: SimTime::NEVER, ground_up_m }, &vehicle)
+    }
+
+    /// Height of the estimate over the true one, m.
+    pub(super) fn height_error_m(&self) -> f64 {
+        self.error()[P + 2]
+    }
+
     fn new(seed: u64, site: Shadow) -> Self {
         let mut vehicle = vehicle("phantom2");
         // Flow would see through the loss of GNSS.
@@ -87,6 +110,11 @@ impl Run {
     }
 
     fn tick(&mut self) {
+        self.tick_with(|_, _| ());
+    }
+
+    /// One tick, with readings that a test changes.
+    pub(super) fn tick_with(&mut self, change: impl Fn(&mut Readings, SimTime)) {
         let dt = SimTime::from_ns(TICK.ns() / SUBSTEPS);
         for _ in 0..SUBSTEPS {
             let (a, b) = (velocity(self.now.s()), velocity((self.now + dt).s()));
@@ -101,7 +129,8 @@ impl Run {
         }
         let battery = sensors::BatteryReading { voltage_v: 12.0, current_a: 0.0, remaining_pct: 100.0 };
         let truth = sensors::Truth { rigid: &self.rigid, battery, lamp_on: false };
-        let readings = self.sensors.sample(&truth, &self.site, self.now);
+        let mut readings = self.sensors.sample(&truth, &self.site, self.now);
+        change(&mut readings, self.now);
         self.filter.step(&readings, self.now);
     }
 
@@ -147,7 +176,7 @@ fn assert_consistent(what: &str, new: impl Fn(u64, Shadow) -> Run) {
     let mut sums = [[0.0; 4]; 4];
     let blocks = [(0, 15), (P, 3), (V, 3), (THETA, 3)];
     for seed in 0..SEEDS {
-        let mut run = new(seed, Shadow { from: SimTime::NEVER, until: SimTime::NEVER });
+        let mut run = new(seed, Shadow { from: SimTime::NEVER, until: SimTime::NEVER, ground_up_m: flat });
         for (row, t) in sums.iter_mut().zip(times) {
             run.run_until(SimTime::from_ms(t * 1000));
             for (sum, (from, count)) in row.iter_mut().zip(blocks) {
@@ -184,7 +213,7 @@ fn prop_ten_seconds_without_gnss_make_error_and_covariance_grow_together_and_rec
     let (mut before, mut blind, mut after) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let mut nees = 0.0;
     for seed in 0..SEEDS {
-        let mut run = Run::new(seed, Shadow { from, until });
+        let mut run = Run::new(seed, Shadow { from, until, ground_up_m: flat });
         for (t, sums) in [(20_000, &mut before), (29_900, &mut blind), (60_000, &mut after)] {
             run.run_until(SimTime::from_ms(t));
             let e = run.error();

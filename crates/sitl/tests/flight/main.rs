@@ -3,6 +3,7 @@
 mod automatic;
 mod consistency;
 mod emergencies;
+mod heights;
 mod manoeuvres;
 mod missions;
 mod rules;

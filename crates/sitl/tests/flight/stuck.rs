@@ -134,3 +134,30 @@ fn regress_a_height_that_creeps_away_is_not_flown() {
         }
     }
 }
+
+/// Once the sensors agree that the receiver has jumped for good, the position is set to it and announced; a vehicle that a pilot holds in place
+/// stays there. With optical flow as a witness nothing is reset.
+#[test]
+fn regress_a_steady_jump_of_the_receiver_resets_the_position_and_says_so() {
+    // m: it drifts by its inertial sensors alone while the receiver is refused.
+    const DRIFTED_M: f64 = 4.0;
+    for name in VEHICLES {
+        for dark in [true, false] {
+            let mut bench = Bench::by_hand(&vehicle(name), 24, 6.0);
+            bench.dark = dark;
+            bench.run(3.0, |_| ());
+            said(&mut bench);
+            let before = bench.position();
+            assert!(bench.faults.inject(Unit::Gnss, Some(Kind::Wrong), 0, 4));
+            bench.run(2.0, |_| ());
+            assert_eq!(bench.autopilot.status().position_resets, 0, "{name}: single fixes are refused");
+            let mut farthest: f64 = 0.0;
+            bench.run(28.0, |b| farthest = farthest.max((b.position() - before).horizontal_norm()));
+            let texts = said(&mut bench);
+            let announced =
+                texts.iter().any(|text| text.starts_with("GNSS position jumped 3") && text.ends_with(" m: position reset"));
+            assert_eq!((announced, bench.autopilot.status().position_resets), (dark, u32::from(dark)), "{name}: {texts:?}");
+            assert!(farthest < DRIFTED_M, "{name}, dark {dark}: {farthest} m");
+        }
+    }
+}

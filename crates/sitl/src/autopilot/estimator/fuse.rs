@@ -10,7 +10,7 @@ use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
 /// Measurements further off than this are refused, standard deviations.
-const GATE: f64 = 5.0;
+pub(super) const GATE: f64 = 5.0;
 /// What the receiver claims beyond its open-sky error is mostly multipath, which lasts for seconds: its variance counts this many
 /// times (about twice its time constant times the fix rate, halved because part of it is white).
 const LASTING: f64 = 40.0;
@@ -72,11 +72,17 @@ impl Estimator {
         let steady_s = self.checks.gnss_off.hold_s(flat, GATE * (2.0 * variance).sqrt(), now);
         let witness = (now - self.trust.flow).s() < FLOW_FRESH_S;
         if steady_s > REFUSED_S && !witness {
-            self.position_m = Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down());
+            self.reset_place(Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down()));
             self.covariance.reset(P, 2, fix.eph_m * fix.eph_m);
             self.checks.gnss.forget();
             self.checks.gnss_off.forget();
         }
+    }
+
+    /// The receiver is believed from here on: the position steps there.
+    fn reset_place(&mut self, position_m: Vec3<Ned>) {
+        self.place_step_m = Some(self.place_step_m.unwrap_or_default() + (position_m - self.position_m));
+        self.position_m = position_m;
     }
 
     fn fuse_fix_height(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
@@ -92,7 +98,9 @@ impl Estimator {
         if apart < AGREED_SIGMAS * math::hypot(slow, variance.sqrt()) {
             self.ground.agree(self.position_m.down(), fix.position_m.down());
         }
-        let contradicted = self.checks.gnss_height.dropped() || self.drift_m.down().abs() > DRIFT_SIGMAS * slow;
+        // Where another sensor is the reference, the receiver may be off for good.
+        let drifted = self.follows_gnss() && self.drift_m.down().abs() > DRIFT_SIGMAS * slow;
+        let contradicted = self.checks.gnss_height.dropped() || drifted;
         if contradicted && !self.checks.gnss.dropped() {
             self.settle_heights(fix, now);
         }
@@ -115,7 +123,8 @@ impl Estimator {
         if alone && (now - self.trust.height).s() <= REFUSED_S {
             return;
         }
-        if !alone && self.ground.sides_with_filter(self.position_m.down(), fix.position_m.down()) {
+        let sides = || self.ground.sides_with_filter(self.position_m.down(), fix.position_m.down());
+        if !alone && (!self.follows_gnss() || sides()) {
             self.checks.gnss_height.drop_now();
             self.forget_height_drift();
             return;
@@ -124,7 +133,7 @@ impl Estimator {
         self.set_height(fix, now);
     }
 
-    fn forget_height_drift(&mut self) {
+    pub(super) fn forget_height_drift(&mut self) {
         self.drift_m = Vec3::new(self.drift_m.north(), self.drift_m.east(), 0.0);
         self.covariance.reset(DRIFT + 2, 1, self.process.drift[2]);
     }
@@ -169,6 +178,7 @@ impl Estimator {
         if self.checks.baro.admits(fits, now) {
             self.fuse(&slopes, innovation, variance);
             self.trust.height = now;
+            self.followed.note_barometer(now);
         }
         if fits {
             self.checks.baro_off.forget();
@@ -259,11 +269,11 @@ impl Estimator {
         }
     }
 
-    fn accepts(&self, slopes: Slopes, innovation: f64, variance: f64) -> bool {
+    pub(super) fn accepts(&self, slopes: Slopes, innovation: f64, variance: f64) -> bool {
         self.covariance.accepts(slopes, innovation, variance, GATE)
     }
 
-    fn fuse(&mut self, slopes: Slopes, innovation: f64, variance: f64) -> bool {
+    pub(super) fn fuse(&mut self, slopes: Slopes, innovation: f64, variance: f64) -> bool {
         match self.covariance.fuse(slopes, innovation, variance, GATE) {
             Some(correction) => {
                 self.correct(&correction);

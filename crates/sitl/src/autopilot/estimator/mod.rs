@@ -10,14 +10,16 @@ mod checks;
 pub mod covariance;
 mod fuse;
 mod ground;
+mod height;
 
 use super::Estimate;
-use super::operator_rules::NO_AID_S;
+use super::operator_rules::{HeightReference, NO_AID_S};
 use crate::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
 use align::{Aligned, Alignment, Gyro};
 use checks::Checks;
 use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATES, THETA, V};
 use ground::Ground;
+use height::Followed;
 use nalgebra::Vector3;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::Geo;
@@ -51,6 +53,8 @@ struct MeasurementNoise {
     accel_bias_m_s2: f64,
     gyro_bias_rad_s: f64,
     accel_sample: f64,
+    baro_walk: f64,
+    range_m: f64,
 }
 
 /// When a source was last believed.
@@ -118,6 +122,11 @@ pub struct Estimator {
     parked: bool,
     /// Without a fused velocity for this long the position counts as lost, s.
     pub(super) no_aid_s: f64,
+    /// What the height is to follow, where that works.
+    pub wanted_reference: HeightReference,
+    followed: Followed,
+    /// Steps of the position since somebody asked, m.
+    place_step_m: Option<Vec3<Ned>>,
     usable: bool,
 }
 
@@ -149,6 +158,8 @@ impl Estimator {
                 accel_bias_m_s2: sensors.accel_bias_m_s2,
                 gyro_bias_rad_s: sensors.gyro_bias_rad_s,
                 accel_sample: sensors.accel_noise_density * rate,
+                baro_walk: sq(sensors.baro_drift_m_sqrt_s),
+                range_m: sensors.range_noise_m,
             },
             field_gauss: magnetometer::earth_field_gauss(origin),
             alignment: Alignment::new(Gyro {
@@ -183,6 +194,9 @@ impl Estimator {
             multipath_m2: 0.0,
             parked: true,
             no_aid_s: NO_AID_S,
+            wanted_reference: HeightReference::default(),
+            followed: Followed::default(),
+            place_step_m: None,
             usable: false,
         }
     }
@@ -202,8 +216,11 @@ impl Estimator {
         if !self.aligned {
             return;
         }
+        self.choose_reference(now);
         if let Some(range_m) = readings.range_down_m {
-            self.ground.see(range_m * (self.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down());
+            let below_m = range_m * (self.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
+            self.ground.see(below_m);
+            self.follow_range(below_m, now);
         }
         if let Some(fix) = readings.gnss.as_ref().filter(|g| g.fix >= 3) {
             self.settle();
@@ -360,6 +377,11 @@ impl Estimator {
         Dropped { compass: c.mag.dropped(), barometer: c.baro.dropped(), gnss: c.gnss.dropped() || c.gnss_height.dropped() }
     }
 
+    /// The step by which the position was set to the receiver's since the last call, m.
+    pub fn take_place_step(&mut self) -> Option<Vec3<Ned>> {
+        self.place_step_m.take()
+    }
+
     /// Starts over at a known place (the vehicle was put there by hand); biases are kept.
     pub fn reinitialise(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
         self.position_m = position_m;
@@ -395,6 +417,7 @@ impl Estimator {
         self.usable = true;
         self.checks = Checks::default();
         self.ground = Ground::default();
+        self.followed.forget_ground();
         self.trust = Trust::new(now);
     }
 

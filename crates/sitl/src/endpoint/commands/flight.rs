@@ -19,7 +19,7 @@ pub(super) fn handle(c: &Command, x: &mut Context) -> Option<MavResult> {
     const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
     let request = match c.number {
         n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => match arm(c, x) {
-            Some(Request::Arm { force }) => return Some(arm_motors(force, x)),
+            Some(Request::Arm { force }) => return Some(arm_motors(c, force, x)),
             Some(other) => other,
             None => return Some(x.deny("Arming: 1 arms, 0 disarms")),
         },
@@ -170,7 +170,8 @@ fn arm(c: &Command, x: &Context) -> Option<Request> {
 }
 
 /// Each reason against it in a text of its own, where the flavour has words for that.
-fn arm_motors(force: bool, x: &mut Context) -> MavResult {
+/// In the mode that flies errands the vehicle's own order, by a switch of the transmitter, needs leave (`GUID_OPTIONS`).
+fn arm_motors(c: &Command, force: bool, x: &mut Context) -> MavResult {
     let (flavour, now) = (x.view.flavour, x.view.now);
     if let Some(words) = flavour.arm_words
         && !x.autopilot.status().armed
@@ -178,6 +179,8 @@ fn arm_motors(force: bool, x: &mut Context) -> MavResult {
         let row = flavour.row_of(x.autopilot.status().mode, *x.chosen);
         let mut reasons = if force { Vec::new() } else { x.autopilot.arming_reasons(now) };
         let allowed = row.armable || row.mode == Mode::Mission && x.params.arms_in_auto();
+        let by_transmitter = c.own && x.in_errands();
+        let allowed = allowed && (!by_transmitter || x.autopilot.tuning.rules.guided.transmitter_arms);
         if !allowed && !force {
             reasons.insert(0, format!("{} mode not armable", row.name.to_uppercase()));
         }

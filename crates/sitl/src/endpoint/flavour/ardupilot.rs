@@ -118,7 +118,7 @@ pub static FLAVOUR: Flavour = Flavour {
     asks_first: true,
     groups: &[
         (1, &[27, 105, 29]),
-        (2, &[1, 125, 152, 62, 42, 24, 162]),
+        (2, &[1, 125, 152, 62, 42, 24, 162, 87]),
         (3, &[36, 65]),
         (6, &[33, 32]),
         (10, &[30, 164]),
@@ -131,7 +131,6 @@ pub static FLAVOUR: Flavour = Flavour {
     events: false,
     loiters: Some(LOITER),
     offsets: true,
-    thrust_climbs: true,
     pauses: true,
     vtol_state: MavVtolState::MAV_VTOL_STATE_MC,
     splines: true,

@@ -51,7 +51,6 @@ pub static FLAVOUR: Flavour = Flavour {
     events: false,
     loiters: None,
     offsets: false,
-    thrust_climbs: false,
     pauses: false,
     vtol_state: MavVtolState::MAV_VTOL_STATE_UNDEFINED,
     splines: false,

@@ -136,8 +136,6 @@ pub struct Flavour {
     pub loiters: Option<u32>,
     /// Positions of set-points in frames that move with the vehicle count from where it is; otherwise they have no meaning.
     pub offsets: bool,
-    /// The thrust of an attitude set-point is a climb rate.
-    pub thrust_climbs: bool,
     /// DO_PAUSE_CONTINUE pauses what is flown; otherwise it ends in a hold.
     pub pauses: bool,
     /// EXTENDED_SYS_STATE.vtol_state.

@@ -90,7 +90,6 @@ pub static FLAVOUR: Flavour = Flavour {
     events: true,
     loiters: None,
     offsets: false,
-    thrust_climbs: false,
     pauses: false,
     vtol_state: MavVtolState::MAV_VTOL_STATE_UNDEFINED,
     splines: false,

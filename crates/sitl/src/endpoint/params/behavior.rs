@@ -93,18 +93,12 @@ pub(super) const ROWS: &[Row] = &[
         .bits(&[(0, "Automatic modes"), (1, "Offboard")]),
     row("COM_RC_STICK_OV", Real(30.0), (5.0, 80.0), "%", COMMANDER, "Travel of a stick that takes over"),
     row("FD_ACT_EN", Int(1), (0.0, 1.0), "", "Failure Detector", "A failed motor leads to COM_ACT_FAIL_ACT").values(OFF_ON),
-    // The filter weighs barometer and receiver by their errors at every moment, and range to the ground is no height next to a bridge:
-    // there is nothing to choose.
-    row(
-        "EKF2_HGT_REF",
-        Int(1),
-        (0.0, 3.0),
-        "",
-        "Estimator",
-        "Height reference (not used: barometer and GNSS are weighted by accuracy)",
-    )
-    .values(&[(0, "Barometer"), (1, "GNSS"), (2, "Range sensor"), (3, "Vision")])
-    .token(),
+    row("EKF2_HGT_REF", Int(1), (0.0, 3.0), "", "Estimator", "Sensor whose slow changes the height follows").values(&[
+        (0, "Barometer"),
+        (1, "GNSS"),
+        (2, "Range sensor"),
+        (3, "Vision"),
+    ]),
     row(
         "EKF2_NOAID_TOUT",
         Int(60_000_000),

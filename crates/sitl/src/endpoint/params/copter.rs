@@ -112,6 +112,12 @@ fn acting() -> Vec<Row> {
         mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSSES, LOSS, "FS"),
         scaled("FS_GCS_TIMEOUT", "COM_DL_LOSS_T", 1.0, REAL32, "s", "FS"),
         mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSSES, STICK_LOSS, "FS"),
+        // ArduCopter's other bits (4 to 7) can be set and change nothing: this vehicle flies targets as they are, and never turns into the wind.
+        row("GUID_OPTIONS", Int(0), (0.0, 255.0), "", "GUID", "Options of the mode GUIDED").wire(INT32).bits(&[
+            (0, "Arming from the transmitter is allowed"),
+            (2, "The yaw stick is ignored"),
+            (3, "Thrust of an attitude setpoint is thrust, not a climb rate"),
+        ]),
         row("GUID_TIMEOUT", Real(3.0), (0.1, 3_600.0), "s", "GUID", "Silence that ends external set-points without a place"),
         scaled("LAND_SPEED", "MPC_LAND_SPEED", 100.0, INT16, "cm/s", "LAND"),
         scaled("MAV_SYSID", "MAV_SYS_ID", 1.0, INT16, "", "MAV"),

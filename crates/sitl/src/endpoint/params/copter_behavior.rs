@@ -96,8 +96,7 @@ fn limits() -> Vec<Row> {
             &[(1, 0), (2, 2), (3, 1), (6, 3)],
             &[(1, "Barometer"), (2, "Range finder"), (3, "GNSS"), (6, "External navigation")],
             "EK3",
-        )
-        .token(),
+        ),
         scaled("LAND_ALT_LOW", "MPC_LAND_ALT2", 100.0, INT16, "cm", "LAND"),
         row("LAND_SPEED_HIGH", Int(0), (0.0, 500.0), "cm/s", "LAND", "Descent above LAND_ALT_LOW; 0: WPNAV_SPEED_DN").wire(INT16),
         scaled("LOIT_SPEED", "MPC_VEL_MANUAL", 100.0, REAL32, "cm/s", "LOIT"),

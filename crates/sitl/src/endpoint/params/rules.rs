@@ -2,8 +2,8 @@
 
 use super::Params;
 use crate::autopilot::operator_rules::{
-    BatteryResponses, Envelope, Exceptions, FenceParts, FenceSwitching, Heading, JOB_BATTERY, MissionNeeds, OffboardLoss,
-    OperatorRules, Response, ReturnPlaces, ReturnRules,
+    BatteryResponses, Envelope, Exceptions, FenceParts, FenceSwitching, GuidedOptions, Heading, HeightReference, JOB_BATTERY,
+    MissionNeeds, OffboardLoss, OperatorRules, Response, ReturnPlaces, ReturnRules,
 };
 
 /// Bits of ArduPilot's `FS_OPTIONS`.
@@ -45,6 +45,7 @@ impl Params {
         rules.envelope = self.envelope();
         rules.heading = self.heading();
         rules.mission_needs = MissionNeeds::from_number(self.integer("MIS_TKO_LAND_REQ")).unwrap_or_default();
+        rules.height_reference = HeightReference::from_number(self.integer("EKF2_HGT_REF"));
         rules.no_aid_s = f64::from(self.integer("EKF2_NOAID_TOUT")) * 1e-6;
         rules.first_waypoint_m = self.number("MIS_DIST_1WP");
         if copter {
@@ -52,6 +53,7 @@ impl Params {
             rules.mission_starts_armed = self.integer("AUTO_OPTIONS") & 1 << 1 != 0;
             rules.orbit_radius_m = self.number("CIRCLE_RADIUS") / 100.0;
             rules.fence = self.fence_parts();
+            rules.guided = GuidedOptions::from_bits(self.integer("GUID_OPTIONS"));
         }
     }
 

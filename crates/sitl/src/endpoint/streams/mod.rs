@@ -122,6 +122,7 @@ pub const STREAMS: &[Stream] = &[
     row(32, [50.0, 50.0, 10.0], position::local),
     row(33, [50.0, 50.0, 10.0], position::global),
     row(85, [10.0, 10.0, 0.0], position::local_target),
+    row(87, [0.0, 0.0, 0.0], position::global_target),
     row(141, [5.0, 10.0, 0.0], position::altitude),
     row(242, [0.5, 1.0, 1.0], position::home),
     row(49, [0.5, 1.0, 0.0], position::origin),

@@ -4,7 +4,7 @@ use super::super::view::View;
 use spandrel_mavlink::dialect::{
     ALTITUDE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA,
     MavEstimatorType, MavFrame, MavMessage, NAV_CONTROLLER_OUTPUT_DATA, ODOMETRY_DATA, ORBIT_EXECUTION_STATUS_DATA,
-    POSITION_TARGET_LOCAL_NED_DATA, PositionTargetTypemask, VFR_HUD_DATA,
+    POSITION_TARGET_GLOBAL_INT_DATA, POSITION_TARGET_LOCAL_NED_DATA, PositionTargetTypemask, VFR_HUD_DATA,
 };
 use spandrel_mavlink::units::{cm, deg_e7, heading_cdeg, mm};
 use spandrel_model::frames::Vec3;
@@ -51,22 +51,93 @@ pub(super) fn orbit(v: &View) -> Option<MavMessage> {
     }))
 }
 
+/// Everything but the place is to be ignored.
+const PLACE_ALONE: PositionTargetTypemask = NO_VELOCITY.union(NO_ACCELERATION).union(NO_HEADING);
+const NO_PLACE: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_X_IGNORE
+    .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_Y_IGNORE)
+    .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_Z_IGNORE);
+const NO_VELOCITY: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VX_IGNORE
+    .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VY_IGNORE)
+    .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VZ_IGNORE);
+const NO_ACCELERATION: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AX_IGNORE
+    .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AY_IGNORE)
+    .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AZ_IGNORE);
+const NO_HEADING: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_IGNORE
+    .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE);
+
+/// ArduCopter sets the bits without a meaning in POSITION_TARGET_GLOBAL_INT.
+const UNUSED_BITS: PositionTargetTypemask = PositionTargetTypemask::from_bits_retain(0xF000);
+
+/// POSITION_TARGET_LOCAL_NED as PX4 sends it: the place that is flown to. An ArduCopter sends it in GUIDED alone, with what the last
+/// setpoint has asked for.
 pub(super) fn local_target(v: &View) -> Option<MavMessage> {
-    let [x, y, z] = v.local_from_site(v.status.target_m?).array().map(|c| c as f32);
-    let mask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VX_IGNORE
-        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VY_IGNORE
-        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VZ_IGNORE
-        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AX_IGNORE
-        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AY_IGNORE
-        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AZ_IGNORE
-        | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE;
-    Some(MavMessage::POSITION_TARGET_LOCAL_NED(POSITION_TARGET_LOCAL_NED_DATA {
+    if v.flavour.errands.is_some() {
+        return guided_target(v);
+    }
+    let mask = NO_VELOCITY | NO_ACCELERATION | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE;
+    let place = v.local_from_site(v.status.target_m?).array();
+    Some(target_message(v, mask, [place, [0.0; 3], [0.0; 3]]))
+}
+
+/// Which of place, velocity and acceleration the mask leaves is ArduCopter's rule: a place alone, all three, velocity and acceleration, or
+/// acceleration alone; none for attitudes.
+fn guided_target(v: &View) -> Option<MavMessage> {
+    if v.flavour.errands != Some(v.flavour.row_of(v.status.mode, v.chosen).number) {
+        return None;
+    }
+    let place = || Some(v.local_from_site(v.status.target_m?).array());
+    let still = [0.0; 3];
+    let Some(setpoint) = v.status.setpoint else {
+        return Some(target_message(v, PLACE_ALONE, [place()?, still, still]));
+    };
+    if setpoint.attitude.is_some() || setpoint.rates.is_some() {
+        return None;
+    }
+    let asked = |axes: [Option<f64>; 3]| axes.iter().any(Option::is_some);
+    let number = |axes: [Option<f64>; 3]| axes.map(|axis| axis.unwrap_or(0.0));
+    let (velocity, acceleration) = (number(setpoint.velocity_m_s), number(setpoint.acceleration_m_s2));
+    let moves = asked(setpoint.velocity_m_s) || asked(setpoint.acceleration_m_s2);
+    let (mask, parts) = match (asked(setpoint.position_m), moves) {
+        (true, false) => (PLACE_ALONE, [place()?, still, still]),
+        (true, true) => (NO_HEADING, [place()?, velocity, acceleration]),
+        _ if asked(setpoint.velocity_m_s) => (NO_PLACE | NO_HEADING, [still, velocity, acceleration]),
+        _ => (NO_PLACE | NO_VELOCITY | NO_HEADING, [still, still, acceleration]),
+    };
+    Some(target_message(v, mask, parts))
+}
+
+/// Place, velocity and acceleration in MAVLink's local frame.
+fn target_message(v: &View, type_mask: PositionTargetTypemask, parts: [[f64; 3]; 3]) -> MavMessage {
+    let [[x, y, z], [vx, vy, vz], [afx, afy, afz]] = parts.map(|part| part.map(|c| c as f32));
+    MavMessage::POSITION_TARGET_LOCAL_NED(POSITION_TARGET_LOCAL_NED_DATA {
         time_boot_ms: v.boot_ms(),
         x,
         y,
         z,
-        type_mask: mask,
+        vx,
+        vy,
+        vz,
+        afx,
+        afy,
+        afz,
+        type_mask,
         coordinate_frame: MavFrame::MAV_FRAME_LOCAL_NED,
+        ..Default::default()
+    })
+}
+
+/// The place that is flown to, over the sea. Velocities and accelerations have none.
+pub(super) fn global_target(v: &View) -> Option<MavMessage> {
+    let placed = v.status.setpoint.is_none_or(|s| s.position_m.iter().any(Option::is_some) && s.velocity_m_s == [None; 3]);
+    let flies_itself = !v.status.mode.is_manual();
+    let geo = v.plane.geo_from_enu(v.status.target_m.filter(|_| placed && flies_itself)?.enu());
+    Some(MavMessage::POSITION_TARGET_GLOBAL_INT(POSITION_TARGET_GLOBAL_INT_DATA {
+        time_boot_ms: v.boot_ms(),
+        lat_int: deg_e7(geo.latitude_deg),
+        lon_int: deg_e7(geo.longitude_deg),
+        alt: geo.altitude_m as f32,
+        type_mask: PLACE_ALONE | UNUSED_BITS,
+        coordinate_frame: MavFrame::MAV_FRAME_GLOBAL,
         ..Default::default()
     }))
 }
@@ -139,7 +210,7 @@ pub(super) fn odometry(v: &View) -> Option<MavMessage> {
         velocity_covariance: [f32::NAN; 21],
         frame_id: MavFrame::MAV_FRAME_LOCAL_NED,
         child_frame_id: MavFrame::MAV_FRAME_BODY_FRD,
-        reset_counter: (v.scoring.respawns & 0xff) as u8,
+        reset_counter: (v.scoring.respawns.wrapping_add(v.status.position_resets.cast_signed()) & 0xff) as u8,
         estimator_type: MavEstimatorType::MAV_ESTIMATOR_TYPE_AUTOPILOT,
         quality: 100,
     }))

@@ -1,0 +1,97 @@
+//! Texts that are events, too, as PX4 sends them: a client that knows the definitions shows them in its own language.
+
+use serde_json::{Value as Json, json};
+
+/// Log levels of PX4: internal in the upper half, external in the lower.
+const CRITICAL: u8 = 0x22;
+const WARNING: u8 = 0x44;
+const INFO: u8 = 0x66;
+
+/// One event without arguments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Notice {
+    /// How the text begins.
+    pub words: &'static str,
+    /// The event's name.
+    pub name: &'static str,
+    /// Log levels.
+    pub levels: u8,
+}
+
+const fn notice(words: &'static str, name: &'static str, levels: u8) -> Notice {
+    Notice { words, name, levels }
+}
+
+/// All of them.
+pub const NOTICES: [Notice; 34] = [
+    notice("Arming denied", "commander_arming_denied", CRITICAL),
+    notice("Disarming denied: not landed", "commander_disarming_denied_not_landed", CRITICAL),
+    notice("No mission to fly", "mode_denied_no_mission", CRITICAL),
+    notice("Mission has no take-off item", "mode_denied_no_takeoff_item", CRITICAL),
+    notice("Mission has no landing item", "mode_denied_no_landing_item", CRITICAL),
+    notice("First waypoint too far from home", "mode_denied_first_waypoint_far", CRITICAL),
+    notice("Offboard needs external set-points first", "mode_denied_no_setpoints", CRITICAL),
+    notice("No position estimate", "mode_denied_no_position", CRITICAL),
+    notice("No home position", "mode_denied_no_home", CRITICAL),
+    notice("No path recorded since take-off", "mode_denied_no_path", CRITICAL),
+    notice("Nothing to circle", "mode_denied_no_orbit", CRITICAL),
+    notice("No such mode", "mode_denied_unknown", CRITICAL),
+    notice("Low battery", "battery_warning_low", WARNING),
+    notice("Critical battery", "battery_warning_critical", CRITICAL),
+    notice("Failsafe: low battery", "failsafe_battery_low", WARNING),
+    notice("Failsafe: critical battery", "failsafe_battery_critical", CRITICAL),
+    notice("Failsafe: battery emergency", "failsafe_battery_emergency", CRITICAL),
+    notice("Failsafe: motor failure", "failsafe_motor_failure", CRITICAL),
+    notice("Failsafe: manual control lost", "failsafe_manual_control_lost", CRITICAL),
+    notice("Failsafe: ground station lost", "failsafe_ground_station_lost", CRITICAL),
+    notice("Failsafe: external set-points lost", "failsafe_setpoints_lost", CRITICAL),
+    notice("Failsafe: position lost, holding height only", "failsafe_position_lost_altitude", CRITICAL),
+    notice("Failsafe: position lost, landing", "failsafe_position_lost_landing", CRITICAL),
+    notice("Failsafe cleared", "failsafe_cleared", INFO),
+    notice("Geofence breached", "failsafe_geofence_breached", CRITICAL),
+    notice("Within the geofence again", "failsafe_geofence_within", INFO),
+    notice("Attitude lost: motor or propeller failure?", "failure_detector_attitude_lost", CRITICAL),
+    notice("Crash detected", "failure_detector_crash", CRITICAL),
+    notice("GNSS position jumped", "estimator_position_reset", CRITICAL),
+    notice("GNSS stuck: not used", "sensor_gnss_stuck", CRITICAL),
+    notice("GNSS inconsistent: not used", "sensor_gnss_inconsistent", CRITICAL),
+    notice("Takeoff detected", "commander_takeoff_detected", INFO),
+    notice("Landing detected", "commander_landing_detected", INFO),
+    notice("Mission finished", "mission_finished", INFO),
+];
+
+/// The event of a text.
+#[must_use]
+pub fn of(text: &str) -> Option<&'static Notice> {
+    NOTICES.iter().find(|notice| text.starts_with(notice.words))
+}
+
+/// Whether the event says all that the text says: then a ground station that shows events need not show the text. PX4 marks such texts by a tab at
+/// their end, and QGroundControl leaves them out.
+#[must_use]
+pub fn says_all(text: &str) -> bool {
+    of(text).is_some_and(|notice| notice.words == text)
+}
+
+/// Their definitions.
+#[must_use]
+pub fn definitions(id: impl Fn(&str) -> u32) -> Json {
+    let events = NOTICES.iter().map(|n| (id(n.name).to_string(), json!({ "name": n.name, "message": n.words })));
+    json!({ "events": events.collect::<serde_json::Map<String, Json>>() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_text_has_one_event() {
+        for (k, notice) in NOTICES.iter().enumerate() {
+            let others = NOTICES.iter().enumerate().filter(|(other, _)| *other != k);
+            assert!(others.clone().all(|(_, other)| !notice.words.starts_with(other.words)), "{}", notice.words);
+            assert!(others.clone().all(|(_, other)| notice.name != other.name), "{}", notice.name);
+        }
+        assert_eq!(of("Mission finished").map(|n| n.name), Some("mission_finished"));
+        assert!(says_all("Mission finished") && !says_all("Low battery: 29 %") && of("Armed").is_none());
+    }
+}

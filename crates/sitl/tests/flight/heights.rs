@@ -1,0 +1,101 @@
+//! Which sensor the height follows, by EKF2_HGT_REF.
+
+use super::consistency::{Run, flat};
+use spandrel_model::frames::Vec3;
+use spandrel_model::time::SimTime;
+use spandrel_sitl::autopilot::operator_rules::HeightReference;
+use spandrel_sitl::sensors::Readings;
+
+/// A sensor's slow error in the end, m, and when it grows, s.
+const ERROR_M: f64 = 6.0;
+const GROWS_S: (f64, f64) = (20.0, 80.0);
+/// The height follows a sensor that it is nearer to than this, and does not follow one whose error it shows less of, m (the receiver alone: 0.64 m,
+/// 1 sigma).
+const NEAR_M: f64 = 1.5;
+
+fn grown_m(now: SimTime) -> f64 {
+    ERROR_M * ((now.s() - GROWS_S.0) / (GROWS_S.1 - GROWS_S.0)).clamp(0.0, 1.0)
+}
+
+/// Where a slow change is: in the readings, or in the ground.
+struct Case {
+    reference: HeightReference,
+    change: fn(&mut Readings, SimTime),
+    ground_up_m: fn(SimTime) -> f64,
+    /// The estimate's height over the true one in the end, m.
+    wanted_m: f64,
+}
+
+impl Case {
+    /// The estimate's height over the true one, m, and whether all sensors were used to the end.
+    fn height_off_m(&self) -> (f64, bool) {
+        let mut run = Run::in_the_open(3, self.ground_up_m);
+        run.filter.wanted_reference = self.reference;
+        let mut used = true;
+        while run.now < SimTime::from_s(100.0) {
+            run.tick_with(self.change);
+            let dropped = run.filter.dropped();
+            used &= !dropped.barometer && !dropped.gnss;
+        }
+        (run.height_error_m(), used)
+    }
+}
+
+fn nothing_changes(_: &mut Readings, _: SimTime) {}
+
+fn ground_sinks(now: SimTime) -> f64 {
+    -grown_m(now)
+}
+
+fn barometer_rises(readings: &mut Readings, now: SimTime) {
+    readings.baro_up_m = readings.baro_up_m.map(|up| up + grown_m(now));
+}
+
+fn receiver_rises(readings: &mut Readings, now: SimTime) {
+    if let Some(fix) = &mut readings.gnss {
+        fix.position_m += Vec3::new(0.0, 0.0, -grown_m(now));
+    }
+}
+
+#[test]
+fn regress_the_height_follows_the_sensor_that_is_its_reference() {
+    use HeightReference::{Barometer, Gnss, RangeFinder};
+    let case = |reference, change, ground_up_m, wanted_m| Case { reference, change, ground_up_m, wanted_m };
+    let cases = [
+        case(Barometer, barometer_rises, flat, ERROR_M),
+        case(Gnss, barometer_rises, flat, 0.0),
+        case(Barometer, receiver_rises, flat, 0.0),
+        case(RangeFinder, nothing_changes, ground_sinks, ERROR_M),
+        case(RangeFinder, barometer_rises, flat, 0.0),
+        case(Gnss, nothing_changes, ground_sinks, 0.0),
+    ];
+    for (k, case) in cases.iter().enumerate() {
+        let (off, used) = case.height_off_m();
+        assert!((off - case.wanted_m).abs() < NEAR_M, "case {k}, {:?}: {off} m, not {}", case.reference, case.wanted_m);
+        assert!(used || case.reference == Gnss, "case {k}, {:?}: a sensor was dropped", case.reference);
+    }
+}
+
+#[test]
+fn regress_a_reference_that_falls_silent_gives_way_to_gnss() {
+    let silent = |readings: &mut Readings, now: SimTime| {
+        barometer_rises(readings, now);
+        if now > SimTime::from_s(90.0) {
+            readings.baro_up_m = None;
+        }
+    };
+    let mut run = Run::in_the_open(4, flat);
+    run.filter.wanted_reference = HeightReference::Barometer;
+    let mut largest_step: f64 = 0.0;
+    let mut before = run.filter.estimate().position_m.down();
+    while run.now < SimTime::from_s(400.0) {
+        run.tick_with(silent);
+        let down = run.filter.estimate().position_m.down();
+        if run.now > SimTime::from_s(5.0) {
+            largest_step = largest_step.max((down - before).abs());
+        }
+        before = down;
+    }
+    assert!(run.height_error_m().abs() < 2.0 * NEAR_M, "{} m", run.height_error_m());
+    assert!(largest_step < 0.5, "{largest_step} m in a tick");
+}
