@@ -42,7 +42,7 @@ pub struct Heard {
     pub seed: Option<u64>,
     /// Times that the aircraft was put back.
     pub respawns: i32,
-    /// What the aircraft touches (design.md's code).
+    /// What the aircraft touches (code of docs/src/reference/wire.md, "Scoring data").
     pub contact: i32,
     /// Gimbal pitch, rad.
     pub gimbal_pitch_rad: f64,

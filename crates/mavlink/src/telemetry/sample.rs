@@ -14,7 +14,7 @@ use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// What the aircraft touches, as the wire's `contact` says it (design.md).
+/// What the aircraft touches, as the wire's `contact` says it (docs/src/reference/wire.md, "Scoring data").
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Default)]
 #[serde(rename_all = "lowercase")]
 pub enum Contact {

@@ -138,7 +138,7 @@ pub struct PlanSummary {
     pub lead: u16,
 }
 
-/// What the scoring needs beside the motion (design.md, truth for the scoring).
+/// What the scoring needs beside the motion (docs/src/reference/wire.md, "Scoring data").
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scoring {
     /// 0 none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other.

@@ -64,7 +64,7 @@ impl Scene {
     }
 }
 
-/// What is touched, by the wire's number (design.md, truth for the scoring).
+/// What is touched, by the wire's number (docs/src/reference/wire.md, "Scoring data").
 fn word(contact: i32) -> &'static str {
     const WORDS: [&str; 7] = ["none", "bridge", "terrain", "water", "vehicle", "person", "other"];
     usize::try_from(contact).ok().and_then(|code| WORDS.get(code)).copied().unwrap_or("other")

@@ -1,4 +1,4 @@
-//! What the vehicle sends by itself: one row a message, with its rates by kind of link (mavlink.md 4.10).
+//! What the vehicle sends by itself: one row a message, with its rates by kind of link (docs/src/reference/wire.md, "Streams").
 
 mod ardupilot;
 mod attitude;
