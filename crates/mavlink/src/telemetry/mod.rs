@@ -5,6 +5,7 @@
 pub mod frame;
 pub mod hand;
 pub mod log_stream;
+pub mod navigation;
 mod rows;
 pub mod sample;
 pub mod signal;
@@ -13,5 +14,6 @@ pub mod tlog;
 
 pub use frame::Frame;
 pub use hand::Hand;
+pub use navigation::{Navigation, NavigationReader};
 pub use sample::{Contact, Sample, Truth};
 pub use timeline::{Flight, RESTART_AFTER, RESTART_CONFIRM, Timeline};
