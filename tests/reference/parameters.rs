@@ -18,6 +18,10 @@ fn text(parameter: &Value, key: &str) -> String {
     match &parameter[key] {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),
+        // A float of 32 bits with the digits that it has.
+        Value::Number(number) if parameter["type"] == "Float" => {
+            number.as_f64().map_or_else(String::new, |value| (value as f32).to_string())
+        }
         other => other.to_string(),
     }
 }
