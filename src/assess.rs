@@ -9,6 +9,7 @@ use serde_json::json;
 use spandrel_mavlink::telemetry::log_stream::Log;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
+use spandrel_monitor::export::FrameRow;
 use spandrel_monitor::watch::build_site;
 use spandrel_monitor::{AssessError, Graded, assess_log, export};
 use std::path::PathBuf;
@@ -58,12 +59,25 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// # Errors
 /// When there is nothing to score.
 pub fn grade(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<Graded, AppError> {
-    assess_log(log, scenario, vehicle, build_site).map_err(|error| match error {
+    assess_log(log, scenario, vehicle, build_site).map_err(|error| refused(&error))
+}
+
+/// Reads the scored frames of a stored session, for exports.
+///
+/// # Errors
+/// When there is nothing to score.
+pub fn frame_rows(stored: &Stored) -> Result<Vec<FrameRow>, AppError> {
+    let rows = export::frame_rows(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle);
+    rows.map_err(|error| refused(&error))
+}
+
+fn refused(error: &AssessError) -> AppError {
+    match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
             AppError::wrong(format!("{error}: score the log against the scenario that was flown"))
         }
         _ => AppError::failed(error.to_string()),
-    })
+    }
 }
 
 fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {

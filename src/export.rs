@@ -69,7 +69,7 @@ pub struct Args {
     /// The flight as MCAP: drone, camera and site, battery, clearance, contacts; '-' for standard output
     #[arg(long, value_name = "FILE")]
     mcap: Option<String>,
-    /// Frames as Parquet, with the columns of --frames; '-' for standard output
+    /// Frames as Parquet, with the columns of --frames, each with its unit, frame and definition in the metadata; '-' for standard output
     #[arg(long, value_name = "FILE")]
     parquet: Option<String>,
     /// The session as xAPI statements, one JSON object a line; '-' for standard output
@@ -99,8 +99,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         let Some(stored) = &stored else {
             return Err(AppError::wrong(format!("--frames needs a session folder, and '{}' is none", args.from)));
         };
-        let graded = assess::grade(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle)?;
-        files::write(target, frames_csv(&graded.frames).as_bytes())?;
+        files::write(target, frames_csv(&assess::frame_rows(stored)?).as_bytes())?;
     }
     if let Some(target) = &args.mcap {
         let Some(stored) = &stored else {
@@ -153,8 +152,7 @@ fn exchanged(args: &Args, stored: Option<&Stored>) -> Result<(), AppError> {
         |flag: &str| stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, and '{}' is none", args.from)));
     if let Some(target) = &args.parquet {
         let stored = needed("--parquet")?;
-        let graded = assess::grade(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle)?;
-        files::write(target, &super::parquet::frames(&graded.frames)?)?;
+        files::write(target, &super::parquet::frames(&assess::frame_rows(stored)?)?)?;
     }
     if let Some(target) = &args.xapi {
         needed("--xapi")?;

@@ -4,7 +4,8 @@ use spandrel_model::time::SimTime;
 use std::str::FromStr;
 use std::time::Duration;
 
-/// Largest step of simulation time between two looks at the sockets: the lockstep interval (design.md).
+/// Largest step of simulation time between two looks at the sockets: the lockstep interval (docs/src/reference/wire.md, "One
+/// simulation step").
 pub const STEP: SimTime = SimTime::from_ms(20);
 /// A lockstep peer that does not answer for this much wall time ends the run.
 pub const PATIENCE: Duration = Duration::from_secs(10);

@@ -102,8 +102,7 @@ pub fn compare(state: &State, asked: &Asked) -> Answered {
 pub fn frames(state: &State, asked: &Asked) -> Answered {
     let id = asked.part("id");
     let stored = Stored::read(&folder(state, asked, id)?)?;
-    let graded = assess::grade(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle)?;
-    let csv = export::frames_csv(&graded.frames);
+    let csv = export::frames_csv(&assess::frame_rows(&stored)?);
     Ok(Answer::download(&format!("{id}-frames.csv"), "text/csv; charset=utf-8", csv.into_bytes()))
 }
 

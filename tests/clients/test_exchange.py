@@ -5,6 +5,7 @@ import csv
 import http.server
 import io
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -48,8 +49,32 @@ def test_parquet_holds_what_the_csv_does(sessions, tmp_path):
         if name == "contact":
             assert ours == theirs
         else:
-            # Written with the fewest digits that read back to the same bits: equal, not near.
-            assert [float(value) for value in ours] == [float(value) for value in theirs], name
+            # Written with the fewest digits that read back to the same bits: equal, not near. An empty cell is a null.
+            numbers = [None if value == "" else float(value) for value in theirs]
+            assert [None if value is None else float(value) for value in ours] == numbers, name
+    # A flight of our own vehicle holds all of them.
+    for name in ("roll_deg", "gimbal_pitch_deg", "task", "path_distance_m", "clearance_m", "wind_north_m_s", "estimated_up_m"):
+        known = [value for value in table.column(name).to_pylist() if value is not None]
+        assert len(known) > 0.2 * table.num_rows, name
+    off = [math.dist(true, estimated) for true, estimated in zip(places(table, ""), places(table, "estimated_")) if None not in estimated]
+    assert 0 < max(off) < 5, "the estimate is near the truth and is not the truth"
+
+
+def places(table, prefix):
+    return list(zip(*(table.column(f"{prefix}{axis}_m").to_pylist() for axis in ("east", "north", "up"))))
+
+
+def test_parquet_fields_carry_unit_frame_and_definition(sessions, tmp_path):
+    spandrel.run("export", str(session(sessions)), "--parquet", str(tmp_path / "frames.parquet"))
+    schema = pyarrow.parquet.read_schema(tmp_path / "frames.parquet")
+    for field in schema:
+        assert field.metadata[b"description"].endswith(b"."), field.name
+    units = {field.name: field.metadata.get(b"unit") for field in schema}
+    assert units["speed_m_s"] == b"m/s" and units["yaw_deg"] == b"deg" and units["battery_pct"] == b"%" and units["task"] is None
+    assert schema.field("estimated_east_m").metadata[b"frame"] == b"east, north, up from the scenario's origin"
+    kinds = {"frame": "int64", "t_s": "double", "missing": "bool", "contact": "string"}
+    assert {name: str(schema.field(name).type) for name in kinds} == kinds
+    assert schema.field("task").nullable and not schema.field("t_s").nullable
 
 
 class Store(http.server.BaseHTTPRequestHandler):

@@ -1,39 +1,15 @@
-//! Exports with fixed names: frames as CSV and the scored part of a scenario as JSON. Numbers are written with the fewest digits
+//! Exports with fixed names: frames as columns, and the scored part of a scenario as JSON. Numbers are written with the fewest digits
 //! that read back to the same bits.
 
+pub mod columns;
+pub mod fields;
+pub mod frame_row;
+
+pub use columns::{COLUMNS, Column, frames_csv};
+pub use frame_row::{FrameRow, frame_rows};
+
 use serde::Serialize;
-use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::scenario::{PlacedDefect, Scenario};
-use std::fmt::Write;
-
-/// Columns of the frames export.
-pub const FRAME_COLUMNS: &str = "frame,t_s,fb,rl,ud,rt,light,snapshot,east_m,north_m,up_m,speed_m_s,battery_pct,contact,missing";
-
-/// Frames as CSV; `t_s` counts from lift-off.
-#[must_use]
-pub fn frames_csv(frames: &[Frame]) -> String {
-    let mut csv = String::with_capacity(frames.len() * 120 + FRAME_COLUMNS.len() + 1);
-    csv.push_str(FRAME_COLUMNS);
-    csv.push('\n');
-    let Some(first) = frames.first() else { return csv };
-    for frame in frames {
-        let [fb, rl, ud, rt] = frame.sticks;
-        let [east, north, up] = frame.position_m.array();
-        // Divided, not multiplied by 1e-9: the nearest number to a decimal one, so that it is written short.
-        let t_s = (frame.time - first.time).ns() as f64 / 1e9;
-        let (light, snapshot, missing) = (u8::from(frame.light), u8::from(frame.snapshot), u8::from(frame.missing));
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            csv,
-            "{},{t_s},{fb},{rl},{ud},{rt},{light},{snapshot},{east},{north},{up},{},{},{},{missing}",
-            frame.index,
-            frame.speed_m_s(),
-            frame.battery_pct,
-            frame.contact.word(),
-        );
-    }
-    csv
-}
 
 /// A task in the scenario export.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -10,13 +10,13 @@ use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 
-/// Lift-off and landing height of the drone's centre over the pad, m (assessment.md, frames).
+/// Lift-off and landing height of the drone's centre over the pad, m (docs/src/reference/assessment.md, "Frames").
 const LIFT_OFF_M: f64 = 0.3;
 /// An aircraft whose centre stands higher than the rule's height lifts off this much over its stand, m (estimate).
 const OVER_STAND_M: f64 = 0.05;
 /// Slower than this is at rest, m/s (estimate: above the truth stream's resolution of 0.01 m/s, below any controlled drift).
 const REST_M_S: f64 = 0.2;
-/// At rest for this long is a landing (assessment.md, frames).
+/// At rest for this long is a landing (docs/src/reference/assessment.md, "Frames").
 const REST_FOR: SimTime = SimTime::from_ms(3_000);
 
 /// The words `armed` and `on the ground` come once a second and may be this old.

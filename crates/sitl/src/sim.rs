@@ -1,4 +1,5 @@
-//! One simulation step, in a written order (design.md, "One simulation step"). Sans-IO: datagrams and times come in, datagrams go out.
+//! One simulation step, in a written order (docs/src/reference/wire.md, "One simulation step"). Sans-IO: datagrams and times come
+//! in, datagrams go out.
 
 mod consequences;
 mod doors;

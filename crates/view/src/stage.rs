@@ -250,7 +250,7 @@ pub fn display(stage: &Stage, moment: &Moment, told: &Told, (feed, held): (&Feed
     }
 }
 
-/// Flight time counts from this height over the pad, m (assessment.md, frames).
+/// Flight time counts from this height over the pad, m (docs/src/reference/assessment.md, "Frames").
 pub const LIFT_OFF_M: f64 = 0.3;
 
 fn tracks(scenario: &Scenario) -> Vec<Track> {

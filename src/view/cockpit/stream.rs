@@ -20,7 +20,8 @@ use std::time::Duration;
 const BITS_PX: f64 = 0.1;
 /// A receiver that begins in the middle waits this many pictures at most.
 const KEY_EVERY: u32 = 25;
-/// Least time between two pictures: 30 a second, as drones' cameras send (domain.md 3); a window may be drawn more often.
+/// Least time between two pictures: 30 a second, as drones' cameras send (estimate; docs/src/reference/wire.md, "Camera, gimbal
+/// and lamp"); a window may be drawn more often.
 const LEAST: Duration = Duration::from_nanos(33_000_000);
 
 /// A stream of pictures to somebody.

@@ -6,9 +6,9 @@ use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 
-/// Neuromuscular lag, s (domain.md section 6).
+/// Neuromuscular lag, s (docs/src/reference/domain.md, "Human operators").
 const LAG_S: f64 = 0.1;
-/// Motor noise in proportion to the deflection for the trained pilot (-25 dB, domain.md section 6).
+/// Motor noise in proportion to the deflection for the trained pilot (-25 dB, docs/src/reference/domain.md, "Human operators").
 const PROPORTIONAL: f64 = 0.056;
 /// Tremor around the centre for the trained pilot (estimate).
 const TREMOR: f64 = 0.006;

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 /// Grid spacing, m: finer than the interlayer is high.
 const CELL_M: f64 = 2.0;
-/// Clearance that a person likes to keep, m (practice: 3 to 5 m, domain.md 3e).
+/// Clearance that a person likes to keep, m (practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
 const COMFORT_M: f64 = 4.0;
 /// Around an end that lies nearer to things than the way should, the way keeps what the end has, m (estimate: the reach of a task's own
 /// distance for "too close").

@@ -2,7 +2,8 @@
 
 use std::str::FromStr;
 
-/// A pilot's numbers. Sources: domain.md section 6 (crossover model, McRuer; gaze of drone pilots 1.5 s ahead, n = 21).
+/// A pilot's numbers. Sources: docs/src/reference/domain.md, "Human operators" (crossover model, McRuer; gaze of drone pilots 1.5
+/// s ahead, n = 21).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skill {
     /// Delay from what happens to the hand's answer, s.
@@ -73,7 +74,8 @@ impl Skill {
     }
 
     /// Length of a defect that is noticed half of the time, mm: 26 for the trained (Campbell et al. 2020), 15 for the expert and
-    /// 60 for the novice (domain.md section 6), which a power law of the noise passes through within 10 %.
+    /// 60 for the novice (docs/src/reference/domain.md, "Human operators"), which a power law of the noise passes through within
+    /// 10 %.
     #[must_use]
     pub fn median_length_mm(&self) -> f64 {
         26.0 * spandrel_model::math::pow(self.noise, 1.3)

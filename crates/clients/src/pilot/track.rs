@@ -4,7 +4,8 @@ use super::perception::Motion;
 use super::skill::Skill;
 use spandrel_model::frames::{Enu, Vec3};
 
-/// Pull towards the line for the trained pilot, 1/s (a third of the crossover of a rate-command loop, domain.md section 6).
+/// Pull towards the line for the trained pilot, 1/s (a third of the crossover of a rate-command loop,
+/// docs/src/reference/domain.md, "Human operators").
 const PULL_PER_S: f64 = 0.9;
 /// Braking that a person plans with, m/s² (estimate).
 const BRAKE_M_S2: f64 = 1.2;

@@ -6,7 +6,7 @@ use crate::contract::truth::Truth;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Silence of the truth beyond this is a gap (assessment.md, frames).
+/// Silence of the truth beyond this is a gap (docs/src/reference/assessment.md, "Frames").
 pub const GAP_AFTER: SimTime = SimTime::from_ms(200);
 /// A gap up to this long is interpolated; the frames of a longer one are missing.
 pub const INTERPOLATED_UP_TO: SimTime = SimTime::from_ms(1_000);

@@ -4,6 +4,7 @@
 
 pub mod frame;
 pub mod log_stream;
+pub mod navigation;
 mod rows;
 pub mod sample;
 pub mod signal;
@@ -11,5 +12,6 @@ pub mod timeline;
 pub mod tlog;
 
 pub use frame::Frame;
+pub use navigation::{Navigation, NavigationReader};
 pub use sample::Sample;
 pub use timeline::{Flight, Timeline};

@@ -336,7 +336,7 @@ pub enum BatteryModel {
     Physical,
 }
 
-/// Feedback thresholds (assessment.md, in-task feedback).
+/// Feedback thresholds (docs/src/reference/assessment.md, "Feedback during the flight").
 #[derive(Debug, Clone, PartialEq)]
 pub struct Feedback {
     /// Anything nearer than this to the drone's centre, m.

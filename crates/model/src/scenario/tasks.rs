@@ -24,7 +24,7 @@ const KINDS: [(&str, TaskKind); 5] = [
     ("free", TaskKind::Free),
 ];
 
-/// Thresholds of the paper's tasks, m (assessment.md; the paper gives none).
+/// Thresholds of the paper's tasks, m (docs/src/reference/assessment.md, "On path"; the paper gives none).
 fn usual_threshold_m(kind: TaskKind) -> f64 {
     match kind {
         TaskKind::SlabSide | TaskKind::ArchBottom => 3.0,

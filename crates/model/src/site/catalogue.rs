@@ -1,5 +1,6 @@
-//! What may be wrong with which element: AASHTO MBEI defect codes by element material (domain.md 2a, 2b) and sizes by condition
-//! state (2c for the limits between states, 2d for what is seen; a size without a limit there is an estimate).
+//! What may be wrong with which element: AASHTO MBEI defect codes by element material (docs/src/reference/domain.md, "Defects")
+//! and sizes by condition state ("Condition states" on that page has the limits; a size without a
+//! limit there is an estimate).
 
 use crate::random::RandomStream;
 

@@ -260,7 +260,8 @@ mod tests {
 
     #[test]
     fn val_light_on_the_bridges_lies_in_the_published_ranges() {
-        // domain.md 3c: sun 50 to 100 klx (with the sky up to 125), overcast 5 to 20, under a 12 m deck with water reflection
+        // docs/src/reference/domain.md, "Light levels": sun 50 to 100 klx (with the sky up to 125), overcast 5 to 20, under a 12
+        // m deck with water reflection
         // 200 to 2000 lx (a level of bright overcast: sun on the lake throws up more).
         for (cloud, range) in [(0.0, 50e3..125e3), (1.0, 5e3..20.5e3)] {
             let site = Site::build(&scenario(cloud), 1);

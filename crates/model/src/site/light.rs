@@ -331,7 +331,8 @@ mod tests {
 
     #[test]
     fn val_levels_lie_in_the_published_ranges() {
-        // domain.md 3c: sun 50 to 100 klx, overcast 5 to 20 klx, under a 12 m deck with water reflection 200 to 2000 lx.
+        // docs/src/reference/domain.md, "Light levels": sun 50 to 100 klx, overcast 5 to 20 klx, under a 12 m deck with water
+        // reflection 200 to 2000 lx.
         let at = SimTime::ZERO;
         let open = |m: &LightModel| m.ambient_lux(Vec3::zero(), Some(UP), at, &nothing);
         assert!((50e3..=125e3).contains(&open(&model(0.0))), "{}", open(&model(0.0)));

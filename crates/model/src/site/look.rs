@@ -1,6 +1,7 @@
-//! How a defect shows in a picture, exactly as assessment.md decides a hit: inside the central 80 % of the image, unoccluded,
-//! at most 60 degrees off its normal, at least 10 px along its longest visible extent, a line at least 0.5 px wide, and lit
-//! well enough for an exposure within the camera's limits. An ideal pinhole; the lamp sits at the lens and looks where it looks.
+//! How a defect shows in a picture, by the rule for a hit in docs/src/reference/assessment.md, "Photographs": inside the central
+//! 80 % of the image, unoccluded, at most 60 degrees off its normal, at least 10 px along its longest visible extent, a line at
+//! least 0.5 px wide, and lit well enough for an exposure within the camera's limits. An ideal pinhole; the lamp sits at the lens
+//! and looks where it looks.
 
 use super::light::Cast;
 use super::{CameraPose, DefectView};
@@ -20,7 +21,7 @@ pub const INCIDENCE_MAX_RAD: f64 = math::PI / 3.0;
 pub const EXTENT_MIN_PX: f64 = 10.0;
 /// Least width of a line, px.
 pub const LINE_WIDTH_MIN_PX: f64 = 0.5;
-/// Incident-light meter calibration constant, lx s ISO (domain.md 3a; ISO 2720 gives 240 to 400).
+/// Incident-light meter calibration constant, lx s ISO (ISO 2720 gives 240 to 400).
 const CALIBRATION: f64 = 250.0;
 /// Points along the defect at which occlusion is tested, as shares of its length from the centre.
 const SAMPLES: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
@@ -99,7 +100,8 @@ pub fn judge(
 }
 
 impl DefectView {
-    /// The six conditions of a hit, in the order of assessment.md: framed, unoccluded, incidence, extent, line width, light.
+    /// The six conditions of a hit, in the order of docs/src/reference/assessment.md, "Photographs": framed, unoccluded,
+    /// incidence, extent, line width, light.
     #[must_use]
     pub fn conditions(&self) -> [bool; 6] {
         [
@@ -285,7 +287,8 @@ mod tests {
 
     #[test]
     fn val_the_lamp_gives_the_tabulated_illuminance() {
-        // domain.md 3c: a 2200 lm, 60 deg light: 2600, 650, 290, 105 lx at 1, 2, 3, 5 m; to the rounding of the table.
+        // docs/src/reference/domain.md, "Light levels": a 2200 lm, 60 deg light: 2600, 650, 290, 105 lx at 1, 2, 3, 5 m; to the
+        // rounding of the table.
         let lit = CameraPose { lamp_on: true, ..pose() };
         for (distance, lux) in [(1.0, 2600.0), (2.0, 650.0), (3.0, 290.0), (5.0, 105.0)] {
             let got = lamp_lux(&LAMP, &lit, Vec3::new(0.0, distance, 0.0), Vec3::new(0.0, -1.0, 0.0));

@@ -34,8 +34,8 @@ use gates::Gates;
 use geometry::Geometry;
 use std::sync::Arc;
 
-/// What something is made of for contact, clearance and the wire's `contact` code (design.md: 0 none, 1 bridge, 2 terrain,
-/// 3 water, 4 vehicle, 5 person, 6 other).
+/// What something is made of for contact, clearance and the wire's `contact` code (docs/src/reference/wire.md, "Scoring data": 0
+/// none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Surface {
     /// A bridge member.

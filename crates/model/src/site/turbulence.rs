@@ -104,7 +104,8 @@ mod tests {
 
     #[test]
     fn val_sigma_and_length_match_the_tabulated_values_at_ten_metres() {
-        // domain.md 4b: W20 11 mph, 10 m: L_u 67 m, sigma_u 0.93, sigma_w 0.49 m/s; to half a unit of the last digit printed.
+        // MIL-F-8785C low-altitude Dryden model (docs/src/reference/domain.md, "Wind and turbulence"): W20 11 mph, 10 m: L_u 67
+        // m, sigma_u 0.93, sigma_w 0.49 m/s; to half a unit of the last digit printed.
         let d = Dryden::at(10.0, 11.0 * math::M_S_PER_MPH);
         assert!((d.length_horizontal_m - 67.0).abs() < 0.5, "{}", d.length_horizontal_m);
         assert!((d.sigma_horizontal_m_s - 0.93).abs() < 0.005, "{}", d.sigma_horizontal_m_s);

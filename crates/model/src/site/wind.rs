@@ -13,7 +13,8 @@ use crate::time::SimTime;
 /// Rate at which the air is sampled; in between it is interpolated linearly, one sample late (10 ms).
 pub const SAMPLE_RATE_HZ: i64 = 100;
 const SAMPLE_PERIOD: SimTime = SimTime::from_ms(1000 / SAMPLE_RATE_HZ);
-/// Roughness length of open water, m (domain.md 4b; the usual order for calm to moderate sea).
+/// Roughness length of open water, m (estimate: the usual order for calm to moderate sea; docs/src/reference/domain.md, "Wind and
+/// turbulence").
 const WATER_ROUGHNESS_M: f64 = 0.0003;
 /// Roughness length of open ground with grass, m (WMO guide to instruments, class 3: 0.03 m).
 const GROUND_ROUGHNESS_M: f64 = 0.03;

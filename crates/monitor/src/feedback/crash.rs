@@ -8,7 +8,8 @@ use spandrel_model::time::SimTime;
 
 /// The cue stays this long after the last contact (estimate: time to read it).
 const SHOWN_FOR: SimTime = SimTime::from_ms(2_000);
-/// Onsets this close together are one bump (assessment.md, certification: contacts less than a second apart).
+/// Onsets this close together are one bump (docs/src/reference/assessment.md, "Certification": contacts less than a second
+/// apart).
 const SAME_BUMP: SimTime = SimTime::from_ms(1_000);
 
 /// The rule.

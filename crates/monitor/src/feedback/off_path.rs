@@ -1,12 +1,12 @@
 //! Off path: beyond the threshold but still within reach of the task last entered. Who has not entered a task yet, or leaves one by its end
-//! or when it is flown, is between tasks (assessment.md, "Cues that mean something").
+//! or when it is flown, is between tasks (docs/src/reference/assessment.md, "Feedback during the flight").
 
 use super::{CoolDown, Moment, TaskNow, Text};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::Feedback;
 use spandrel_model::time::SimTime;
 
-/// Leaving counts as done after this much time of moving away (assessment.md).
+/// Leaving counts as done after this much time of moving away (docs/src/reference/assessment.md, "Feedback during the flight").
 const LEFT_AFTER: SimTime = SimTime::from_ms(2_000);
 /// A distance changes that moves by so much, m, within so much time (estimate: half the slowest inspection speed; the wire rounds to 1 cm).
 const CHANGE_M: f64 = 0.15;

@@ -5,7 +5,8 @@ use spandrel_mavlink::contract::cue;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Shortest time between two texts that are no crash (estimate: one can be read; mavlink.md R6 asks for a limit).
+/// Shortest time between two texts that are no crash (estimate: one can be read; docs/src/reference/wire.md, "The monitor", has
+/// the reason).
 const APART: SimTime = SimTime::from_ms(1_000);
 /// A text that has waited this long is dropped: it would speak of the past.
 const STALE: SimTime = SimTime::from_ms(2_000);

@@ -6,7 +6,7 @@ use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::GroundTeam;
 
-/// A touch of the pad is no crash below this vertical speed, m/s (assessment.md).
+/// A touch of the pad is no crash below this vertical speed, m/s (docs/src/reference/assessment.md, "Crashes").
 const SOFT_TOUCH_M_S: f64 = 1.0;
 /// What is touched higher over the pad than this is not the ground around it, m (estimate: any aircraft's centre when tilted).
 const PAD_REACH_M: f64 = 1.0;

@@ -15,11 +15,11 @@ use spandrel_model::numbers::{beside_limit, limit};
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// On-path stretches less than this apart are one visit, s (assessment.md).
+/// On-path stretches less than this apart are one visit, s (docs/src/reference/assessment.md, "Certification").
 const VISIT_APART_S: f64 = 10.0;
-/// Contacts less than this apart are one crash, s (assessment.md).
+/// Contacts less than this apart are one crash, s (docs/src/reference/assessment.md, "Certification").
 const CRASH_APART_S: f64 = 1.0;
-/// Least battery at landing, % (assessment.md).
+/// Least battery at landing, % (docs/src/reference/assessment.md, "Certification").
 const BATTERY_AT_HOME_PCT: f64 = 20.0;
 /// Loss of the gentlest crash, points (the paper's loss for any).
 const CRASH_LOSS: f64 = 3.0;

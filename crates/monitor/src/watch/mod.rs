@@ -37,7 +37,7 @@ mod voice;
 pub const COMPONENT: u8 = 191;
 /// The autopilot's component id (MAV_COMP_ID_AUTOPILOT1).
 const AUTOPILOT: u8 = 1;
-/// `cues` are repeated at 5 Hz (design.md).
+/// `cues` are repeated at 5 Hz (docs/src/reference/wire.md, "Scoring data").
 const CUES_EVERY: SimTime = SimTime::from_ms(200);
 /// Heartbeats run on simulation time, so that a run flat out says the same in every run.
 const HEARTBEAT_EVERY: SimTime = SimTime::from_ms(1_000);

@@ -2,6 +2,7 @@
 
 mod completion;
 mod cut;
+mod exported_frames;
 mod feedback;
 mod hostile;
 mod link;

@@ -5,7 +5,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::vehicle::Camera;
 
-/// Id of the non-MAVLink gimbal device (mavlink.md 1.8).
+/// Id of the non-MAVLink gimbal device (docs/src/reference/wire.md, "Camera, gimbal and lamp").
 pub const DEVICE: u8 = 1;
 /// An angle this far beyond the stop is taken as the stop, rad (a degree: clients round).
 const SLACK_RAD: f64 = 0.02;

@@ -1,4 +1,5 @@
-//! The values that the scoring needs beside the truth's motion (design.md): named values, on change and at rates of their own.
+//! The values that the scoring needs beside the truth's motion (docs/src/reference/wire.md, "Scoring data"): named values, on
+//! change and at rates of their own.
 
 use super::Endpoint;
 use super::streams::AUTOPILOT;

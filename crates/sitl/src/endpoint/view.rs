@@ -139,7 +139,7 @@ pub struct PlanSummary {
     pub lead: u16,
 }
 
-/// What the scoring needs beside the motion (design.md, truth for the scoring).
+/// What the scoring needs beside the motion (docs/src/reference/wire.md, "Scoring data").
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scoring {
     /// What is touched.

@@ -320,7 +320,8 @@ pub struct Load {
     pub airborne: bool,
 }
 
-/// The most severe of two surfaces for reports: person, vehicle, bridge, terrain, water, other (design.md).
+/// The most severe of two surfaces for reports: person, vehicle, bridge, terrain, water, other (docs/src/reference/wire.md,
+/// "Scoring data").
 #[must_use]
 pub fn more_severe(a: Surface, b: Surface) -> Surface {
     const ORDER: [Surface; 7] =

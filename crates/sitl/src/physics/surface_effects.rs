@@ -77,7 +77,7 @@ mod tests {
             assert!((ceiling_gamma(d) - expected).abs() < PRINTED, "{d}");
         }
         assert_eq!(ceiling_gamma(0.1), ceiling_gamma(0.25));
-        // domain.md 4a: thrust at constant power, two decimals.
+        // docs/src/reference/domain.md, "Surface effects": thrust at constant power, two decimals.
         for (d, expected) in [(0.25, 1.23), (0.5, 1.07), (1.0, 1.02)] {
             assert!((ceiling_factor(d) - expected).abs() < 5e-3, "{d}: {}", ceiling_factor(d));
         }

@@ -9,13 +9,13 @@ use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::scenario::AfterCrash;
 use spandrel_model::site::Surface;
 
-/// Lift-off: this far above where it stood, m (assessment.md).
+/// Lift-off: this far above where it stood, m (docs/src/reference/assessment.md, "Frames").
 const LIFT_OFF_M: f64 = 0.3;
 /// A hover counts as safe with this much clearance, m.
 const SAFE_CLEARANCE_M: f64 = 1.0;
 /// Slower than this it lies still, m/s.
 const STILL_M_S: f64 = 0.3;
-/// Touching the pad or the ground about it more slowly than this is landing, m/s (assessment.md).
+/// Touching the pad or the ground about it more slowly than this is landing, m/s (docs/src/reference/assessment.md, "Crashes").
 const PAD_TOUCH_M_S: f64 = 1.0;
 /// What has touched nothing for so long flies, s (estimate: a lying body rocks off its contact for a step or two).
 const FLIES_S: f64 = 0.5;

@@ -3,6 +3,7 @@
 
 mod answers;
 mod causal;
+pub mod columns;
 mod learning;
 mod progress;
 mod scores;

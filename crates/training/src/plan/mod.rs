@@ -18,7 +18,7 @@ const SEVERE_STATE: u8 = 3;
 const DEFECTS_NAMED: usize = 3;
 /// µs in a day.
 const DAY_US: f64 = 86_400e6;
-/// A landing below this is late, % (assessment.md, certification).
+/// A landing below this is late, % (docs/src/reference/assessment.md, "Certification").
 const BATTERY_RESERVE_PCT: f64 = 20.0;
 /// Points lost per minute beyond the time for full efficiency (the paper's).
 const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;

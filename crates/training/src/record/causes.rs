@@ -10,7 +10,8 @@ use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, Paths, Window};
 use spandrel_monitor::measures::on_speed;
 
-/// Farther from the path than this the drone is elsewhere, not off the path, m (assessment.md, feedback `off path`).
+/// Farther from the path than this the drone is elsewhere, not off the path, m (docs/src/reference/assessment.md, "Feedback
+/// during the flight").
 const OFF_PATH_WITHIN_M: f64 = 8.0;
 
 /// Everything of a record that is read off the frames.

@@ -1,5 +1,6 @@
-//! The head-up display of the camera view: a pure function from what telemetry says to things to draw, placed as assessment.md has them
-//! (speed upper left, battery upper right, messages lower left). Whoever draws needs to know nothing of what they mean.
+//! The head-up display of the camera view: a pure function from what telemetry says to things to draw, placed as
+//! docs/src/reference/assessment.md, "Feedback during the flight", has them (speed upper left, battery upper right, messages
+//! lower left). Whoever draws needs to know nothing of what they mean.
 
 #[cfg(test)]
 mod apart;

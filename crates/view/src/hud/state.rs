@@ -46,7 +46,7 @@ pub struct Hud {
     pub green_pct: f64,
     /// And yellow from here, %.
     pub yellow_pct: f64,
-    /// Mask of cues as the wire's `cues` says it (design.md).
+    /// Mask of cues as `cues` carries it (docs/src/reference/wire.md, "The monitor").
     pub cues: i32,
     /// What was hit, when the monitor has said so.
     pub hit: Option<String>,

@@ -5,8 +5,8 @@
 override KIND: u32 = 0u;
 // It marks which defect a pixel shows.
 override MASK: bool = false;
-// Share of a pixel from which on it is marked: a line half a pixel wide, the least that is detected (domain.md 3a), covers at least a quarter of one
-// of the two pixels that it may lie across.
+// Share of a pixel from which on it is marked: a line half a pixel wide, the least that is detected
+// (docs/src/reference/domain.md, "Resolution"), covers at least a quarter of one of the two pixels that it may lie across.
 const MARKED: f32 = 0.25;
 
 struct Patch {

@@ -60,8 +60,8 @@ const FRIEND_M: vec2<f32> = vec2<f32>(5.3, 3.7);
 // Where paint is sprayed from: the ground, a boat, a ladder, so far over the water, m (estimate).
 const REACHED_M: f32 = 12.0;
 
-// False friends that hands and spiders leave (domain.md 2d): at most one in a cell, most cells have none. What weather and formwork leave
-// is drawn with the concrete.
+// False friends that hands and spiders leave (docs/src/reference/domain.md, "Defects"): at most one in a cell, most cells have
+// none. What weather and formwork leave is drawn with the concrete.
 fn befriended(colour: vec3<f32>, in: Fragment, n: vec3<f32>, f: f32) -> vec3<f32> {
     let at = floor(in.uv / FRIEND_M);
     // Parallel faces have the same coordinates, but not the same friends.

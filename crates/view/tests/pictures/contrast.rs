@@ -1,4 +1,5 @@
-//! A crack's contrast against the ground sampling distance (domain.md 3a: detected from half a pixel's width, identified from one), without steps.
+//! A crack's contrast against the ground sampling distance (docs/src/reference/domain.md, "Resolution": detected from half a
+//! pixel's width, identified from one), without steps.
 
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;

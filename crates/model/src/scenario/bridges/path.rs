@@ -6,7 +6,7 @@ use super::solid::{Local, Placement};
 use super::suspension::Suspension;
 use crate::math;
 
-/// Spacing of reference points, m (assessment.md asks for at most 1 m).
+/// Spacing of reference points, m (at most 1 m: docs/src/reference/assessment.md, "On path").
 pub const SPACING_M: f64 = 0.8;
 
 /// A path before it is placed in the site.

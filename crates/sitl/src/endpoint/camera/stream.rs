@@ -10,8 +10,8 @@ use spandrel_model::time::SimTime;
 
 /// A stream that is not told of for so long, s of its sender's time, has ended: it is told of every second.
 const LASTS_S: f64 = 3.5;
-/// Where ground stations listen for it, UDP (mavlink.md 1.7): nobody can tell the vehicle another port, for VIDEO_STREAM_STATUS has no place for
-/// it.
+/// Where ground stations listen for it, UDP (docs/src/reference/wire.md, "Camera, gimbal and lamp"): nobody can tell the vehicle
+/// another port, for VIDEO_STREAM_STATUS has no place for it.
 pub const PORT: u16 = 5600;
 /// Largest rate that is believed, Hz.
 const RATE_MAX_HZ: f32 = 240.0;

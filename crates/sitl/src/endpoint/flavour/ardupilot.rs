@@ -1,4 +1,5 @@
-//! ArduPilot's interface, as ArduCopter speaks it (autopilots.md; read off a real ArduCopter 4.7-dev, names of parameters as in 4.6).
+//! ArduPilot's interface, as ArduCopter implements it (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real
+//! ArduCopter 4.7-dev, names of parameters as in 4.6).
 #![allow(deprecated, reason = "ArduPilot names its encoding by the older capability")]
 
 use super::px4::FORCE;

@@ -1,4 +1,5 @@
-//! PX4's interface: custom_mode is main mode in bits 16 to 23, sub mode in bits 24 to 31 (mavlink.md; read off a real PX4).
+//! PX4's interface: custom_mode is main mode in bits 16 to 23, sub mode in bits 24 to 31 (docs/src/reference/wire.md, "Autopilot
+//! interfaces"; recorded from a real PX4).
 
 use super::{COMMON, Flavour, ModeRow, Refusals, plain};
 use crate::autopilot::senses::{Sensor, SensorChange, SensorFault};
@@ -58,7 +59,8 @@ const MODES: &[ModeRow] = &[
 /// Bits of main and sub mode.
 pub(super) const MODE_BITS: u32 = 0xFFFF_0000;
 
-/// PX4's interface (mavlink.md R1); the version is a development one, so that no ground station looks for a newer release.
+/// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"); the version is a development one, so that no ground
+/// station looks for a newer release.
 pub static FLAVOUR: Flavour = Flavour {
     name: "px4",
     autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,

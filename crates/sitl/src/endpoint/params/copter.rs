@@ -1,5 +1,6 @@
-//! The names that clients look for in an ArduCopter (mavlink.md 1.4, QGroundControl's and MAVProxy's sources), with ArduPilot's units and
-//! numbers. Where one of ours is behind a name, it acts; what this vehicle has no use for tells how it is and cannot be set.
+//! The names that clients look for in an ArduCopter (docs/src/reference/wire.md, "Parameters"; QGroundControl's and MAVProxy's
+//! sources), with ArduPilot's units and numbers. Where one of ours is behind a name, it acts; what this vehicle has no use for
+//! tells how it is and cannot be set.
 
 use super::Value::{self, Int, Real};
 use super::table::{self, Behind, ROWS, Row, row};

@@ -203,8 +203,8 @@ pub(super) fn rows() -> &'static [Row] {
     &ALL
 }
 
-/// Names from QGroundControl's and MAVSDK's sources (mavlink.md 1.4), with PX4's defaults where they have a meaning here. In the order of
-/// their names.
+/// Names from QGroundControl's and MAVSDK's sources (docs/src/reference/wire.md, "Parameters"), with PX4's defaults where they
+/// have a meaning here. In the order of their names.
 pub const ROWS: &[Row] = &[
     row("BAT1_N_CELLS", Int(3), (1.0, 16.0), "", BATTERY, "Number of cells in series").values(CELLS),
     row("BAT1_SOURCE", Int(-1), (-1.0, 2.0), "", BATTERY, "Where the battery is measured")

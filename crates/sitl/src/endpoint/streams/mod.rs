@@ -1,4 +1,4 @@
-//! What the vehicle sends by itself: one row a message, with its rates by kind of link (mavlink.md 4.10).
+//! What the vehicle sends by itself: one row a message, with its rates by kind of link (docs/src/reference/wire.md, "Streams").
 
 mod ardupilot;
 mod attitude;
@@ -132,7 +132,7 @@ pub const STREAMS: &[Stream] = &[
     row(375, [0.0, 0.0, 0.0], system::outputs),
     row(147, [2.0, 2.0, 2.0], system::battery),
     row(230, [0.5, 1.0, 0.0], system::estimator),
-    row(231, [1.0, 1.0, 0.0], system::wind),
+    row(231, [1.0, 1.0, 1.0], system::wind),
     row(241, [0.2, 0.2, 0.0], system::vibration),
     row(245, [5.0, 5.0, 5.0], system::extended_state),
     row(42, [1.0, 1.0, 1.0], system::mission_current),

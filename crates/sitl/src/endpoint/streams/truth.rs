@@ -1,4 +1,4 @@
-//! The truth for the scoring (design.md), apart from the estimate, and the sticks as received.
+//! The truth for the scoring (docs/src/reference/wire.md, "Scoring data"), apart from the estimate, and the sticks as received.
 
 use super::super::LinkKind;
 use super::super::view::View;

@@ -1,0 +1,123 @@
+//! Wind and the autopilot's estimated position. No score uses them, so scoring keeps no memory for them: they are read for the export
+//! alone.
+
+use super::frame::INTERPOLATED_UP_TO;
+use super::sample::Header;
+use super::signal::Signal;
+use super::{Flight, Timeline};
+use crate::dialect::{GLOBAL_POSITION_INT_DATA, WIND_COV_DATA};
+use mavlink::{MavlinkVersion, MessageData};
+use spandrel_model::frames::{Enu, Ned, Vec3};
+use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::time::SimTime;
+
+/// Component id of the autopilot, the only one that estimates the vehicle's position.
+const AUTOPILOT: u8 = 1;
+/// A message's own clock is believed within this span of the truth's; otherwise it takes the time of the truth before it.
+const OWN_CLOCK_WITHIN: SimTime = SimTime::from_ms(2_000);
+/// Wind older than this is not shown: it is sent once a second, and one message may be lost (estimate).
+const WIND_LASTS: SimTime = SimTime::from_ms(2_500);
+
+/// Wind and estimated position of one flight.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Navigation {
+    estimate_m: Signal<Vec3<Enu>>,
+    wind_m_s: Signal<Vec3<Enu>>,
+}
+
+impl Navigation {
+    /// Returns the estimated position at `time`, interpolated between two reports at most 1 s apart, m. `None` outside of them, and across a
+    /// respawn.
+    #[must_use]
+    pub fn estimate_m(&self, flight: &Flight, time: SimTime) -> Option<Vec3<Enu>> {
+        let reports = self.estimate_m.all();
+        let after = reports.partition_point(|report| report.0 <= time);
+        let (from, _, before_m) = reports[..after].last()?;
+        if *from == time {
+            return Some(*before_m);
+        }
+        let (to, _, after_m) = reports.get(after)?;
+        let span = *to - *from;
+        if span > INTERPOLATED_UP_TO || flight.respawns.at(*from) != flight.respawns.at(*to) {
+            return None;
+        }
+        Some(before_m.lerp(*after_m, (time - *from).ns() as f64 / span.ns() as f64))
+    }
+
+    /// Returns the last reported wind, m/s. `None` when the last report is older than 2.5 s.
+    #[must_use]
+    pub fn wind_m_s(&self, time: SimTime) -> Option<Vec3<Enu>> {
+        self.wind_m_s.between(time - WIND_LASTS, time).last().map(|report| report.2)
+    }
+}
+
+/// Collects wind and estimated position from a log while a timeline reads it.
+#[derive(Debug)]
+pub struct NavigationReader {
+    plane: LocalPlane,
+    epochs: Vec<Navigation>,
+    count: i64,
+}
+
+impl NavigationReader {
+    /// Creates a reader; positions are taken in `plane`.
+    #[must_use]
+    pub fn new(plane: LocalPlane) -> Self {
+        Self { plane, epochs: Vec::new(), count: 0 }
+    }
+
+    /// Takes a frame that `timeline` has just taken. Ignores all but GLOBAL_POSITION_INT and WIND_COV of the vehicle's autopilot.
+    pub fn take(&mut self, frame: &[u8], timeline: &Timeline) {
+        let Some(header) = Header::peek(frame) else { return };
+        let wanted = matches!(header.message_id, GLOBAL_POSITION_INT_DATA::ID | WIND_COV_DATA::ID);
+        let ours = header.sender.1 == AUTOPILOT && timeline.system() == Some(header.sender.0);
+        let Some(newest) = timeline.newest().filter(|_| wanted && ours && Header::verified(frame)) else { return };
+        let Some(payload) = frame.get(header.payload_at..header.payload_end) else { return };
+        self.count += 1;
+        let order = self.count;
+        self.epochs.resize_with(timeline.epochs().max(self.epochs.len()), Navigation::default);
+        let Some(epoch) = self.epochs.get_mut(timeline.epochs() - 1) else { return };
+        if let Some((own, position_m)) = position(&header, payload, &self.plane) {
+            epoch.estimate_m.push(time(own, newest), order, position_m);
+        } else if let Some((own, wind_m_s)) = wind(&header, payload) {
+            epoch.wind_m_s.push(time(own, newest), order, wind_m_s);
+        }
+    }
+
+    /// Returns what was collected of one of the timeline's epochs, in the order of time.
+    #[must_use]
+    pub fn of(mut self, epoch: usize) -> Navigation {
+        let mut navigation = if epoch < self.epochs.len() { self.epochs.swap_remove(epoch) } else { Navigation::default() };
+        navigation.estimate_m.sort();
+        navigation.wind_m_s.sort();
+        navigation
+    }
+}
+
+fn time(own: SimTime, newest: SimTime) -> SimTime {
+    let apart = own.saturating_sub(newest).max(newest.saturating_sub(own));
+    if apart <= OWN_CLOCK_WITHIN { own } else { newest }
+}
+
+fn position(header: &Header, payload: &[u8], plane: &LocalPlane) -> Option<(SimTime, Vec3<Enu>)> {
+    if header.message_id != GLOBAL_POSITION_INT_DATA::ID {
+        return None;
+    }
+    let wire = GLOBAL_POSITION_INT_DATA::deser(MavlinkVersion::V2, payload).ok()?;
+    let geo = Geo {
+        latitude_deg: f64::from(wire.lat) * 1e-7,
+        longitude_deg: f64::from(wire.lon) * 1e-7,
+        altitude_m: f64::from(wire.alt) * 1e-3,
+    };
+    Some((SimTime::from_ms(i64::from(wire.time_boot_ms)), plane.enu_from_geo(geo)))
+}
+
+fn wind(header: &Header, payload: &[u8]) -> Option<(SimTime, Vec3<Enu>)> {
+    if header.message_id != WIND_COV_DATA::ID {
+        return None;
+    }
+    let wire = WIND_COV_DATA::deser(MavlinkVersion::V2, payload).ok()?;
+    let wind_m_s: Vec3<Ned> = Vec3::new(f64::from(wire.wind_x), f64::from(wire.wind_y), f64::from(wire.wind_z));
+    let us = i64::try_from(wire.time_usec).unwrap_or(i64::MAX).min(i64::MAX / 1_000);
+    wind_m_s.is_finite().then(|| (SimTime::from_us(us), wind_m_s.enu()))
+}

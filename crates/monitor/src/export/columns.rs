@@ -1,0 +1,194 @@
+//! The columns of the frames export: the one list that CSV, Parquet and the data dictionary are made from.
+
+use super::FrameRow;
+use spandrel_model::frames::{Enu, Vec3};
+use std::fmt::Write;
+
+/// Type of a column and how its value is read from a row; `None` where the telemetry holds no value.
+#[derive(Debug, Clone, Copy)]
+pub enum Read {
+    /// Whole numbers.
+    Whole(fn(&FrameRow) -> Option<i64>),
+    /// Real numbers.
+    Real(fn(&FrameRow) -> Option<f64>),
+    /// True or false; 1 or 0 in CSV.
+    Flag(fn(&FrameRow) -> bool),
+    /// One of a fixed set of words.
+    Word(fn(&FrameRow) -> &'static str),
+}
+
+/// One column.
+#[derive(Debug, Clone, Copy)]
+pub struct Column {
+    /// Name, with the unit at its end where it has one.
+    pub name: &'static str,
+    /// Unit as a symbol; empty for counts, shares, flags and words.
+    pub unit: &'static str,
+    /// Coordinate frame or positive direction; empty where there is none.
+    pub frame: &'static str,
+    /// Definition, one sentence.
+    pub description: &'static str,
+    /// A row may hold no value: empty in CSV, null in Parquet.
+    pub optional: bool,
+    /// Type and value.
+    pub read: Read,
+}
+
+const ENU: &str = "east, north, up from the scenario's origin";
+const ENU_VELOCITY: &str = "east, north, up";
+const STICK: &str = "body, -1 to 1";
+const BODY_FROM_NED: &str = "body (forward, right, down) against north, east, down";
+
+const fn column(name: &'static str, unit: &'static str, frame: &'static str, description: &'static str, read: Read) -> Column {
+    Column { name, unit, frame, description, optional: false, read }
+}
+
+const fn optional(name: &'static str, unit: &'static str, frame: &'static str, description: &'static str, read: Read) -> Column {
+    Column { name, unit, frame, description, optional: true, read }
+}
+
+fn east(vector: Option<Vec3<Enu>>) -> Option<f64> {
+    vector.map(Vec3::<Enu>::east)
+}
+
+fn north(vector: Option<Vec3<Enu>>) -> Option<f64> {
+    vector.map(Vec3::<Enu>::north)
+}
+
+fn up(vector: Option<Vec3<Enu>>) -> Option<f64> {
+    vector.map(Vec3::<Enu>::up)
+}
+
+fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
+    row.roll_pitch_yaw_rad.map(|angles| angles[angle].to_degrees())
+}
+
+/// All columns in order. Released names and their order never change; new columns go to the end.
+pub const COLUMNS: &[Column] = &[
+    column("frame", "", "", "Frame number; 1 is lift-off.", Read::Whole(|r| Some(i64::from(r.frame.index)))),
+    column("t_s", "s", "", "Simulation time since lift-off.", Read::Real(|r| Some(r.since_lift_off_s))),
+    column("fb", "", STICK, "Stick, forward positive.", Read::Real(|r| Some(r.frame.sticks[0]))),
+    column("rl", "", STICK, "Stick, right positive.", Read::Real(|r| Some(r.frame.sticks[1]))),
+    column("ud", "", STICK, "Stick, up positive.", Read::Real(|r| Some(r.frame.sticks[2]))),
+    column("rt", "", STICK, "Stick, clockwise positive.", Read::Real(|r| Some(r.frame.sticks[3]))),
+    column("light", "", "", "Lamp on.", Read::Flag(|r| r.frame.light)),
+    column("snapshot", "", "", "A picture was taken since the frame before.", Read::Flag(|r| r.frame.snapshot)),
+    column("east_m", "m", ENU, "True position, east.", Read::Real(|r| Some(r.frame.position_m.east()))),
+    column("north_m", "m", ENU, "True position, north.", Read::Real(|r| Some(r.frame.position_m.north()))),
+    column("up_m", "m", ENU, "True position, up.", Read::Real(|r| Some(r.frame.position_m.up()))),
+    column(
+        "speed_m_s",
+        "m/s",
+        "",
+        "Magnitude of the true velocity over ground, in three dimensions.",
+        Read::Real(|r| Some(r.frame.speed_m_s())),
+    ),
+    column("battery_pct", "%", "", "Remaining battery; 100 before the first report.", Read::Real(|r| Some(r.frame.battery_pct))),
+    column(
+        "contact",
+        "",
+        "",
+        "Most severe contact since the frame before: none, bridge, terrain, water, vehicle, person or other. Touch-down and \
+         take-off at home count as none.",
+        Read::Word(|r| r.frame.contact.word()),
+    ),
+    column(
+        "missing",
+        "",
+        "",
+        "The frame lies in a telemetry gap of more than 1 s; position and velocity are held.",
+        Read::Flag(|r| r.frame.missing),
+    ),
+    column("velocity_east_m_s", "m/s", ENU_VELOCITY, "True velocity, east.", Read::Real(|r| Some(r.frame.velocity_m_s.east()))),
+    column(
+        "velocity_north_m_s",
+        "m/s",
+        ENU_VELOCITY,
+        "True velocity, north.",
+        Read::Real(|r| Some(r.frame.velocity_m_s.north())),
+    ),
+    column("velocity_up_m_s", "m/s", ENU_VELOCITY, "True velocity, up.", Read::Real(|r| Some(r.frame.velocity_m_s.up()))),
+    optional("roll_deg", "deg", BODY_FROM_NED, "True roll, right side down positive.", Read::Real(|r| attitude_deg(r, 0))),
+    optional("pitch_deg", "deg", BODY_FROM_NED, "True pitch, nose up positive.", Read::Real(|r| attitude_deg(r, 1))),
+    optional(
+        "yaw_deg",
+        "deg",
+        BODY_FROM_NED,
+        "True heading, clockwise from north, -180 to 180.",
+        Read::Real(|r| attitude_deg(r, 2)),
+    ),
+    optional(
+        "gimbal_pitch_deg",
+        "deg",
+        "horizon",
+        "Pitch of the camera, up positive.",
+        Read::Real(|r| r.gimbal_pitch_rad.map(f64::to_degrees)),
+    ),
+    optional(
+        "task",
+        "",
+        "",
+        "Task whose path the drone is on, otherwise the one entered last; empty before the first.",
+        Read::Whole(|r| r.task.map(|task| i64::from(task.id))),
+    ),
+    column("on_path", "", "", "On the path of a task.", Read::Flag(|r| r.on_path)),
+    optional(
+        "path_distance_m",
+        "m",
+        "",
+        "Distance to the path of `task`, by the scenario's path rule.",
+        Read::Real(|r| r.task.and_then(|task| task.distance_m)),
+    ),
+    optional(
+        "clearance_m",
+        "m",
+        "",
+        "Distance from the drone's center to the nearest surface, pad excluded.",
+        Read::Real(|r| r.clearance_m),
+    ),
+    optional("wind_east_m_s", "m/s", ENU_VELOCITY, "Velocity of the air over ground, east.", Read::Real(|r| east(r.wind_m_s))),
+    optional("wind_north_m_s", "m/s", ENU_VELOCITY, "Velocity of the air over ground, north.", Read::Real(|r| north(r.wind_m_s))),
+    optional("wind_up_m_s", "m/s", ENU_VELOCITY, "Velocity of the air over ground, up.", Read::Real(|r| up(r.wind_m_s))),
+    optional("estimated_east_m", "m", ENU, "Position estimated by the autopilot, east.", Read::Real(|r| east(r.estimate_m))),
+    optional("estimated_north_m", "m", ENU, "Position estimated by the autopilot, north.", Read::Real(|r| north(r.estimate_m))),
+    optional("estimated_up_m", "m", ENU, "Position estimated by the autopilot, up.", Read::Real(|r| up(r.estimate_m))),
+    column(
+        "interpolated",
+        "",
+        "",
+        "The frame lies in a telemetry gap of 0.2 to 1 s; position and velocity are interpolated.",
+        Read::Flag(|r| r.frame.interpolated),
+    ),
+];
+
+/// Bytes of a usual line, for the first allocation.
+const LINE_BYTES: usize = 360;
+
+/// Frames as CSV, one line a frame after the header.
+#[must_use]
+pub fn frames_csv(rows: &[FrameRow]) -> String {
+    let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
+    let mut csv = String::with_capacity((rows.len() + 1) * LINE_BYTES);
+    csv.push_str(&names.join(","));
+    csv.push('\n');
+    for row in rows {
+        for (k, column) in COLUMNS.iter().enumerate() {
+            if k > 0 {
+                csv.push(',');
+            }
+            write_cell(&mut csv, column.read, row);
+        }
+        csv.push('\n');
+    }
+    csv
+}
+
+/// Writing to a string cannot fail.
+fn write_cell(csv: &mut String, read: Read, row: &FrameRow) {
+    let _ = match read {
+        Read::Whole(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
+        Read::Real(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
+        Read::Flag(value) => write!(csv, "{}", u8::from(value(row))),
+        Read::Word(value) => write!(csv, "{}", value(row)),
+    };
+}

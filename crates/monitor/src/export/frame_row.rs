@@ -1,0 +1,97 @@
+//! A frame with what stands beside it in the export: attitude, gimbal, task, path, wind and estimate.
+
+use crate::assessment::{AssessError, check_identity, scored_epoch};
+use crate::measures::on_path::{OnPath, Paths};
+use crate::session::Session;
+use spandrel_mavlink::telemetry::log_stream::Log;
+use spandrel_mavlink::telemetry::{Flight, Frame, Navigation, NavigationReader, Timeline};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::vehicle::Vehicle;
+use std::ops::ControlFlow;
+
+/// The drone's place relative to a task's path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TaskDistance {
+    /// Task number.
+    pub id: u32,
+    /// Distance to its path, m.
+    pub distance_m: Option<f64>,
+}
+
+/// One row of the frames export. `None` is a value that the telemetry does not hold at this frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameRow {
+    /// The scored frame.
+    pub frame: Frame,
+    /// Time since lift-off, s.
+    pub since_lift_off_s: f64,
+    /// True roll, pitch and yaw, rad.
+    pub roll_pitch_yaw_rad: Option<[f64; 3]>,
+    /// Pitch of the camera over the horizon, rad, up positive.
+    pub gimbal_pitch_rad: Option<f64>,
+    /// Task whose path the drone is on, otherwise the one entered last.
+    pub task: Option<TaskDistance>,
+    /// On the path of a task.
+    pub on_path: bool,
+    /// Distance to the nearest surface, m.
+    pub clearance_m: Option<f64>,
+    /// Velocity of the air over ground, m/s.
+    pub wind_m_s: Option<Vec3<Enu>>,
+    /// Position estimated by the autopilot, m.
+    pub estimate_m: Option<Vec3<Enu>>,
+}
+
+/// Reads the scored frames of a log with everything that stands beside them.
+///
+/// # Errors
+/// When the log cannot be read, is of another scenario or seed, or holds no session.
+pub fn frame_rows(log: &(impl Log + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<Vec<FrameRow>, AssessError> {
+    let plane = LocalPlane::new(scenario.origin);
+    let mut timeline = Timeline::new(plane.clone());
+    let mut navigation = NavigationReader::new(plane);
+    log.each(&mut |record| {
+        timeline.push(record.frame);
+        navigation.take(record.frame, &timeline);
+        ControlFlow::Continue(())
+    })?;
+    let (epoch, flight) = scored_epoch(&timeline, scenario, vehicle);
+    if flight.truths.is_empty() {
+        return Err(AssessError::NoTruth);
+    }
+    check_identity(&flight, scenario, None)?;
+    let session = Session::cut(&flight, scenario, vehicle).ok_or(AssessError::NeverFlown)?;
+    Ok(rows(session.frames, &flight, &navigation.of(epoch), scenario))
+}
+
+/// Completes the frames of one flight.
+#[must_use]
+pub fn rows(frames: Vec<Frame>, flight: &Flight, navigation: &Navigation, scenario: &Scenario) -> Vec<FrameRow> {
+    let Some(start) = frames.first().map(|frame| frame.time) else { return Vec::new() };
+    let paths = Paths::new(scenario);
+    let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
+    let mut entered: Option<usize> = None;
+    let row = |(frame, on): (Frame, &Option<(usize, usize)>)| {
+        entered = on.map(|(task, _)| task).or(entered);
+        let known = !frame.missing;
+        let task = entered.map(|task| TaskDistance {
+            id: scenario.tasks[task].id,
+            distance_m: paths.nearest(task, frame.position_m).map(|nearest| nearest.distance_m),
+        });
+        let attitude = flight.between(frame.time).filter(|_| known).map(|between| between.ned_from_frd.euler());
+        FrameRow {
+            // Divided, not multiplied by 1e-9: the nearest number to a decimal one, so that it is written short.
+            since_lift_off_s: (frame.time - start).ns() as f64 / 1e9,
+            roll_pitch_yaw_rad: attitude.map(|(roll, pitch, yaw)| [roll, pitch, yaw]),
+            gimbal_pitch_rad: flight.gimbal.at(frame.time).filter(|_| known),
+            task,
+            on_path: on.is_some(),
+            clearance_m: frame.clearance_m.filter(|_| known),
+            wind_m_s: navigation.wind_m_s(frame.time).filter(|_| known),
+            estimate_m: navigation.estimate_m(flight, frame.time).filter(|_| known),
+            frame,
+        }
+    };
+    frames.into_iter().zip(&on_path.task).map(row).collect()
+}

@@ -1,0 +1,181 @@
+//! An Arrow schema as an encapsulated IPC message, which Parquet files carry for readers built on Arrow. Parquet's own schema has no place
+//! for units. Format: <https://arrow.apache.org/docs/format/Columnar.html>, tables of `Schema.fbs` and `Message.fbs`; encoding:
+//! <https://flatbuffers.dev/internals/>. Parents are written before their children, so that every offset points forward.
+
+/// Type of a field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Signed 64-bit integer.
+    Int64,
+    /// 64-bit float.
+    Double,
+    /// Boolean.
+    Bool,
+    /// UTF-8 text.
+    Utf8,
+}
+
+/// One field of the schema.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Field<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Values may be null.
+    pub nullable: bool,
+    /// Type.
+    pub kind: Kind,
+    /// Keys and values.
+    pub metadata: Vec<(&'a str, &'a str)>,
+}
+
+/// `MetadataVersion.V5`.
+const VERSION: i16 = 4;
+/// `MessageHeader.Schema`.
+const HEADER_SCHEMA: u8 = 1;
+/// `Precision.DOUBLE`.
+const PRECISION_DOUBLE: i16 = 2;
+/// Begins an encapsulated message.
+const CONTINUATION: [u8; 4] = [0xFF; 4];
+/// Alignment of messages and of the widest scalar, bytes.
+const WIDEST: usize = 8;
+
+impl Kind {
+    /// Number in the union `Type`.
+    fn number(self) -> u8 {
+        match self {
+            Self::Int64 => 2,
+            Self::Double => 3,
+            Self::Utf8 => 5,
+            Self::Bool => 6,
+        }
+    }
+}
+
+/// A value in a table.
+#[derive(Debug, Clone, Copy)]
+enum Slot {
+    Absent,
+    Byte(u8),
+    Short(i16),
+    Int(i32),
+    Long(i64),
+    /// The place of an offset that is set later.
+    Offset,
+}
+
+impl Slot {
+    fn bytes(self) -> Vec<u8> {
+        match self {
+            Self::Absent => Vec::new(),
+            Self::Byte(value) => vec![value],
+            Self::Short(value) => value.to_le_bytes().to_vec(),
+            Self::Int(value) => value.to_le_bytes().to_vec(),
+            Self::Long(value) => value.to_le_bytes().to_vec(),
+            Self::Offset => vec![0; 4],
+        }
+    }
+}
+
+#[derive(Debug, Default)]
+struct Flat {
+    bytes: Vec<u8>,
+}
+
+impl Flat {
+    fn align(&mut self, to: usize) {
+        self.bytes.resize(self.bytes.len().next_multiple_of(to), 0);
+    }
+
+    /// Writes a table with its list of places before it; returns where it and each of its slots lie.
+    fn table(&mut self, slots: &[Slot]) -> (usize, Vec<usize>) {
+        let places_len = 4 + 2 * slots.len();
+        let start = (self.bytes.len() + places_len).next_multiple_of(WIDEST);
+        // The list of places ends where the table begins: the distance back to it is its own length.
+        self.bytes.resize(start - places_len, 0);
+        let mut table = (places_len as i32).to_le_bytes().to_vec();
+        let mut at = Vec::new();
+        for slot in slots {
+            let value = slot.bytes();
+            table.resize(table.len().next_multiple_of(value.len().max(1)), 0);
+            at.push(if value.is_empty() { 0 } else { table.len() });
+            table.extend(value);
+        }
+        self.bytes.extend((places_len as u16).to_le_bytes());
+        self.bytes.extend((table.len() as u16).to_le_bytes());
+        self.bytes.extend(at.iter().flat_map(|place| (*place as u16).to_le_bytes()));
+        self.bytes.extend(table);
+        (start, at.iter().map(|place| start + place).collect())
+    }
+
+    /// Lets the offset at `from` point to `to`.
+    fn point(&mut self, from: usize, to: usize) {
+        let offset = ((to - from) as u32).to_le_bytes();
+        self.bytes[from..from + 4].copy_from_slice(&offset);
+    }
+
+    /// Writes a vector of offsets that are set later; returns where it and each of them lie.
+    fn offsets(&mut self, count: usize) -> (usize, Vec<usize>) {
+        self.align(4);
+        let start = self.bytes.len();
+        self.bytes.extend((count as u32).to_le_bytes());
+        self.bytes.resize(start + 4 + 4 * count, 0);
+        (start, (0..count).map(|k| start + 4 + 4 * k).collect())
+    }
+
+    /// Writes a text that the offset at `from` points to.
+    fn text(&mut self, from: usize, text: &str) {
+        self.align(4);
+        let start = self.bytes.len();
+        self.bytes.extend((text.len() as u32).to_le_bytes());
+        self.bytes.extend(text.as_bytes());
+        self.bytes.push(0);
+        self.point(from, start);
+    }
+
+    fn field(&mut self, from: usize, field: &Field<'_>) {
+        let kind = Slot::Byte(field.kind.number());
+        let nullable = Slot::Byte(u8::from(field.nullable));
+        // name, nullable, type's number, type, dictionary, children, metadata
+        let slots = [Slot::Offset, nullable, kind, Slot::Offset, Slot::Absent, Slot::Offset, Slot::Offset];
+        let (start, at) = self.table(&slots);
+        self.point(from, start);
+        self.text(at[0], field.name);
+        let (kind, _) = match field.kind {
+            Kind::Int64 => self.table(&[Slot::Int(64), Slot::Byte(1)]),
+            Kind::Double => self.table(&[Slot::Short(PRECISION_DOUBLE)]),
+            Kind::Bool | Kind::Utf8 => self.table(&[]),
+        };
+        self.point(at[3], kind);
+        let (children, _) = self.offsets(0);
+        self.point(at[5], children);
+        let (list, places) = self.offsets(field.metadata.len());
+        self.point(at[6], list);
+        for (place, (key, value)) in places.into_iter().zip(&field.metadata) {
+            let (pair, at) = self.table(&[Slot::Offset, Slot::Offset]);
+            self.point(place, pair);
+            self.text(at[0], key);
+            self.text(at[1], value);
+        }
+    }
+}
+
+/// Encodes a schema as an encapsulated message.
+#[must_use]
+pub fn message(fields: &[Field<'_>]) -> Vec<u8> {
+    let mut flat = Flat { bytes: vec![0; 4] };
+    let (message, at) = flat.table(&[Slot::Short(VERSION), Slot::Byte(HEADER_SCHEMA), Slot::Offset, Slot::Long(0)]);
+    flat.point(0, message);
+    // Little-endian by default, fields.
+    let (schema, schema_at) = flat.table(&[Slot::Absent, Slot::Offset]);
+    flat.point(at[2], schema);
+    let (list, places) = flat.offsets(fields.len());
+    flat.point(schema_at[1], list);
+    for (place, field) in places.into_iter().zip(fields) {
+        flat.field(place, field);
+    }
+    flat.align(WIDEST);
+    let mut out = CONTINUATION.to_vec();
+    out.extend((flat.bytes.len() as u32).to_le_bytes());
+    out.extend(flat.bytes);
+    out
+}

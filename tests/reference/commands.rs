@@ -1,0 +1,27 @@
+//! The command line: the help of the program and of every subcommand.
+
+use crate::{check, head};
+use clap::{Command, CommandFactory};
+
+/// Help of a command and of those below it.
+fn help(command: &mut Command, name: &str, level: usize, out: &mut String) {
+    let text = command.render_long_help().to_string();
+    let text: Vec<&str> = text.lines().map(str::trim_end).collect();
+    out.push_str(&format!("\n{} {name}\n\n```text\n{}\n```\n", "#".repeat(level), text.join("\n").trim_end()));
+    let names: Vec<String> = command.get_subcommands().map(|sub| sub.get_name().to_owned()).filter(|sub| sub != "help").collect();
+    for sub in names {
+        if let Some(found) = command.find_subcommand_mut(&sub) {
+            help(found, &format!("{name} {sub}"), level + 1, out);
+        }
+    }
+}
+
+#[test]
+fn exact_the_page_of_commands_is_that_of_the_program() {
+    let mut command = spandrel::Cli::command();
+    command.build();
+    let about = "The help of every subcommand, as `--help` prints it. Exit codes: 0 done, 1 failed, 2 wrong arguments or files.";
+    let mut page = head("Command line", about);
+    help(&mut command, "spandrel", 2, &mut page);
+    check("commands.md", &page);
+}

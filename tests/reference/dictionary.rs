@@ -1,0 +1,118 @@
+//! The data dictionary: columns of the frames export, fields of the assessment, columns of the cohort's tables.
+
+use spandrel_testkit::job::*;
+use crate::table::{code, table};
+use crate::{check, head};
+use serde_json::Value;
+use spandrel_monitor::assess_log;
+use spandrel_monitor::export::COLUMNS;
+use spandrel_monitor::export::columns::Read;
+use spandrel_monitor::export::fields::FIELDS;
+use spandrel_training::cohort::columns::definition;
+use spandrel_training::cohort::{Selection, cohort, tables};
+use spandrel_training::record::Incomplete;
+use std::collections::BTreeSet;
+
+fn frames() -> String {
+    let rows = COLUMNS.iter().map(|column| {
+        let kind = match column.read {
+            Read::Whole(_) => "int64",
+            Read::Real(_) => "double",
+            Read::Flag(_) => "boolean",
+            Read::Word(_) => "string",
+        };
+        let empty = if column.optional { "yes" } else { "no" };
+        let words = [column.unit, column.frame, empty, column.description].map(str::to_owned);
+        [vec![code(column.name), kind.to_owned()], words.to_vec()].concat()
+    });
+    table(&["column", "type", "unit", "frame", "may be empty", "definition"], rows)
+}
+
+fn assessment() -> String {
+    let rows = FIELDS.iter().map(|field| vec![code(field.path), field.unit.to_owned(), field.description.to_owned()]);
+    table(&["field", "unit", "definition"], rows)
+}
+
+/// Header of every table of an empty cohort.
+fn cohort_tables() -> String {
+    let selection = Selection { scenarios: Vec::new(), repetitions: 3, incomplete: Incomplete::LeaveOut };
+    let cohort = cohort(&[], &selection);
+    let mut out = String::new();
+    for (name, text) in tables(&cohort) {
+        let columns = text.lines().next().unwrap().split(',');
+        let rows = columns.map(|column| {
+            let known = definition(name, column).unwrap_or_else(|| panic!("{name}: {column} has no definition"));
+            vec![code(column), known.unit.to_owned(), known.description.to_owned()]
+        });
+        out.push_str(&format!("\n### {name}\n\n{}", table(&["column", "unit", "definition"], rows)));
+    }
+    out
+}
+
+#[test]
+fn exact_the_data_dictionary_is_that_of_the_code() {
+    let about = "Units and definitions of everything that Spandrel exports as numbers. [How a flight is scored](assessment.md) explains the \
+                 terms. Numbers are written with the fewest digits that read back to the same bits.";
+    let frames_about = "`spandrel export SESSION --frames FILE.csv` and `--parquet FILE.parquet` write one row for each scored frame. An empty \
+                        cell in CSV is a null in Parquet: the telemetry holds no value for that frame. Flags are 1 or 0 in CSV. Parquet \
+                        carries unit, frame and definition in the metadata of each field.";
+    let assessment_about =
+        "`spandrel assess SESSION --json FILE` and `assessment.json`. `[]` marks the elements of a list, `*` the keys of a map.";
+    let cohort_about = "`spandrel cohort --csv FOLDER` writes these tables. `crashes.csv` has a column `task_ID` for each task after `trainee`, \
+                        `progress.csv` a column `on_path_ID` for each task after `seconds`.";
+    let page = format!(
+        "{}\n## Frames\n\n{frames_about}\n\n{}\n## Assessment\n\n{assessment_about}\n\n{}\n## Cohort tables\n\n{cohort_about}\n{}",
+        head("Data dictionary", about),
+        frames(),
+        assessment(),
+        cohort_tables(),
+    );
+    check("data-dictionary.md", &page);
+}
+
+/// Paths of all values; a map whose keys are numbers or tasks shows as `*`. Empty lists and nulls have none.
+fn paths(value: &Value, at: &str, out: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(map) => {
+            let free = ["by_task", "by_element", "by_kind", "by_condition_state"].iter().any(|name| at.ends_with(name));
+            for (key, inner) in map {
+                let key = if free { "*" } else { key.as_str() };
+                let path = if at.is_empty() { key.to_owned() } else { format!("{at}.{key}") };
+                paths(inner, &path, out);
+            }
+        }
+        Value::Array(list) => list.iter().for_each(|inner| paths(inner, &format!("{at}[]"), out)),
+        Value::Null => {}
+        Value::Bool(_) | Value::Number(_) | Value::String(_) => {
+            out.insert(at.to_owned());
+        }
+    }
+}
+
+/// A flight with a crash, a picture that shows a defect and one that does not; one that never gets near its task.
+#[test]
+fn exact_every_field_of_an_assessment_is_in_the_dictionary_and_none_besides() {
+    let mut full = Tape::new();
+    full.fly((0.0, 0.0, 10.0), 2.0);
+    full.fly((20.0, 0.0, 10.0), 4.0);
+    full.snapshot(0);
+    full.hold(0.1);
+    full.lamp(true);
+    full.snapshot(1);
+    full.contact(1);
+    full.hold(0.2);
+    full.contact(0);
+    full.land();
+    let mut nothing = Tape::new();
+    nothing.fly((0.0, 0.0, 10.0), 2.0);
+    let mut seen = BTreeSet::new();
+    for tape in [full, nothing] {
+        let graded = assess_log(&tape.log(0), &one_task(), &vehicle(), fence_of_ten).unwrap();
+        paths(&serde_json::to_value(&graded.assessment).unwrap(), "", &mut seen);
+    }
+    let documented: BTreeSet<String> = FIELDS.iter().map(|field| field.path.to_owned()).collect();
+    assert_eq!(documented.len(), FIELDS.len(), "a field is documented twice");
+    let missing: Vec<&String> = seen.difference(&documented).collect();
+    let gone: Vec<&String> = documented.difference(&seen).collect();
+    assert!(missing.is_empty() && gone.is_empty(), "not documented: {missing:?}; not in any assessment: {gone:?}");
+}

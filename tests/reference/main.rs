@@ -1,0 +1,39 @@
+//! Reference pages that are made from the code. Each test compares a committed page with the text made now; run them with
+//! `SPANDREL_REFERENCE=write` to rewrite the pages.
+
+// Flags of the window and of gamepads depend on features.
+#[cfg(all(feature = "view", feature = "gamepad"))]
+mod commands;
+mod dictionary;
+mod messages;
+mod parameters;
+mod table;
+
+use std::path::Path;
+
+/// First lines of every page: title, and that it is made.
+fn head(title: &str, about: &str) -> String {
+    format!("# {title}\n\n<!-- Made from the code: SPANDREL_REFERENCE=write cargo test --test reference -->\n\n{about}\n")
+}
+
+/// Compares a page with the committed file, or writes it.
+fn check(page: &str, text: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/src/reference").join(page);
+    if std::env::var_os("SPANDREL_REFERENCE").is_some_and(|value| value == "write") {
+        std::fs::write(&path, text).unwrap();
+        return;
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    let differs = committed.lines().zip(text.lines()).position(|(a, b)| a != b).unwrap_or(committed.lines().count());
+    let now = text.lines().nth(differs).unwrap_or_default();
+    assert!(committed == text, "{page}, line {}: the code gives `{now}`; rewrite it with SPANDREL_REFERENCE=write", differs + 1);
+}
+
+/// Keys of scenario and vehicle files have their tables beside the files; the pages include them.
+#[test]
+fn exact_pages_of_keys_include_the_tables_that_are_compared_with_the_readers() {
+    for (page, table) in [("scenario-keys.md", "scenarios/README.md"), ("vehicle-keys.md", "vehicle-params/README.md")] {
+        check(page, &format!("{{{{#include ../../../{table}}}}}\n"));
+        assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(table).is_file(), "{table}");
+    }
+}

@@ -1,0 +1,78 @@
+//! Streams with their rates, and messages that are acted on.
+
+use crate::table::table;
+use crate::{check, head};
+use mavlink::Message;
+use spandrel_mavlink::ardupilotmega;
+use spandrel_mavlink::dialect::MavMessage;
+use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
+use spandrel_sitl::endpoint::streams::{CAMERA, STREAMS, Stream};
+use spandrel_sitl::endpoint::{HANDLED, LinkKind};
+
+fn name(id: u32) -> String {
+    let ours = [
+        &ardupilotmega::MEMINFO,
+        &ardupilotmega::AHRS,
+        &ardupilotmega::SIMSTATE,
+        &ardupilotmega::WIND,
+        &ardupilotmega::EKF_STATUS_REPORT,
+    ];
+    let theirs = || MavMessage::default_message_from_id(id).map(|message| message.message_name().to_owned());
+    let known = ours.iter().find(|definition| definition.id == id).map(|definition| definition.name.to_owned());
+    known.or_else(theirs).unwrap_or_else(|| panic!("message {id} has no name"))
+}
+
+fn rate(stream: &Stream, kind: LinkKind) -> String {
+    match stream.rate_hz(kind) {
+        0.0 => "on request".to_owned(),
+        hz => hz.to_string(),
+    }
+}
+
+fn flavours(stream: &Stream) -> String {
+    let all: [&Flavour; 3] = [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR];
+    let spoken: Vec<&str> = all.iter().filter(|flavour| stream.is_spoken(flavour)).map(|flavour| flavour.name).collect();
+    if spoken.len() == all.len() { "all".to_owned() } else { spoken.join(", ") }
+}
+
+/// One line a stream; several sensors that send one message at one rate share a line.
+fn streams() -> String {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for stream in STREAMS {
+        let component = if stream.component == CAMERA { "camera" } else { "autopilot" };
+        let rates = [LinkKind::GroundStation, LinkKind::Sdk, LinkKind::Payload].map(|kind| rate(stream, kind));
+        let row =
+            [vec![name(stream.id), stream.id.to_string(), component.to_owned()], rates.to_vec(), vec![flavours(stream)]].concat();
+        if !rows.contains(&row) {
+            rows.push(row);
+        }
+    }
+    rows.sort();
+    table(&["message", "id", "component", "ground station, Hz", "SDK, Hz", "payload, Hz", "interface"], rows)
+}
+
+fn handled() -> String {
+    let mut rows: Vec<(String, u32)> = HANDLED.iter().map(|id| (name(*id), *id)).collect();
+    rows.sort();
+    table(&["message", "id"], rows.into_iter().map(|(name, id)| vec![name, id.to_string()]))
+}
+
+#[test]
+fn exact_the_pages_of_messages_are_those_of_the_code() {
+    let asks: Vec<&str> =
+        [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR].iter().filter(|f| f.asks_first).map(|f| f.name).collect();
+    let about = format!(
+        "Streams are sent without being asked, at these rates by kind of link. With `--flavour {}` ground stations and SDKs get heartbeats \
+         only until they ask; payload links get all rates at once. SET_MESSAGE_INTERVAL changes a rate, REQUEST_MESSAGE asks for one message. \
+         The named values for scoring are listed under [scoring data](wire.md#scoring-data).",
+        asks.join(" or ")
+    );
+    let acts = "The vehicle acts on these messages. All others are forwarded to the links of their target.";
+    let page = format!(
+        "{}\n## Streams\n\n{}\n## Messages that are acted on\n\n{acts}\n\n{}",
+        head("Messages", &about),
+        streams(),
+        handled()
+    );
+    check("messages.md", &page);
+}

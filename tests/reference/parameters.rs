@@ -1,0 +1,72 @@
+//! Parameters of both sets of names, read from the files that ground stations get.
+
+use crate::table::{code, table};
+use crate::{check, head};
+use serde_json::Value;
+use spandrel_sitl::endpoint::params::face::{COPTER, PX4};
+use spandrel_sitl::endpoint::params::{Face, metadata};
+use std::io::Cursor;
+
+fn described(face: &Face) -> Vec<Value> {
+    let mut text = Vec::new();
+    lzma_rs::xz_decompress(&mut Cursor::new(&metadata::files(face).parameter.bytes), &mut text).unwrap();
+    let file: Value = serde_json::from_slice(&text).unwrap();
+    file["parameters"].as_array().unwrap().clone()
+}
+
+fn text(parameter: &Value, key: &str) -> String {
+    match &parameter[key] {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        // A float of 32 bits with the digits that it has.
+        Value::Number(number) if parameter["type"] == "Float" => {
+            number.as_f64().map_or_else(String::new, |value| (value as f32).to_string())
+        }
+        other => other.to_string(),
+    }
+}
+
+fn range(parameter: &Value) -> String {
+    match (text(parameter, "min"), text(parameter, "max")) {
+        (low, high) if low.is_empty() || high.is_empty() => "by aircraft".to_owned(),
+        (low, high) => format!("{low} to {high}"),
+    }
+}
+
+/// Description with the words of values or bits.
+fn meaning(parameter: &Value) -> String {
+    let listed = |key: &str, number: &str| {
+        let list = parameter[key].as_array()?;
+        let words = list.iter().map(|one| format!("{} {}", one[number], text(one, "description")));
+        Some(words.collect::<Vec<_>>().join(", "))
+    };
+    let short = text(parameter, "shortDesc");
+    match listed("values", "value").or_else(|| listed("bitmask", "index").map(|bits| format!("bits {bits}"))) {
+        Some(words) => format!("{short}: {words}."),
+        None => format!("{short}."),
+    }
+}
+
+fn rows(parameters: &[Value], acts: bool) -> String {
+    let standard = |parameter: &&Value| (parameter["category"] == "Standard") == acts;
+    let row = |parameter: &Value| {
+        let default = text(parameter, "default");
+        let default = if default.is_empty() { "by aircraft".to_owned() } else { default };
+        let (name, kind, unit) = (code(&text(parameter, "name")), text(parameter, "type"), text(parameter, "units"));
+        vec![name, kind, unit, range(parameter), default, meaning(parameter)]
+    };
+    table(&["name", "type", "unit", "range", "default", "meaning"], parameters.iter().filter(standard).map(row))
+}
+
+#[test]
+fn exact_the_page_of_parameters_is_that_of_the_code() {
+    let about = "Names, units, ranges and defaults as the vehicle describes them to ground stations (MAVLink component metadata). Stored \
+                 parameters have no effect: clients expect them, and their values are kept.";
+    let mut page = head("Parameters", about);
+    for (title, face) in [("PX4 and generic interface", &PX4), ("ArduPilot interface", &COPTER)] {
+        let parameters = described(face);
+        page.push_str(&format!("\n## {title}: parameters that act\n\n{}", rows(&parameters, true)));
+        page.push_str(&format!("\n## {title}: stored parameters\n\n{}", rows(&parameters, false)));
+    }
+    check("parameters.md", &page);
+}
