@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_childs_arguments_read_back_the_same() {
+    fn exact_arguments_of_a_child_read_back_the_same() {
         let args = parse(&[
             "--instance",
             "2",

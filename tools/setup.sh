@@ -1,4 +1,4 @@
-# Shared by tools/run and tools/test: finds what is missing and, on Debian and Ubuntu, installs it. Sourced, not run.
+# Shared by the scripts beside it: finds what is missing and, on Debian and Ubuntu, installs it; builds the program. Sourced, not run.
 
 say() {
     printf '%s\n' "$*" >&2
@@ -29,17 +29,52 @@ need_packages() {
     fi
 }
 
-# What gamepads and transmitters need to build: Linux tells of them through udev.
-need_gamepad_packages() {
+# need_build_packages KIND: what a headless build or one with windows needs. Headless: a C compiler. Windows: the video encoder is C++, and
+# gamepads are found through udev.
+need_build_packages() {
+    local packages=(cc:gcc objcopy:binutils)
     if [ "$(uname)" = Linux ]; then
-        need_packages pkg-config:pkg-config /usr/include/libudev.h:libudev-dev
+        packages+=(/usr/include/stdio.h:libc6-dev)
+        if [ "$1" = window ]; then
+            packages+=(c++:g++ pkg-config:pkg-config /usr/include/libudev.h:libudev-dev)
+        fi
     fi
+    need_packages "${packages[@]}"
+}
+
+# build_program KIND: builds the program, and puts it without its debug symbols into target/run/KIND. The symbols lie beside it in
+# spandrel.debug, where debuggers and panics find them.
+build_program() {
+    local features=()
+    if [ "$1" = window ]; then
+        features=(--features view,gamepad)
+    fi
+    cargo build --release --bin spandrel "${features[@]}"
+    split_symbols target/release/spandrel "target/run/$1"
+}
+
+# split_symbols PROGRAM FOLDER: a copy of the program without its symbols, and its symbols, if they are older than the program.
+split_symbols() {
+    local program=$1 folder=$2 name
+    name=$(basename "$program")
+    if [ "$folder/$name" -nt "$program" ]; then
+        return
+    fi
+    mkdir -p "$folder"
+    if ! command -v objcopy >/dev/null 2>&1; then
+        cp "$program" "$folder/$name.new"
+    else
+        objcopy --only-keep-debug "$program" "$folder/$name.debug"
+        objcopy --strip-all --add-gnu-debuglink="$folder/$name.debug" "$program" "$folder/$name.new"
+    fi
+    # Whoever runs the old one goes on with it.
+    mv "$folder/$name.new" "$folder/$name"
 }
 
 install_packages() {
     say "Missing system packages: $*"
     if ! command -v apt-get >/dev/null 2>&1; then
-        say "This is no Debian or Ubuntu: install what corresponds to them (a C compiler and linker, Python 3 with venv, pkg-config, libudev's headers) and run this again."
+        say "This is not Debian or Ubuntu: install the equivalent packages and run this again."
         exit 1
     fi
     local root=()
@@ -60,5 +95,11 @@ install_packages() {
     fi
     say "Installing: $*"
     "${root[@]}" apt-get update
-    "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@"
+    # What is installed stays as it is, unless a new package depends on a newer version of it.
+    local options=(--no-install-recommends --no-upgrade --no-remove) upgraded
+    upgraded=$(apt-get install --simulate "${options[@]}" "$@" | sed -n 's/^Inst \([^ ]*\) \[.*/\1/p' | tr '\n' ' ')
+    if [ -n "$upgraded" ]; then
+        say "They depend on newer versions of these, which are upgraded: $upgraded"
+    fi
+    "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y "${options[@]}" "$@"
 }

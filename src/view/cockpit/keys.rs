@@ -47,11 +47,11 @@ pub struct Held {
 
 impl Held {
     /// A key that was pressed for somebody else. `made_up`: the window system tells of a key that was down already.
-    pub fn is_anothers(&mut self, event: &KeyEvent, made_up: bool) -> bool {
-        self.anothers(place(&event.physical_key), event.state, made_up)
+    pub fn pressed_elsewhere(&mut self, event: &KeyEvent, made_up: bool) -> bool {
+        self.elsewhere(place(&event.physical_key), event.state, made_up)
     }
 
-    fn anothers(&mut self, place: String, state: ElementState, made_up: bool) -> bool {
+    fn elsewhere(&mut self, place: String, state: ElementState, made_up: bool) -> bool {
         match state {
             ElementState::Pressed if made_up => {
                 self.others.insert(place);
@@ -119,11 +119,11 @@ mod tests {
     #[test]
     fn exact_a_key_that_was_down_before_the_window_had_it_does_nothing_until_it_comes_up() {
         let mut held = Held::default();
-        let mut told = |state, made_up| held.anothers("w".into(), state, made_up);
+        let mut told = |state, made_up| held.elsewhere("w".into(), state, made_up);
         assert!(told(Pressed, true) && told(Pressed, false), "made up, then its first repetition");
         assert!(told(Released, false) && !told(Pressed, false) && !told(Released, false), "then it is a key as any other");
-        held.anothers("w".into(), Pressed, true);
+        held.elsewhere("w".into(), Pressed, true);
         held.let_go();
-        assert!(!held.anothers("w".into(), Pressed, false));
+        assert!(!held.elsewhere("w".into(), Pressed, false));
     }
 }

@@ -130,7 +130,7 @@ impl Cockpit {
     }
 
     fn key(&mut self, event: &KeyEvent, made_up: bool) {
-        if self.held.is_anothers(event, made_up) {
+        if self.held.pressed_elsewhere(event, made_up) {
             return;
         }
         let change = self.held.take(event);
