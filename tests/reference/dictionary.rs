@@ -1,6 +1,5 @@
 //! The data dictionary: columns of the frames export, fields of the assessment, columns of the cohort's tables.
 
-use spandrel_testkit::job::*;
 use crate::table::{code, table};
 use crate::{check, head};
 use serde_json::Value;
@@ -8,6 +7,7 @@ use spandrel_monitor::assess_log;
 use spandrel_monitor::export::COLUMNS;
 use spandrel_monitor::export::columns::Read;
 use spandrel_monitor::export::fields::FIELDS;
+use spandrel_testkit::job::*;
 use spandrel_training::cohort::columns::definition;
 use spandrel_training::cohort::{Selection, cohort, tables};
 use spandrel_training::record::Incomplete;

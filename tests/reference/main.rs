@@ -4,6 +4,7 @@
 // Flags of the window and of gamepads depend on features.
 #[cfg(all(feature = "view", feature = "gamepad"))]
 mod commands;
+mod contract;
 mod dictionary;
 mod messages;
 mod parameters;

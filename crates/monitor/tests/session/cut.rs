@@ -8,7 +8,7 @@ use spandrel_model::scenario::{PlacedDefect, Scenario};
 use spandrel_model::site::{CameraPose, DefectView};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Lamp};
-use spandrel_monitor::assessment::{Graded, assess_log};
+use spandrel_monitor::assessment::assess_log;
 use spandrel_monitor::measures::attention::Survey;
 use spandrel_monitor::session::EndReason;
 use spandrel_testkit::job::*;

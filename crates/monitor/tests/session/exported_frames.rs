@@ -1,10 +1,10 @@
 //! The frames export: every column beyond the released ones against a flight made by hand.
 
-use spandrel_testkit::job::*;
 use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, MavMessage, WIND_COV_DATA};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_monitor::export::{COLUMNS, FrameRow, frame_rows, frames_csv};
+use spandrel_testkit::job::*;
 
 /// m; latitude and longitude in steps of 1e-7 deg (1.1 cm) of truth and estimate together.
 const STEPS_M: f64 = 0.025;

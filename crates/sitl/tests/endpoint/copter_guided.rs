@@ -1,8 +1,8 @@
 //! ArduCopter's GUIDED: what GUID_OPTIONS changes, the targets that it reports, and its pause.
 
 use super::copter::{ARM, BRAKE, GUIDED, M_PER_E7, SET_MODE, copter, copter_at, mode, next_beat};
-use spandrel_testkit::station::{Station, one};
 use spandrel_mavlink::dialect::*;
+use spandrel_testkit::station::{Station, one};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const REQUEST: MavCmd = MavCmd::MAV_CMD_REQUEST_MESSAGE;

@@ -14,7 +14,7 @@ use spandrel_model::random::RandomStream;
 use spandrel_sitl::endpoint::HANDLED;
 use spandrel_sitl::endpoint::flavour::ardupilot;
 use spandrel_sitl::sim::Sim;
-use station::Station;
+use spandrel_testkit::station::Station;
 
 /// Datagrams of the whole run (issue: 20,000).
 const DATAGRAMS: usize = 40_000;
@@ -77,7 +77,7 @@ fn situations() -> Vec<Sim> {
         assert_eq!(guided.command(1, command, p), MavResult::MAV_RESULT_ACCEPTED);
     }
     guided.run_ms(6_000);
-    vec![ground.sim, flown.sim, mission.sim, offboard.sim, copter.sim, guided.sim]
+    vec![ground.vehicle.sim, flown.vehicle.sim, mission.vehicle.sim, offboard.vehicle.sim, copter.vehicle.sim, guided.vehicle.sim]
 }
 
 /// Shoots at one situation after the other, each volley at a fresh copy, until something is found.

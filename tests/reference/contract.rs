@@ -1,0 +1,58 @@
+//! The contract's page says what the code says.
+
+use spandrel_mavlink::contract::contact::Contact;
+use spandrel_mavlink::contract::modes::ControlSource;
+use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::{VERSION, cue};
+use spandrel_mavlink::dialect::MavMessage;
+
+fn page() -> String {
+    spandrel_testkit::shipped::text("docs/src/reference/contract.md")
+}
+
+#[test]
+fn exact_the_contracts_page_has_every_name_code_and_bit() {
+    let page = page();
+    let has = |row: &str| assert!(page.contains(row), "docs/src/reference/contract.md lacks {row:?}");
+    has(&format!("Version {VERSION}."));
+    let named = [
+        Named::Contact(Contact::None),
+        Named::Hits(0),
+        Named::Respawns(0),
+        Named::Traffic(0),
+        Named::Seed(0),
+        Named::ScenarioCrc(0),
+        Named::ClearanceM(0.0),
+        Named::Lux(0.0),
+        Named::Pace(1.0),
+        Named::Cues(0),
+    ];
+    for value in named {
+        let kind = if matches!(value.message(0), MavMessage::NAMED_VALUE_INT(_)) { "int" } else { "float" };
+        has(&format!("| `{}` | {kind} |", value.name()));
+    }
+    for contact in Contact::ALL {
+        has(&format!("| {} | {} | {} |", contact.code(), contact.word(), contact.severity()));
+    }
+    for (bit, name) in cue::ALL {
+        has(&format!("| {bit} | {name} |"));
+    }
+}
+
+#[test]
+fn exact_the_contracts_table_of_modes_is_the_codes() {
+    let page = page();
+    let copter = |source: ControlSource| {
+        let numbers: Vec<String> = (0..64).filter(|mode| ControlSource::of(3, *mode) == source).map(|mode| mode.to_string()).collect();
+        format!("{} |", numbers.join(", "))
+    };
+    for source in [ControlSource::Mission, ControlSource::Script, ControlSource::Autopilot] {
+        let row = page.lines().find(|line| line.starts_with(&format!("| {} |", source.word()))).expect("a row for each");
+        assert!(row.ends_with(&copter(source)), "{row}");
+    }
+    let px4 = |main: u32, sub: u32| ControlSource::of(12, main << 16 | sub << 24);
+    assert_eq!((px4(4, 4), px4(6, 0), px4(3, 1)), (ControlSource::Mission, ControlSource::Script, ControlSource::Autopilot));
+    assert!((0..256).filter(|sub| *sub != 4).all(|sub| px4(4, sub) == ControlSource::Autopilot));
+    let by_hand = (0..256).filter(|main| ![4, 6].contains(main)).flat_map(|main| [(main, 0), (main, 2)]);
+    assert!(by_hand.into_iter().all(|(main, sub)| px4(main, sub) == ControlSource::Pilot));
+}
