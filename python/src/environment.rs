@@ -151,6 +151,7 @@ impl Episode {
         vehicle.sim_mut().open_link(LINK, LinkKind::Sdk, false);
         vehicle.sim_mut().await_heartbeat(LINK);
         vehicle.sim_mut().handle_datagram(LINK, &hold);
+        vehicle.run(world.kind.step());
         vehicle.command(MavCmd::MAV_CMD_DO_SET_MODE, &[1.0, OFFBOARD])?;
         Ok(Self { world: Arc::clone(world), sim: vehicle.into_sim(), encoder, task })
     }

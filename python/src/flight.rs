@@ -17,7 +17,6 @@ use spandrel_sitl::sim::LOCKSTEP;
 use spandrel_sitl::testing::Vehicle;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
 /// A vehicle, its links, and the command that waits for its answer.
 #[derive(Debug)]
@@ -56,6 +55,7 @@ impl Inner {
 #[pyclass(frozen, module = "spandrel._spandrel")]
 pub struct Flight {
     inner: Mutex<Inner>,
+    guided_mode: Option<u32>,
 }
 
 impl Flight {
@@ -69,12 +69,14 @@ impl Flight {
     #[new]
     fn new(py: Python<'_>, scenario: &str, vehicle: &str, seed: u64, flavour: &str, after_crash: &str) -> PyResult<Self> {
         let (job, aircraft) = (job::read_scenario(scenario)?, job::read_vehicle(vehicle)?);
-        let mut builder = Vehicle::builder().seed(seed).flavour(job::flavour(flavour)?);
+        let flavour = job::flavour(flavour)?;
+        let mut builder = Vehicle::builder().seed(seed).flavour(flavour);
         if let Some(rule) = job::after_crash(after_crash)? {
             builder = builder.after_crash(rule);
         }
         let vehicle = py.detach(|| builder.build_from(job, aircraft));
-        Ok(Self { inner: Mutex::new(Inner { vehicle, links: Links::new(), asked: None }) })
+        let inner = Inner { vehicle, links: Links::new(), asked: None };
+        Ok(Self { inner: Mutex::new(inner), guided_mode: flavour.errands })
     }
 
     /// Simulation time, ns.
@@ -96,12 +98,6 @@ impl Flight {
     /// Runs up to a simulation time, ns. True when a peer in lockstep owes an answer before that.
     fn run(&self, py: Python<'_>, until_ns: i64) -> bool {
         py.detach(|| self.lock().run(SimTime::from_ns(until_ns)))
-    }
-
-    /// Waits for datagrams of a peer in lockstep, for at most so many seconds of wall time.
-    fn wait(&self, py: Python<'_>, limit_s: f64) -> PyResult<()> {
-        let limit = Duration::try_from_secs_f64(limit_s).map_err(|error| PyValueError::new_err(error.to_string()))?;
-        py.detach(|| self.lock().links.wait(limit)).map_err(|error| PyOSError::new_err(error.to_string()))
     }
 
     /// Sends a command by its MAVLink number, at a place of the scenario's frame (m) where one is given.
@@ -190,9 +186,9 @@ impl Flight {
         })
     }
 
-    /// Serves a peer that never answered in real time from now on; it joins with its first answer.
-    fn go_without_answers(&self, py: Python<'_>) {
-        py.detach(|| self.lock().vehicle.sim_mut().go_without_first_answers());
+    /// The number of the mode that take-offs are commanded in; `None` where any mode will do.
+    fn guided_mode(&self) -> Option<u32> {
+        self.guided_mode
     }
 
     /// The refusal of a command in words.

@@ -5,7 +5,6 @@ use spandrel_sitl::sim::Sim;
 use std::collections::{BTreeMap, VecDeque};
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
-use std::time::Duration;
 
 /// The harness's own link is 1; those of Python count from here.
 const FIRST: u32 = 2;
@@ -110,20 +109,6 @@ impl Links {
                 }
             }
         }
-    }
-
-    /// Waits for a datagram on any socket of a peer in lockstep, for at most `limit`.
-    pub fn wait(&self, limit: Duration) -> io::Result<()> {
-        let in_step = self.ways.values().find_map(|way| match way {
-            Way::Udp { socket, lockstep: true, .. } => Some(socket),
-            Way::Udp { .. } | Way::Mailbox(_) => None,
-        });
-        let Some(socket) = in_step else { return Ok(()) };
-        socket.set_nonblocking(false)?;
-        socket.set_read_timeout(Some(limit.max(Duration::from_millis(1))))?;
-        // Nothing within the limit is no failure here: the caller asks whether the answer has come.
-        let _ = socket.peek(&mut [0]);
-        socket.set_nonblocking(true)
     }
 }
 
