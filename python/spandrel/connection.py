@@ -40,8 +40,8 @@ class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
             if message.get_type() == "TIMESYNC" and message.tc1 == 0:
                 self.mav.timesync_send(message.ts1, message.ts1)
                 answered = True
-            else:
-                self._pending.append(message)
+            # Questions stay in the stream, too: a gap in the sequence numbers would count as a loss.
+            self._pending.append(message)
         return answered
 
     def _read(self) -> Any:

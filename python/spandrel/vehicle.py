@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -29,6 +30,14 @@ SERVING_SLEEP_S = 0.002
 
 ACCEPTED, IN_PROGRESS = 0, 5
 ARM_DISARM, TAKEOFF, LAND, REPOSITION, SET_MODE = 400, 22, 21, 192, 176
+
+
+def _free_port() -> int:
+    """A UDP port of the loopback that was free a moment ago."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+        return port
 
 
 class Link:
@@ -181,6 +190,15 @@ class Vehicle:
         """Opens a MAVLink link without a socket. `kind` decides the usual streams: gcs, sdk, or payload (truth and scoring values)."""
         return Link(self._flight, self._flight.open_mailbox(kind))
 
+    @contextmanager
+    def record(self, path: str | os.PathLike[str]) -> Iterator[None]:
+        """Writes the telemetry into a .tlog file meanwhile: `spandrel.assess` scores it, QGroundControl and Mission Planner open it."""
+        link = self._flight.open_log(path)
+        try:
+            yield
+        finally:
+            self._flight.close(link)
+
     def connect(self) -> LockstepConnection:
         """Returns a pymavlink connection over UDP in lockstep with the vehicle.
 
@@ -201,20 +219,21 @@ class Vehicle:
     def serve(self, speed: float = 1.0, kind: str = "sdk") -> Iterator[str]:
         """Serves the vehicle over UDP for clients with a clock of their own, such as MAVSDK.
 
-        Yields the address for MAVSDK's `add_any_connection`; any MAVLink client that sends first may use the port. Meanwhile simulation
-        time runs `speed` times as fast as the wall clock, in a thread. What such a client sends arrives when the operating system delivers
-        it, so two runs differ in their bits.
+        Yields the address for MAVSDK's `add_any_connection`, `udpin://127.0.0.1:PORT`: the vehicle sends to that port, which was free, and
+        the client listens there. Meanwhile simulation time runs `speed` times as fast as the wall clock, in a thread. What such a client
+        sends arrives when the operating system delivers it, so two runs differ in their bits.
         """
         if self._server is not None or self._connections:
             raise SpandrelError("the vehicle is connected already: serve() needs it alone")
         if not 0.0 < speed <= 100.0:
             raise ValueError(f"speed is {speed}; allowed: more than 0, at most 100")
-        link, port = self._flight.open_udp(kind)
+        port = _free_port()
+        link, _ = self._flight.open_udp(kind, ("127.0.0.1", port))
         self._stop.clear()
         self._server = threading.Thread(target=self._keep_pace, args=(speed,), name="spandrel", daemon=True)
         self._server.start()
         try:
-            yield f"udpout://127.0.0.1:{port}"
+            yield f"udpin://127.0.0.1:{port}"
         finally:
             self._stop.set()
             self._server.join()
@@ -245,7 +264,7 @@ class Vehicle:
         """Lets simulation time pass: by running it, or by waiting while the vehicle is served."""
         if self._server is not None:
             with self._advanced:
-                self._advanced.wait_for(lambda: self._flight.now_ns() >= until_ns)
+                self._advanced.wait_for(lambda: self._stop.is_set() or self._flight.now_ns() >= until_ns)
             return
         while self._flight.run(until_ns):
             answered = [connection.answer() for connection in self._connections]

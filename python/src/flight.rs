@@ -13,9 +13,11 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::files::job::FileError;
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
-use spandrel_sitl::sim::LOCKSTEP;
+use spandrel_sitl::sim::{LOCKSTEP, STEP};
 use spandrel_sitl::testing::Vehicle;
+use std::io::ErrorKind;
 use std::net::{IpAddr, SocketAddr};
+use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A vehicle, its links, and the command that waits for its answer.
@@ -24,6 +26,8 @@ struct Inner {
     vehicle: Vehicle,
     links: Links,
     asked: Option<(MavCmd, usize)>,
+    /// UTC at simulation start, seconds since the Unix epoch.
+    start_unix_s: i64,
 }
 
 impl Inner {
@@ -35,13 +39,14 @@ impl Inner {
             if self.vehicle.sim().waiting() {
                 return true;
             }
-            if now >= until {
+            if now + STEP > until {
                 return false;
             }
             let slice_ends = SimTime::from_ns((now.ns() / LOCKSTEP.ns() + 1) * LOCKSTEP.ns());
             self.vehicle.run(slice_ends.min(until) - now);
+            let stamp_us = u64::try_from(1_000_000 * self.start_unix_s + self.vehicle.now().us()).unwrap_or(0);
             while let Some(transmit) = self.vehicle.poll_transmit() {
-                self.links.deliver(transmit.link, transmit.bytes);
+                self.links.deliver(transmit.link, transmit.bytes, stamp_us);
             }
             // There is no card to read: clients get that as the answer.
             while let Some(job) = self.vehicle.sim_mut().poll_file_job() {
@@ -74,8 +79,9 @@ impl Flight {
         if let Some(rule) = job::after_crash(after_crash)? {
             builder = builder.after_crash(rule);
         }
+        let start_unix_s = job.light.start_unix_s;
         let vehicle = py.detach(|| builder.build_from(job, aircraft));
-        let inner = Inner { vehicle, links: Links::new(), asked: None };
+        let inner = Inner { vehicle, links: Links::new(), asked: None, start_unix_s };
         Ok(Self { inner: Mutex::new(inner), guided_mode: flavour.errands })
     }
 
@@ -161,6 +167,15 @@ impl Flight {
         }))
     }
 
+    /// Writes a telemetry log until the link is closed.
+    fn open_log(&self, py: Python<'_>, path: PathBuf) -> PyResult<u32> {
+        let opened = py.detach(|| {
+            let inner = &mut *self.lock();
+            inner.links.open_log(inner.vehicle.sim_mut(), &path)
+        });
+        opened.map(|link| link.0).map_err(|error| PyOSError::new_err(format!("{}: {error}", path.display())))
+    }
+
     /// Hands a datagram to the vehicle.
     fn send(&self, py: Python<'_>, link: u32, datagram: &[u8]) -> PyResult<()> {
         py.detach(|| {
@@ -182,7 +197,11 @@ impl Flight {
     fn close(&self, py: Python<'_>, link: u32) -> PyResult<()> {
         py.detach(|| {
             let inner = &mut *self.lock();
-            if inner.links.close(inner.vehicle.sim_mut(), LinkId(link)) { Ok(()) } else { Err(no_link(link)) }
+            inner.links.close(inner.vehicle.sim_mut(), LinkId(link))
+        })
+        .map_err(|error| match error.kind() {
+            ErrorKind::NotConnected => no_link(link),
+            _ => PyOSError::new_err(error.to_string()),
         })
     }
 

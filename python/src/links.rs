@@ -1,10 +1,14 @@
-//! Ways in and out of a vehicle: UDP sockets on the loopback, and mailboxes that Python empties.
+//! Ways in and out of a vehicle: UDP sockets on the loopback, mailboxes that Python empties, and telemetry logs.
 
+use spandrel_mavlink::codec::Decoder;
+use spandrel_mavlink::telemetry::tlog;
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
 use std::collections::{BTreeMap, VecDeque};
-use std::io;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
+use std::path::Path;
 
 /// The harness's own link is 1; those of Python count from here.
 const FIRST: u32 = 2;
@@ -18,6 +22,30 @@ const MAILBOX: usize = 50_000;
 enum Way {
     Udp { socket: UdpSocket, kind: LinkKind, lockstep: bool, peer: Option<SocketAddr> },
     Mailbox(VecDeque<Vec<u8>>),
+    Log(Log),
+}
+
+/// A telemetry log that is being written.
+#[derive(Debug)]
+struct Log {
+    file: BufWriter<File>,
+    decoder: Decoder,
+    failure: Option<io::Error>,
+}
+
+impl Log {
+    /// Writes each frame of a datagram as a record; after a failure nothing more.
+    fn write(&mut self, stamp_us: u64, datagram: &[u8]) {
+        for frame in self.decoder.datagram(datagram) {
+            if self.failure.is_none() {
+                self.failure = self.file.write_all(&tlog::record(stamp_us, &frame.bytes)).err();
+            }
+        }
+    }
+
+    fn finish(mut self) -> io::Result<()> {
+        self.failure.map_or_else(|| self.file.flush(), Err)
+    }
 }
 
 /// All of them by link.
@@ -60,10 +88,22 @@ impl Links {
         link
     }
 
-    /// Closes a link; false when there is none.
-    pub fn close(&mut self, sim: &mut Sim, link: LinkId) -> bool {
+    /// Writes the telemetry that a monitor gets into a new file.
+    pub fn open_log(&mut self, sim: &mut Sim, path: &Path) -> io::Result<LinkId> {
+        let log = Log { file: BufWriter::new(File::create(path)?), decoder: Decoder::new(), failure: None };
+        let link = self.add(Way::Log(log));
+        sim.open_link(link, LinkKind::Payload, false);
+        Ok(link)
+    }
+
+    /// Closes a link. Errors if there is none, or if a log could not be written.
+    pub fn close(&mut self, sim: &mut Sim, link: LinkId) -> io::Result<()> {
         sim.close_link(link);
-        self.ways.remove(&link).is_some()
+        match self.ways.remove(&link) {
+            Some(Way::Log(log)) => log.finish(),
+            Some(Way::Udp { .. } | Way::Mailbox(_)) => Ok(()),
+            None => Err(io::Error::new(io::ErrorKind::NotConnected, format!("link {} is closed", link.0))),
+        }
     }
 
     /// Whether the link is a mailbox.
@@ -75,12 +115,13 @@ impl Links {
     pub fn take(&mut self, link: LinkId) -> Option<Vec<Vec<u8>>> {
         match self.ways.get_mut(&link)? {
             Way::Mailbox(mail) => Some(mail.drain(..).collect()),
-            Way::Udp { .. } => None,
+            Way::Udp { .. } | Way::Log(_) => None,
         }
     }
 
-    /// Sends a datagram of the vehicle. Nobody there is no failure: UDP peers come and go.
-    pub fn deliver(&mut self, link: LinkId, bytes: Vec<u8>) {
+    /// Sends a datagram of the vehicle; a log stamps it with `stamp_us`, microseconds since the Unix epoch. Nobody there is no failure: UDP
+    /// peers come and go.
+    pub fn deliver(&mut self, link: LinkId, bytes: Vec<u8>, stamp_us: u64) {
         match self.ways.get_mut(&link) {
             Some(Way::Udp { socket, peer: Some(peer), .. }) => {
                 let _ = socket.send_to(&bytes, *peer);
@@ -91,6 +132,7 @@ impl Links {
                 }
                 mail.push_back(bytes);
             }
+            Some(Way::Log(log)) => log.write(stamp_us, &bytes),
             Some(Way::Udp { peer: None, .. }) | None => {}
         }
     }

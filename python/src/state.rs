@@ -33,7 +33,7 @@ pub struct State {
     lamp_on: bool,
     /// Pictures taken.
     pictures: usize,
-    /// Contacts so far, gentle touches of the pad excluded.
+    /// Contacts so far, without gentle ones with the pad and the ground around it.
     hits: i32,
     /// Why the flight ended; `None` while it lasts.
     ended: Option<String>,
