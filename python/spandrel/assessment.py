@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +14,10 @@ from ._spandrel import assess as _assess
 
 if TYPE_CHECKING:
     import pandas
+
+
+_KINDS: dict[str, Callable[[str], object]] = {"frame": int, "light": int, "snapshot": int, "missing": int, "contact": str}
+"""Columns of the frames that are no floats."""
 
 
 @dataclass(frozen=True)
@@ -52,9 +58,10 @@ class Assessment:
         """One row for each scored frame (index `frame`): time, sticks, position, speed, battery, contact."""
         import pandas
 
-        return pandas.read_csv(
-            io.StringIO(self.frames_csv), index_col="frame", keep_default_na=False, na_values=["NaN"], float_precision="round_trip"
-        )
+        rows = list(csv.DictReader(io.StringIO(self.frames_csv)))
+        # Read by Python, so that every number is the one that was written, to the last bit.
+        columns = {name: [_KINDS.get(name, float)(row[name]) for row in rows] for name in (rows[0] if rows else ())}
+        return pandas.DataFrame(columns).set_index("frame")
 
 
 def assess(

@@ -33,7 +33,8 @@ def test_wire_pymavlink_loses_nothing_while_the_script_computes():
         while (message := connection.recv_match(type="ATTITUDE")) is not None:
             times.append(message.time_boot_ms)
         assert times[-1] - times[0] > 59_000
-        assert len({later - earlier for earlier, later in zip(times, times[1:])}) == 1
+        # 50 a second, stamped in whole milliseconds.
+        assert {later - earlier for earlier, later in zip(times, times[1:])} <= {19, 20, 21}
 
 
 def test_wire_two_pymavlink_connections_in_lockstep():
