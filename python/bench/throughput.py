@@ -5,7 +5,8 @@
 
 Both fly one task, hover, with all effects that they have: wind, gusts, ground effect, drag, sensor noise and an autopilot here; ground effect,
 drag and downwash there (PYB_GND_DRAG_DW). One process each, its fastest way to step: native threads here, one environment there, which has no
-vectorized stepping of its own. Rounds alternate, and the best of each counts: what else runs on the machine disturbs both.
+vectorized stepping of its own. Rounds alternate, and the best of each counts: what else runs on the machine disturbs both. Measure on a machine
+at rest: threads that wait for a busy core gain nothing.
 """
 
 import argparse
@@ -102,7 +103,6 @@ def main():
         "Spandrel-Hover-v0, one environment": (*single("Spandrel-Hover-v0"), 1),
         f"Spandrel-Inspect-v0, 16 vehicles, {cores} threads": (*ours("Spandrel-Inspect-v0", 16, cores), 16),
     }
-    best_ours = next(iter(rows))
     peers = {}
     for action in ("RPM", "VEL"):
         found = peer(checkout, action)
@@ -117,7 +117,7 @@ def main():
     for name, rate in rates.items():
         print(f"{name}: {rate:.0f} steps/s, {speeds[name]:.0f} times real time")
     theirs = max((speeds[name] for name in peers), default=STATED_PEER)
-    ratio = speeds[best_ours] / theirs
+    ratio = max(speeds[name] for name in rows if name.startswith("Spandrel-Hover")) / theirs
     print(f"ratio: {ratio:.1f} (floor {FLOOR:.0f})")
     sys.exit(0 if ratio >= FLOOR else 1)
 
