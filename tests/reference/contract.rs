@@ -43,7 +43,8 @@ fn exact_the_contracts_page_has_every_name_code_and_bit() {
 fn exact_the_contracts_table_of_modes_is_the_codes() {
     let page = page();
     let copter = |source: ControlSource| {
-        let numbers: Vec<String> = (0..64).filter(|mode| ControlSource::of(3, *mode) == source).map(|mode| mode.to_string()).collect();
+        let numbers: Vec<String> =
+            (0..64).filter(|mode| ControlSource::of(3, *mode) == source).map(|mode| mode.to_string()).collect();
         format!("{} |", numbers.join(", "))
     };
     for source in [ControlSource::Mission, ControlSource::Script, ControlSource::Autopilot] {

@@ -21,28 +21,63 @@ pub fn coverage(paths: &Paths, on_path: &OnPath) -> Vec<PathCoverage> {
     (0..paths.len()).map(|task| of_task(paths.path(task), paths.threshold_m(task), task, on_path)).collect()
 }
 
+fn of_task(path: &Path, threshold_m: f64, task: usize, on_path: &OnPath) -> PathCoverage {
+    let mut flown = FlownPath::new(path, threshold_m);
+    for on in &on_path.task {
+        flown.note(on.and_then(|(t, point)| (t == task).then_some(point)));
+    }
+    flown.coverage()
+}
+
+/// The part of one path that was flown, frame by frame.
+///
 /// A point stands for half of each segment that touches it. It is covered when it was the nearest one in an on-path frame, or lies between
 /// the nearest points of two on-path frames in a row.
-fn of_task(path: &Path, threshold_m: f64, task: usize, on_path: &OnPath) -> PathCoverage {
-    let along_m = path.along_m();
-    let mut covered = vec![false; path.points_m().len()];
-    let mut before: Option<usize> = None;
-    for on in &on_path.task {
-        let point = on.and_then(|(t, point)| (t == task).then_some(point));
-        if let Some(point) = point {
-            let near = |b: &usize| (along_m[*b] - along_m[point]).abs() <= JOINED_M;
-            let from = before.filter(near).unwrap_or(point);
-            covered[from.min(point)..=from.max(point)].fill(true);
-        }
-        before = point;
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlownPath {
+    along_m: Vec<f64>,
+    weights_m: Vec<f64>,
+    threshold_m: f64,
+    covered: Vec<bool>,
+    before: Option<usize>,
+}
+
+impl FlownPath {
+    /// Starts with no part of the path flown.
+    #[must_use]
+    pub fn new(path: &Path, threshold_m: f64) -> Self {
+        let covered = vec![false; path.points_m().len()];
+        Self { along_m: path.along_m(), weights_m: path.lengths_by_point_m(), threshold_m, covered, before: None }
     }
-    let weights = path.lengths_by_point_m();
-    let length_m: f64 = weights.iter().sum();
-    let covered_m = weights.iter().zip(&covered).filter(|(_, covered)| **covered).fold(0.0, |sum, (weight, _)| sum + weight);
-    let any = f64::from(u8::from(covered.iter().any(|covered| *covered)));
-    // A path no longer than its threshold is a place to hold: whoever is there is on all of it. Every point covered is the whole path,
-    // whatever the sums round to.
-    let whole = length_m <= threshold_m || covered.iter().all(|covered| *covered);
-    let share = if whole { any } else { covered_m / length_m };
-    PathCoverage { length_m, share }
+
+    /// Adds a frame: the nearest point of the path while the drone is on it, else `None`. An index outside the path counts as `None`.
+    pub fn note(&mut self, point: Option<usize>) {
+        let point = point.filter(|point| *point < self.covered.len());
+        if let Some(point) = point {
+            let near = |b: &usize| (self.along_m[*b] - self.along_m[point]).abs() <= JOINED_M;
+            let from = self.before.filter(near).unwrap_or(point);
+            self.covered[from.min(point)..=from.max(point)].fill(true);
+        }
+        self.before = point;
+    }
+
+    /// For each point of the path, whether it was flown.
+    #[must_use]
+    pub fn points(&self) -> &[bool] {
+        &self.covered
+    }
+
+    /// Length and flown share of the path.
+    #[must_use]
+    pub fn coverage(&self) -> PathCoverage {
+        let length_m: f64 = self.weights_m.iter().sum();
+        let flown = self.weights_m.iter().zip(&self.covered).filter(|(_, covered)| **covered);
+        let covered_m = flown.fold(0.0, |sum, (weight, _)| sum + weight);
+        let any = f64::from(u8::from(self.covered.iter().any(|covered| *covered)));
+        // A path no longer than its threshold is a place to hold: whoever is there is on all of it. Every point covered is the whole path,
+        // whatever the sums round to.
+        let whole = length_m <= self.threshold_m || self.covered.iter().all(|covered| *covered);
+        let share = if whole { any } else { covered_m / length_m };
+        PathCoverage { length_m, share }
+    }
 }

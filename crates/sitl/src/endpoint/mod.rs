@@ -130,6 +130,9 @@ pub struct Endpoint {
     flight: view::Flight,
     was_armed: bool,
     fence_took: u16,
+    /// Parameter changes, plans' items and fence switch that the parameters show already: they are looked up by name, which is too slow for
+    /// every tick.
+    shown_by_params: Option<(u64, [u16; 3], bool)>,
     /// What has acted on the vehicle and is not in the digest yet.
     acted: Vec<u8>,
     /// The last position of the mode switch, from 0.
@@ -189,6 +192,7 @@ impl Endpoint {
             flight: view::Flight::default(),
             was_armed: false,
             fence_took: 0,
+            shown_by_params: None,
             acted: Vec::new(),
             mode_switch: None,
             switches: [None; manual::AUX],

@@ -28,7 +28,11 @@ impl Endpoint {
     pub fn observe(&mut self, view: &View, events: Vec<Event>, reached: Vec<usize>) {
         self.chosen = self.shown(view);
         self.flight.follow(std::mem::replace(&mut self.was_armed, view.status.armed), view.status, view.now);
-        self.note_fence_switch(view.fence_enabled);
+        let shown = Some((self.params.changes(), self.plans.totals(), view.fence_enabled));
+        let is_news = self.shown_by_params != shown;
+        if is_news {
+            self.note_fence_switch(view.fence_enabled);
+        }
         self.take_picture(view);
         if self.pace != self.told_pace {
             self.told_pace = self.pace;
@@ -55,7 +59,10 @@ impl Endpoint {
         self.calibrate(view);
         self.report_events(view);
         self.say_texts(view);
-        self.params.note_plans(self.plans.totals());
+        if is_news {
+            self.params.note_plans(self.plans.totals());
+            self.shown_by_params = shown;
+        }
         self.send_params();
         self.send_shell();
         ftp::speak(self);

@@ -6,7 +6,7 @@ use crate::endpoint::files::allowance::Allowance;
 use crate::endpoint::files::job::{Done, FileError, Job};
 use crate::endpoint::logs::Logs;
 use crate::endpoint::params::text::Problem;
-use crate::endpoint::{LinkKind, Wish};
+use crate::endpoint::{LinkKind, Payload, Wish};
 use crate::log;
 use spandrel_mavlink::signing::Key;
 use spandrel_model::site::Site;
@@ -23,6 +23,24 @@ impl Sim {
     #[must_use]
     pub fn site(&self) -> &Site {
         &self.site
+    }
+
+    /// Camera, gimbal and lamp.
+    #[must_use]
+    pub fn payload(&self) -> &Payload {
+        &self.endpoint.payload
+    }
+
+    /// Whether the motors are armed.
+    #[must_use]
+    pub fn armed(&self) -> bool {
+        self.backend.builtin().is_some_and(|autopilot| autopilot.status().armed)
+    }
+
+    /// Contacts with anything but the pad so far.
+    #[must_use]
+    pub fn hits(&self) -> i32 {
+        self.scoring.hits
     }
 
     /// The camera's component says no heartbeats.

@@ -1,0 +1,126 @@
+"""Environment steps per second, beside gym-pybullet-drones in the same run. Run it by `tools/python --bench`.
+
+    tools/python --bench                       fails below the floor
+    tools/python --bench --peer DIR            gym-pybullet-drones from a checkout of its sources
+
+Both fly one task, hover, with all effects that they have: wind, gusts, ground effect, drag, sensor noise and an autopilot here; ground effect,
+drag and downwash there (PYB_GND_DRAG_DW). One process each, its fastest way to step: native threads here, one environment there, which has no
+vectorized stepping of its own. Rounds alternate, and the best of each counts: what else runs on the machine disturbs both. Measure on a machine
+at rest: threads that wait for a busy core gain nothing.
+"""
+
+import argparse
+import os
+import sys
+import time
+import warnings
+
+import gymnasium
+import numpy as np
+
+import spandrel.gymnasium_envs  # noqa: F401 (registers the environments)
+
+# Ours over theirs, in simulation time.
+FLOOR = 20.0
+# Where gym-pybullet-drones cannot be had: its figure from a run on a machine with two cores of its own, times real time.
+STATED_PEER = 27.0
+# Seconds of wall time of one round, and rounds.
+ROUND_S, ROUNDS = 3.0, 5
+# Vehicles in a batch: some for each thread of a large machine.
+VEHICLES = 64
+# Its control rate that is nearest to our 50 Hz; physics at its own 240 Hz.
+PEER_HZ, PEER_PHYSICS_HZ = 48, 240
+
+
+def timed(step, each):
+    """Steps per second of wall time; `each` environments are stepped by a call."""
+    calls, start = 0, time.perf_counter()
+    while (passed := time.perf_counter() - start) < ROUND_S:
+        step()
+        calls += 1
+    return calls * each / passed
+
+
+def ours(name, count, threads):
+    """A step of all environments of a batch under changing actions, and the simulation time that one takes, s."""
+    env = gymnasium.make_vec(name, num_envs=count, vectorization_mode="vector_entry_point", threads=threads)
+    env.reset(seed=1)
+    env.action_space.seed(1)
+    actions = [env.action_space.sample() * np.float32(0.2) for _ in range(16)]
+    turn = iter(range(sys.maxsize))
+    return lambda: env.step(actions[next(turn) % len(actions)]), env.step_s
+
+
+def single(name):
+    """A step of one environment, resets included."""
+    env = gymnasium.make(name)
+    env.reset(seed=1)
+    action = np.zeros(env.action_space.shape, np.float32)
+
+    def step():
+        _, _, terminated, truncated, _ = env.step(action)
+        if terminated or truncated:
+            env.reset()
+
+    return step, env.unwrapped.step_s
+
+
+def peer(checkout, action):
+    """A step of theirs, or None where it is not installed."""
+    if checkout:
+        sys.path.insert(0, checkout)
+    try:
+        from gym_pybullet_drones.envs.HoverAviary import HoverAviary
+        from gym_pybullet_drones.utils.enums import ActionType, Physics
+    except ImportError as error:
+        print(f"gym-pybullet-drones is not installed ({error}); PyPI has no distribution of that name. Its stated figure counts.")
+        return None
+    with open(os.devnull, "w", encoding="utf-8") as nowhere:
+        said, sys.stdout = sys.stdout, nowhere
+        env = HoverAviary(physics=Physics.PYB_GND_DRAG_DW, pyb_freq=PEER_PHYSICS_HZ, ctrl_freq=PEER_HZ, act=ActionType[action])
+        sys.stdout = said
+    env.reset(seed=1)
+    still = np.zeros(env.action_space.shape, np.float32)
+
+    def step():
+        _, _, terminated, truncated, _ = env.step(still)
+        if terminated or truncated:
+            env.reset()
+
+    return step, 1.0 / PEER_HZ
+
+
+def main():
+    """Measures, prints a table, and fails below the floor."""
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--peer", help="checkout of gym-pybullet-drones")
+    checkout = arguments.parse_args().peer
+    warnings.filterwarnings("ignore")
+    cores = len(os.sched_getaffinity(0))
+    rows = {
+        f"Spandrel-Hover-v0, {VEHICLES} vehicles, {cores} threads": (*ours("Spandrel-Hover-v0", VEHICLES, cores), VEHICLES),
+        f"Spandrel-Hover-v0, {VEHICLES} vehicles, 1 thread": (*ours("Spandrel-Hover-v0", VEHICLES, 1), VEHICLES),
+        "Spandrel-Hover-v0, one environment": (*single("Spandrel-Hover-v0"), 1),
+        f"Spandrel-Inspect-v0, 16 vehicles, {cores} threads": (*ours("Spandrel-Inspect-v0", 16, cores), 16),
+    }
+    peers = {}
+    for action in ("RPM", "VEL"):
+        found = peer(checkout, action)
+        if found is None:
+            break
+        peers[f"gym-pybullet-drones HoverAviary, actions {action}"] = (*found, 1)
+    rates = dict.fromkeys([*rows, *peers], 0.0)
+    for _ in range(ROUNDS):
+        for name, (step, _, each) in (rows | peers).items():
+            rates[name] = max(rates[name], timed(step, each))
+    speeds = {name: rates[name] * step_s for name, (_, step_s, _) in (rows | peers).items()}
+    for name, rate in rates.items():
+        print(f"{name}: {rate:.0f} steps/s, {speeds[name]:.0f} times real time")
+    theirs = max((speeds[name] for name in peers), default=STATED_PEER)
+    ratio = max(speeds[name] for name in rows if name.startswith("Spandrel-Hover")) / theirs
+    print(f"ratio: {ratio:.1f} (floor {FLOOR:.0f})")
+    sys.exit(0 if ratio >= FLOOR else 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,26 @@
+"""pytest: the fixture `spandrel_vehicle` and the marker that configures it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from .vehicle import Vehicle
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Makes the marker known."""
+    config.addinivalue_line(
+        "markers", "spandrel(scenario, vehicle, seed, flavour, after_crash): arguments of spandrel.Vehicle for spandrel_vehicle"
+    )
+
+
+@pytest.fixture
+def spandrel_vehicle(request: pytest.FixtureRequest) -> Iterator[Vehicle]:
+    """A fresh vehicle for each test, on free ports, with the arguments of the marker `spandrel`. Seed 7 unless the marker gives another."""
+    arguments = {"seed": 7}
+    for marker in reversed(list(request.node.iter_markers("spandrel"))):
+        arguments.update(marker.kwargs)
+    with Vehicle(**arguments) as vehicle:  # type: ignore[arg-type]
+        yield vehicle

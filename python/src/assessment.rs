@@ -1,0 +1,22 @@
+//! The scorer for telemetry logs.
+
+use crate::errors::AssessmentError;
+use crate::job;
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+use spandrel_monitor::watch::build_site;
+use spandrel_monitor::{assess_log, export};
+use std::fs;
+use std::path::PathBuf;
+
+/// Scores a telemetry log. Returns the text of `spandrel assess --json` and the scored frames as CSV.
+#[pyfunction]
+pub fn assess(py: Python<'_>, tlog: PathBuf, scenario: &str, vehicle: &str) -> PyResult<(String, String)> {
+    let (job, aircraft) = (job::read_scenario(scenario)?, job::read_vehicle(vehicle)?);
+    py.detach(|| {
+        let log = fs::read(&tlog).map_err(|error| PyOSError::new_err(format!("{}: {error}", tlog.display())))?;
+        let graded =
+            assess_log(&log[..], &job, &aircraft, build_site).map_err(|error| AssessmentError::new_err(error.to_string()))?;
+        Ok((export::json_text(&graded.assessment), export::frames_csv(&graded.frames)))
+    })
+}

@@ -1,0 +1,35 @@
+//! Failures as Python exceptions. The words are those of the crates.
+
+use pyo3::exceptions::PyException;
+use pyo3::prelude::*;
+use spandrel_model::toml::Problems;
+use spandrel_sitl::testing::Failure;
+
+pyo3::create_exception!(spandrel, SpandrelError, PyException, "Any failure that this package reports.");
+pyo3::create_exception!(spandrel, JobError, SpandrelError, "A scenario or vehicle file is missing or wrong.");
+pyo3::create_exception!(spandrel, RefusedError, SpandrelError, "The vehicle refused a command or did not answer it.");
+pyo3::create_exception!(spandrel, LateError, SpandrelError, "A condition did not hold in time.");
+pyo3::create_exception!(spandrel, AssessmentError, SpandrelError, "A telemetry log cannot be scored.");
+
+/// Adds the exceptions to the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let python = module.py();
+    module.add("SpandrelError", python.get_type::<SpandrelError>())?;
+    module.add("JobError", python.get_type::<JobError>())?;
+    module.add("RefusedError", python.get_type::<RefusedError>())?;
+    module.add("LateError", python.get_type::<LateError>())?;
+    module.add("AssessmentError", python.get_type::<AssessmentError>())
+}
+
+/// Every problem of a scenario or vehicle file.
+pub fn problems(problems: &Problems) -> PyErr {
+    JobError::new_err(problems.to_string())
+}
+
+/// What the vehicle did not do.
+pub fn failure(failure: &Failure) -> PyErr {
+    match failure {
+        Failure::Refused { .. } | Failure::Silent(_) => RefusedError::new_err(failure.to_string()),
+        Failure::Late { .. } => LateError::new_err(failure.to_string()),
+    }
+}

@@ -1,0 +1,116 @@
+//! Inspect: fly the reference paths of the job and photograph its defects, judged by the monitor's measures.
+
+use crate::environment::{self, MOTION, Outcome};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::CameraPose;
+use spandrel_model::vehicle::Vehicle as Aircraft;
+use spandrel_monitor::measures::attention::Survey;
+use spandrel_monitor::measures::coverage::FlownPath;
+use spandrel_monitor::measures::on_path::Paths;
+use spandrel_sitl::sim::Sim;
+use std::collections::BTreeSet;
+
+/// Clearance is looked for this far, m (the vehicle's own limit for the scoring's clearance).
+const REACH_M: f64 = 30.0;
+
+/// How far an inspection is.
+#[derive(Debug, Clone)]
+pub struct Inspect {
+    paths: Paths,
+    look: Vec<Vec<Vec3<Enu>>>,
+    flown: Vec<FlownPath>,
+    on: Option<usize>,
+    found: BTreeSet<u32>,
+    before: f64,
+}
+
+impl Inspect {
+    /// Height over the pad at the start, m (estimate: out of the ground's effect on the rotors).
+    pub const START_HEIGHT_M: f64 = 5.0;
+    /// Vector to the next point (3, m) and where the camera should look from there (3), both in heading axes; the motion; gimbal pitch, rad;
+    /// lamp; clearance, m; share of the paths' length flown; share of the defects found.
+    pub const OBSERVATIONS: usize = 6 + MOTION + 5;
+
+    /// Nothing flown, nothing found.
+    pub fn new(job: &Scenario) -> Self {
+        let paths = Paths::new(job);
+        let flown = (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect();
+        let look = job.tasks.iter().map(|task| task.look.clone()).collect();
+        Self { paths, look, flown, on: None, found: BTreeSet::new(), before: 0.0 }
+    }
+
+    /// Flown share of the length of all paths.
+    fn flown_share(&self) -> f64 {
+        let all = self.flown.iter().map(FlownPath::coverage);
+        let (flown_m, length_m) = all.fold((0.0, 0.0), |(f, l), one| (f + one.share * one.length_m, l + one.length_m));
+        if length_m > 0.0 { flown_m / length_m } else { 0.0 }
+    }
+
+    fn found_share(&self, sim: &Sim) -> f64 {
+        let placed = sim.site().defects().len();
+        if placed > 0 { self.found.len() as f64 / placed as f64 } else { 0.0 }
+    }
+
+    /// The nearest point that was not flown, m, and where a camera there should look.
+    fn next(&self, position_m: Vec3<Enu>) -> Option<(Vec3<Enu>, Vec3<Enu>)> {
+        let mut best: Option<(f64, usize, usize)> = None;
+        for (task, flown) in self.flown.iter().enumerate() {
+            if flown.coverage().share >= 1.0 {
+                continue;
+            }
+            let points = self.paths.path(task).points_m();
+            for (point, _) in flown.points().iter().enumerate().filter(|(_, covered)| !**covered) {
+                let squared = (points[point] - position_m).norm_squared();
+                if best.is_none_or(|(least, _, _)| squared < least) {
+                    best = Some((squared, task, point));
+                }
+            }
+        }
+        let (_, task, point) = best?;
+        let look = self.look[task].get(point).copied().unwrap_or(Vec3::zero());
+        Some((self.paths.path(task).points_m()[point] - position_m, look))
+    }
+
+    /// Appends the observation.
+    pub fn observe(&self, sim: &Sim, out: &mut Vec<f32>) {
+        let rigid = &sim.truth().rigid;
+        let position_m = rigid.position_m.enu();
+        let (to_point_m, look) = self.next(position_m).unwrap_or((Vec3::zero(), Vec3::zero()));
+        environment::append(out, &environment::in_heading(to_point_m, rigid.attitude));
+        environment::append(out, &environment::in_heading(look, rigid.attitude));
+        environment::append(out, &environment::motion(sim));
+        let payload = sim.payload();
+        let lamp = f64::from(u8::from(payload.lamp.on));
+        let clearance_m = sim.site().nearest(position_m, REACH_M, sim.now()).map_or(REACH_M, |nearest| nearest.distance_m);
+        environment::append(out, &[payload.gimbal.pitch_rad, lamp, clearance_m, self.flown_share(), self.found_share(sim)]);
+    }
+
+    /// Takes a picture from where the vehicle is into account: defects that it shows count as found.
+    pub fn judge_picture(&mut self, sim: &Sim, aircraft: &Aircraft) {
+        let rigid = &sim.truth().rigid;
+        let payload = sim.payload();
+        let here = (rigid.position_m.enu(), rigid.attitude);
+        let pose = CameraPose::on(&aircraft.camera, here, payload.gimbal.pitch_rad, payload.lamp.on);
+        let shown = Survey::look(sim.site(), &pose, &aircraft.camera, &aircraft.lamp, sim.now());
+        self.found.extend(shown.iter().filter(|view| view.hit).map(|view| view.defect_id));
+    }
+
+    /// The reward is how much the two shares, of the paths and of the defects, have grown: an episode that flies and finds everything earns
+    /// 2, or 1 at a job without defects. Measures: the two shares.
+    pub fn judge(&mut self, sim: &Sim, over: bool) -> Outcome {
+        let on = self.paths.on(sim.truth().rigid.position_m.enu(), self.on);
+        if let Some((task, _)) = on {
+            self.on = Some(task);
+        }
+        for (task, flown) in self.flown.iter_mut().enumerate() {
+            flown.note(on.and_then(|(t, nearest)| (t == task).then_some(nearest.point)));
+        }
+        let measures = [self.flown_share(), self.found_share(sim)];
+        let sum = measures[0] + measures[1];
+        let reward = sum - self.before;
+        self.before = sum;
+        let found_all = self.found.len() == sim.site().defects().len();
+        Outcome { reward, terminated: over || (measures[0] >= 1.0 && found_all), measures }
+    }
+}

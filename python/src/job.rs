@@ -1,0 +1,77 @@
+//! Scenarios, vehicles and autopilot protocols by the name of a shipped one, or by the path of a file.
+
+use crate::errors::{self, JobError};
+use pyo3::prelude::*;
+use spandrel_model::scenario::{self, AfterCrash, Scenario};
+use spandrel_model::shipped;
+use spandrel_model::vehicle::{self, Vehicle};
+use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
+use std::fs;
+use std::path::Path;
+
+/// Names of the shipped scenarios.
+#[pyfunction]
+pub fn scenarios() -> Vec<&'static str> {
+    shipped::SCENARIOS.iter().map(|(name, _)| *name).collect()
+}
+
+/// Names of the shipped vehicles.
+#[pyfunction]
+pub fn vehicles() -> Vec<&'static str> {
+    shipped::VEHICLES.iter().map(|(name, _)| *name).collect()
+}
+
+/// Reads a scenario: the name of a shipped one, or a file. Height fields lie beside the file.
+pub fn read_scenario(name: &str) -> PyResult<Scenario> {
+    let text = text_of(name, "scenario", shipped::SCENARIOS)?;
+    let folder = Path::new(name).parent().unwrap_or(Path::new("."));
+    let sibling = |file: &str| fs::read_to_string(folder.join(file)).map_err(|error| error.to_string());
+    scenario::read(&file_name(name), &text, &sibling).map_err(|problems| errors::problems(&problems))
+}
+
+/// Reads a vehicle: the name of a shipped one, or a file.
+pub fn read_vehicle(name: &str) -> PyResult<Vehicle> {
+    let text = text_of(name, "vehicle", shipped::VEHICLES)?;
+    vehicle::read(&file_name(name), &text).map_err(|problems| errors::problems(&problems))
+}
+
+fn file_name(name: &str) -> String {
+    if is_file(name) { name.to_owned() } else { format!("{name}.toml") }
+}
+
+/// A shipped name has neither an ending nor a folder.
+fn is_file(name: &str) -> bool {
+    name.contains(['.', '/', '\\'])
+}
+
+fn text_of(name: &str, what: &str, shipped: &[(&str, &str)]) -> PyResult<String> {
+    if is_file(name) {
+        return fs::read_to_string(name).map_err(|error| JobError::new_err(format!("{name}: {error}")));
+    }
+    let found = shipped.iter().find(|(stem, _)| *stem == name);
+    found.map(|(_, text)| (*text).to_owned()).ok_or_else(|| {
+        let names: Vec<&str> = shipped.iter().map(|(stem, _)| *stem).collect();
+        JobError::new_err(format!("{name}: no such {what}; choose a .toml file or one of {}", names.join(", ")))
+    })
+}
+
+/// An autopilot protocol by its name.
+pub fn flavour(name: &str) -> PyResult<&'static Flavour> {
+    match name {
+        "px4" => Ok(&px4::FLAVOUR),
+        "ardupilot" => Ok(&ardupilot::FLAVOUR),
+        "generic" => Ok(&generic::FLAVOUR),
+        _ => Err(JobError::new_err(format!("{name}: no such flavour; choose px4, ardupilot or generic"))),
+    }
+}
+
+/// What follows a crash; `None` is the scenario's own rule.
+pub fn after_crash(name: &str) -> PyResult<Option<AfterCrash>> {
+    match name {
+        "scenario" => Ok(None),
+        "continue" => Ok(Some(AfterCrash::Continue)),
+        "respawn" => Ok(Some(AfterCrash::Respawn)),
+        "end" => Ok(Some(AfterCrash::End)),
+        _ => Err(JobError::new_err(format!("{name}: no such rule; choose scenario, continue, respawn or end"))),
+    }
+}

@@ -1,0 +1,172 @@
+//! Ways in and out of a vehicle: UDP sockets on the loopback, mailboxes that Python empties, and telemetry logs.
+
+use spandrel_mavlink::codec::Decoder;
+use spandrel_mavlink::telemetry::tlog;
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::sim::Sim;
+use std::collections::{BTreeMap, VecDeque};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
+use std::path::Path;
+
+/// The harness's own link is 1; those of Python count from here.
+const FIRST: u32 = 2;
+/// The longest datagram that UDP carries, bytes.
+const DATAGRAM: usize = 65_535;
+/// Datagrams that a mailbox keeps, some minutes of all streams; the oldest are dropped.
+const MAILBOX: usize = 50_000;
+
+/// One way in and out.
+#[derive(Debug)]
+enum Way {
+    Udp { socket: UdpSocket, kind: LinkKind, lockstep: bool, peer: Option<SocketAddr> },
+    Mailbox(VecDeque<Vec<u8>>),
+    Log(Log),
+}
+
+/// A telemetry log that is being written.
+#[derive(Debug)]
+struct Log {
+    file: BufWriter<File>,
+    decoder: Decoder,
+    failure: Option<io::Error>,
+}
+
+impl Log {
+    /// Writes each frame of a datagram as a record; after a failure nothing more.
+    fn write(&mut self, stamp_us: u64, datagram: &[u8]) {
+        for frame in self.decoder.datagram(datagram) {
+            if self.failure.is_none() {
+                self.failure = self.file.write_all(&tlog::record(stamp_us, &frame.bytes)).err();
+            }
+        }
+    }
+
+    fn finish(mut self) -> io::Result<()> {
+        self.failure.map_or_else(|| self.file.flush(), Err)
+    }
+}
+
+/// All of them by link.
+#[derive(Debug)]
+pub struct Links {
+    ways: BTreeMap<LinkId, Way>,
+    next: u32,
+    buffer: Vec<u8>,
+}
+
+impl Links {
+    /// None yet.
+    pub fn new() -> Self {
+        Self { ways: BTreeMap::new(), next: FIRST, buffer: vec![0; DATAGRAM] }
+    }
+
+    fn add(&mut self, way: Way) -> LinkId {
+        let link = LinkId(self.next);
+        self.next += 1;
+        self.ways.insert(link, way);
+        link
+    }
+
+    /// Opens a socket on a free loopback port. Without a peer, the sender of the first datagram is the peer. Returns link and port.
+    pub fn open_udp(
+        &mut self,
+        sim: &mut Sim,
+        kind: LinkKind,
+        peer: Option<SocketAddr>,
+        lockstep: bool,
+    ) -> io::Result<(LinkId, u16)> {
+        let socket = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0))?;
+        socket.set_nonblocking(true)?;
+        let port = socket.local_addr()?.port();
+        let link = self.add(Way::Udp { socket, kind, lockstep, peer });
+        if peer.is_some() {
+            sim.open_link(link, kind, lockstep);
+        }
+        Ok((link, port))
+    }
+
+    /// Opens a mailbox.
+    pub fn open_mailbox(&mut self, sim: &mut Sim, kind: LinkKind) -> LinkId {
+        let link = self.add(Way::Mailbox(VecDeque::new()));
+        sim.open_link(link, kind, false);
+        link
+    }
+
+    /// Writes the telemetry that a monitor gets into a new file.
+    pub fn open_log(&mut self, sim: &mut Sim, path: &Path) -> io::Result<LinkId> {
+        let log = Log { file: BufWriter::new(File::create(path)?), decoder: Decoder::new(), failure: None };
+        let link = self.add(Way::Log(log));
+        sim.open_link(link, LinkKind::Payload, false);
+        Ok(link)
+    }
+
+    /// Closes a link. Errors if there is none, or if a log could not be written.
+    pub fn close(&mut self, sim: &mut Sim, link: LinkId) -> io::Result<()> {
+        sim.close_link(link);
+        match self.ways.remove(&link) {
+            Some(Way::Log(log)) => log.finish(),
+            Some(Way::Udp { .. } | Way::Mailbox(_)) => Ok(()),
+            None => Err(io::Error::new(io::ErrorKind::NotConnected, format!("link {} is closed", link.0))),
+        }
+    }
+
+    /// Whether the link is a mailbox.
+    pub fn is_mailbox(&self, link: LinkId) -> bool {
+        matches!(self.ways.get(&link), Some(Way::Mailbox(_)))
+    }
+
+    /// The datagrams in a mailbox, oldest first; `None` for a link that is none.
+    pub fn take(&mut self, link: LinkId) -> Option<Vec<Vec<u8>>> {
+        match self.ways.get_mut(&link)? {
+            Way::Mailbox(mail) => Some(mail.drain(..).collect()),
+            Way::Udp { .. } | Way::Log(_) => None,
+        }
+    }
+
+    /// Sends a datagram of the vehicle; a log stamps it with `stamp_us`, microseconds since the Unix epoch. Nobody there is no failure: UDP
+    /// peers come and go.
+    pub fn deliver(&mut self, link: LinkId, bytes: Vec<u8>, stamp_us: u64) {
+        match self.ways.get_mut(&link) {
+            Some(Way::Udp { socket, peer: Some(peer), .. }) => {
+                let _ = socket.send_to(&bytes, *peer);
+            }
+            Some(Way::Mailbox(mail)) => {
+                if mail.len() == MAILBOX {
+                    mail.pop_front();
+                }
+                mail.push_back(bytes);
+            }
+            Some(Way::Log(log)) => log.write(stamp_us, &bytes),
+            Some(Way::Udp { peer: None, .. }) | None => {}
+        }
+    }
+
+    /// Hands everything that has arrived to the vehicle. Datagrams from others than a link's peer are ignored.
+    pub fn receive(&mut self, sim: &mut Sim) {
+        for (link, way) in &mut self.ways {
+            let Way::Udp { socket, kind, lockstep, peer } = way else { continue };
+            while let Some((len, from)) = next(socket, &mut self.buffer) {
+                if peer.is_none() {
+                    *peer = Some(from);
+                    sim.open_link(*link, *kind, *lockstep);
+                }
+                if *peer == Some(from) {
+                    sim.handle_datagram(*link, &self.buffer[..len]);
+                }
+            }
+        }
+    }
+}
+
+/// The next datagram. A refusal that an earlier one met is skipped.
+fn next(socket: &UdpSocket, buffer: &mut [u8]) -> Option<(usize, SocketAddr)> {
+    loop {
+        match socket.recv_from(buffer) {
+            Ok(got) => return Some(got),
+            Err(error) if error.kind() == io::ErrorKind::ConnectionRefused => {}
+            Err(_) => return None,
+        }
+    }
+}

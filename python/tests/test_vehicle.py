@@ -1,0 +1,147 @@
+"""The vehicle in process: stepping, commands, failures, links, and the same bits twice."""
+
+import math
+import threading
+
+import pytest
+
+import spandrel
+
+
+def flown(seed):
+    """A vehicle after take-off."""
+    vehicle = spandrel.Vehicle(seed=seed)
+    vehicle.arm()
+    vehicle.take_off(5)
+    vehicle.run_until(lambda state: state.height_m > 4.7, sim_s=20)
+    return vehicle
+
+
+def test_exact_a_step_is_one_millisecond():
+    vehicle = spandrel.Vehicle()
+    assert vehicle.step().time_s == 0.001
+    assert vehicle.step(499).time_s == 0.5
+    assert vehicle.run_for(0.25).time_s == 0.75
+    assert vehicle.step(0).time_s == vehicle.time_s == 0.75
+
+
+def test_flight_arms_takes_off_goes_and_lands():
+    vehicle = flown(7)
+    assert vehicle.state.armed
+    vehicle.go_to(8.0, 6.0, 7.0)
+    state = vehicle.run_until(lambda s: math.dist(s.position_enu_m, (8.0, 6.0, 7.0)) < 1.0, sim_s=30)
+    assert state.battery_pct < 100.0
+    vehicle.go_to(0.0, 0.0, 5.0)
+    vehicle.run_until(lambda s: math.dist(s.position_enu_m, (0.0, 0.0, 5.0)) < 1.0, sim_s=30)
+    vehicle.land()
+    state = vehicle.run_until(lambda s: not s.armed, sim_s=30)
+    assert state.hits == 0 and state.ended is None
+    assert "armed" in repr(state)
+
+
+def test_flight_ardupilot_takes_off_in_guided():
+    vehicle = spandrel.Vehicle(flavour="ardupilot")
+    vehicle.arm()
+    vehicle.take_off(5)
+    assert vehicle.run_until(lambda state: state.height_m > 4.5, sim_s=30).armed
+
+
+def test_flight_sticks_climb():
+    vehicle = flown(7)
+    start = vehicle.state.height_m
+    for _ in range(10):
+        vehicle.sticks(0.0, 0.0, 1.0, 0.0)
+        vehicle.run_for(0.2)
+    assert vehicle.state.height_m > start + 1.0
+
+
+def test_exact_two_runs_give_the_same_bits_and_another_seed_others():
+    digests = [flown(seed).digest for seed in (7, 7, 8)]
+    assert digests[0] == digests[1] != digests[2]
+    assert len(digests[0]) == 64
+
+
+def test_exact_two_threads_at_once_give_the_same_bits_as_one_after_the_other():
+    alone = flown(7).digest
+    found = []
+    threads = [threading.Thread(target=lambda: found.append(flown(7).digest)) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [alone, alone]
+
+
+def test_stepping_lets_other_python_threads_run():
+    vehicle = spandrel.Vehicle()
+    thread = threading.Thread(target=vehicle.run_for, args=(120.0,))
+    turns = 0
+    thread.start()
+    while thread.is_alive():
+        turns += 1
+    assert vehicle.time_s == 120.0
+    # Holding the lock, the other thread would leave a handful of turns.
+    assert turns > 1_000
+
+
+def test_exact_a_condition_that_never_holds_is_late():
+    vehicle = spandrel.Vehicle()
+    with pytest.raises(spandrel.LateError, match="did not hold within 2 s of simulation time"):
+        vehicle.run_until(lambda state: state.armed, sim_s=2)
+    assert vehicle.time_s == 2.0
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        ({"scenario": "three-bridges"}, "three-bridges: no such scenario; .*two-bridges"),
+        ({"vehicle": "phantom9"}, "phantom9: no such vehicle; .*phantom2"),
+        ({"scenario": "missing.toml"}, "missing.toml: "),
+        ({"flavour": "betaflight"}, "choose px4, ardupilot or generic"),
+        ({"after_crash": "cry"}, "choose scenario, continue, respawn or end"),
+    ],
+)
+def test_exact_a_wrong_job_is_refused_in_words(arguments, words):
+    with pytest.raises(spandrel.JobError, match=words):
+        spandrel.Vehicle(**arguments)
+
+
+def test_exact_every_problem_of_a_file_is_listed(tmp_path):
+    file = tmp_path / "job.toml"
+    file.write_text('format = 1\nname = "Job!"\nwrong = 2\n', encoding="utf-8")
+    with pytest.raises(spandrel.JobError) as raised:
+        spandrel.Vehicle(file)
+    assert "wrong" in str(raised.value) and "job.toml:" in str(raised.value)
+
+
+def test_exact_a_refused_command_raises_with_the_answer():
+    with pytest.raises(spandrel.RefusedError, match="MAV_CMD_USER_1 was answered MAV_RESULT_UNSUPPORTED"):
+        spandrel.Vehicle().command(31010)
+    with pytest.raises(ValueError, match="65000: no such MAV_CMD"):
+        spandrel.Vehicle().command(65000)
+
+
+def test_exact_what_makes_no_sense_is_a_value_error():
+    vehicle = spandrel.Vehicle()
+    for wrong in (lambda: vehicle.step(-1), lambda: vehicle.run_for(-1.0), lambda: vehicle.run_for(math.nan)):
+        with pytest.raises(ValueError, match="allowed: 0 and more"):
+            wrong()
+    with pytest.raises(ValueError, match="no such kind of link"):
+        vehicle.open_link("carrier pigeon")
+
+
+def test_wire_a_link_without_a_socket_carries_frames_both_ways():
+    vehicle = spandrel.Vehicle()
+    link = vehicle.open_link("gcs")
+    vehicle.run_for(1.0)
+    datagrams = link.receive()
+    assert datagrams and all(datagram[0] == 0xFD for datagram in datagrams)
+    assert link.receive() == []
+    link.close()
+    with pytest.raises(spandrel.SpandrelError, match="is closed"):
+        link.send(b"")
+
+
+def test_names_of_what_ships():
+    assert "two-bridges" in spandrel.scenarios()
+    assert "phantom2" in spandrel.vehicles()
